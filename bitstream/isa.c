@@ -5,9 +5,11 @@
 
 CHOOSE(int32_t, code_value, (RangeCoder *coder, const ValueModel *model, const Expectation *e, int32_t value),
        (coder, model, e, value))
-CHOOSE(int64_t, code_grid, (Coder coder, ValueModel model, Corners corners, Grid grid, int64_t first, int64_t count),
+CHOOSE(int64_t, code_grid,
+       (RangeCoder *coder, ValueModel model, Corners corners, Grid grid, int64_t first, int64_t count),
        (coder, model, corners, grid, first, count))
-CHOOSE(int64_t, code_levels, (Coder coder, Bank bank, Corners corners, Levels levels, int64_t first, int64_t count),
+CHOOSE(int64_t, code_levels,
+       (RangeCoder *coder, const Bank *bank, Corners corners, Levels levels, int64_t first, int64_t count),
        (coder, bank, corners, levels, first, count))
 
 #else

@@ -147,7 +147,7 @@ static bool read_stretch(LevelsAhead *levels) {
     Layer *layer = &levels->layer;
     if (levels->inside == 0 && !begin_coding(&levels->context, chunk->data, &levels->coding)) return false;
     int64_t first = chunk->first + levels->inside, count = least(chunk->count - levels->inside, AT_ONCE);
-    int64_t done = code_levels(levels->coding.coder, layer->bank, layer->corners, layer->levels, first, count);
+    int64_t done = code_levels(&levels->coding.coder, &layer->bank, layer->corners, layer->levels, first, count);
     levels->inside += count;
     if (done < count) return nonsense(&levels->coding, "");
     if (levels->inside < chunk->count) return true;

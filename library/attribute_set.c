@@ -53,7 +53,7 @@ static bool read_seams(Attributes *attributes, int64_t index, Span payload, Aren
         || !begin_coding(context, payload, &coding))
         return false;
     look_at_others(attributes, index, others);
-    code_edges(coding.coder, bank, attributes->corners, joins->seams, const_bytes(others), ends);
+    code_edges(&coding.coder, &bank, &attributes->corners, joins->seams.data, others.data, ends);
     if (!finish_coding(&coding)) return false;
     joins->count = join_corners(attributes->corners, const_bytes(joins->seams), joined, firsts);
     return true;
@@ -300,11 +300,11 @@ bool code_group(Context *context, const Attribute *attribute, Group *group, Span
     int64_t done;
     if (!begin_coding(context, payload, &coding)) return false;
     if (attribute->declaration.domain == BSMDEC_FACE) {
-        done = code_faces(coding.coder, group->model, group->corners, group->face_values, first, count);
+        done = code_faces(&coding.coder, group->model, group->corners, group->face_values, first, count);
     } else {
         ValueKind kind = value_kind(&attribute->declaration);
         done = (kind == NORMALS ? code_normals : kind == TEXCOORDS ? code_texcoords : code_scalars)(
-            coding.coder, group->model, group->corners, group->values, first, count);
+            &coding.coder, group->model, group->corners, group->values, first, count);
     }
     return check_chunk_done(&coding, done, count);
 }

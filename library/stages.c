@@ -42,7 +42,7 @@ static bool accept_partition(bsmdec *decoder, Span data) {
     double n = (double)graph->size, ends = (double)graph->neighbors.size, bytes = (double)data.size;
     return zero_ints(&mesh->arena, graph->size, &mesh->labels)
         && charge(context, labels_work(n, ends, bytes), bytes)
-        && decode_labels(context, data, graph->offsets, graph->neighbors, mesh->header.blocks, &decoder->scratch,
+        && code_partition(context, data, graph->offsets, graph->neighbors, mesh->header.blocks, &decoder->scratch,
             mesh->labels);
 }
 

@@ -12,7 +12,6 @@ import pytest
 from bsm import TriangleMesh, decode, decode_sequence, encode, encode_sequence
 from bsm._core import bitstream as of_bytes
 from bsm._core import codec as of_arrays
-from bsm.bitstream.entropy.range_coder import bank_of, make_bank, start_writing
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.look.measure import AttributeLook
 from bsm.codec.signal.smooth import local_frames
@@ -25,7 +24,7 @@ from tools.vectors.good_fields import LAYER, refined
 from tools.vectors.meshes import tangled
 
 STAGES = (
-    *("smooth_all", "place_block", "back_into_unit", "show_frames", "draw_shaded", "averaged"),
+    *("smooth_all", "back_into_unit", "show_frames", "draw_shaded", "averaged"),
     *("contrast", "shown_normals", "collect_creases"),
     *("settle_levels", "paint_checker", "paint_colors"),
 )
@@ -38,7 +37,7 @@ KERNELS = {
 }
 REFUSALS = 40
 """Of a kernel, after which it is left alone."""
-NOTHING_SHORT = {"priors", "start", "bank_plan", "constant", "code_uniform"}
+NOTHING_SHORT = {"priors", "start", "constant"}
 """Kernels that are given no array, or one that may be of any length."""
 
 
@@ -113,10 +112,6 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     corners = bare.positions[bare.faces].reshape(-1, 9)
     assert AttributeLook(bare, "color", corners).distance(bare.positions, corners) == 0.0
     AttributeLook(bare, "texcoord", np.ascontiguousarray(corners[:, :6]))
-    count = defended(of_bytes.code_unsigned, "code_unsigned", refusals)
-    count(start_writing(9), make_bank(28, 28, 1), np.zeros(1, np.int64), 0, 2, 1, 0)
-    levels, write = np.zeros((4, 2), np.int32), defended(of_bytes.code_matrix, "code_matrix", refusals)
-    write(start_writing(99), bank_of("code_matrix"), levels, levels, 0, 2, 0, 2, 0, np.zeros(2, np.int64))
     names = {*KERNELS} - NOTHING_SHORT
     assert not names - set(refusals), "kernels that this test does not reach"
     assert not {name for name in names if not refusals[name]}, "kernels that refuse nothing"

@@ -33,20 +33,20 @@ typedef struct Work Work;
 typedef bool CodeVertex(Work *work, int32_t v, int32_t last);
 
 struct Work { /* what codes a vertex needs to know */
-    RangeCoder coder;
+    RangeCoder *coder;
     ValueModel model;
     Corners corners;
     Values values;
     CodeVertex *code;
 };
 
-int64_t code_vertices(Coder given, Work *work, int64_t first, int64_t count);
+int64_t code_vertices(Work *work, int64_t first, int64_t count);
 void keep_value(const Values *values, int32_t v, int component, int32_t value);
 
 int64_t expect_normals(Corners corners, Values values);
-int64_t code_scalars(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
-int64_t code_texcoords(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
-int64_t code_normals(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
+int64_t code_scalars(RangeCoder *coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
+int64_t code_texcoords(RangeCoder *coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
+int64_t code_normals(RangeCoder *coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
 
 INLINE int32_t value_at(const Values *g, int32_t v, int j) { return g->values.data[g->values.columns * v + j]; }
 INLINE int32_t near_seen(const Values *g, int j, int32_t v) {
@@ -92,9 +92,11 @@ typedef struct {
     Ints2 memory;      /* c x 257: what came last in each of 256 contexts, and one more than the greatest so far */
 } FaceValues;
 
-int64_t code_faces(Coder coder, ValueModel model, Corners corners, FaceValues values, int64_t first, int64_t count);
+int64_t code_faces(
+    RangeCoder *coder, ValueModel model, Corners corners, FaceValues values, int64_t first, int64_t count);
 
-/* Edges across which an attribute changes, and the corners that share a value. See seams.py. */
+/* Edges across which an attribute changes, and the corners that share a value. See seams.c. */
 extern INSIDE const BankPlan EDGE_BANK;
-int64_t code_edges(Coder coder, Bank bank, Corners corners, Bytes seams, ConstBytes others, Ints2 ends);
+void code_edges(
+    RangeCoder *coder, const Bank *bank, const Corners *corners, uint8_t *seam, const uint8_t *others, Ints2 ends);
 int64_t join_corners(Corners corners, ConstBytes seams, Ints joined, Ints first);

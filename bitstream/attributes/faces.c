@@ -71,7 +71,7 @@ static bool code_component(RangeCoder *coder, const ValueModel *model, const Cor
 }
 
 typedef struct {
-    RangeCoder coder;
+    RangeCoder *coder;
     ValueModel model;
     Corners corners;
     FaceValues values;
@@ -81,12 +81,12 @@ static bool code_face(void *work, int64_t f) {
     Faces *w = work;
     int32_t hits = 0;
     for (int j = 0; j < w->values.values.columns; j++)
-        if (!code_component(&w->coder, &w->model, &w->corners, &w->values, (int32_t)f, j, &hits)) return false;
+        if (!code_component(w->coder, &w->model, &w->corners, &w->values, (int32_t)f, j, &hits)) return false;
     return true;
 }
 
-int64_t code_faces(Coder given, ValueModel model, Corners corners, FaceValues g, int64_t first, int64_t count) {
-    int64_t rows = corners.faces.rows;
-    Faces work = {.model = model, .corners = corners, .values = g};
-    return code_rows(given, &work.coder, rows, first, count, MOST_COMPONENTS * VALUE_BYTES, code_face, &work);
+int64_t code_faces(
+    RangeCoder *coder, ValueModel model, Corners corners, FaceValues g, int64_t first, int64_t count) {
+    Faces work = {.coder = coder, .model = model, .corners = corners, .values = g};
+    return code_rows(coder, corners.faces.rows, first, count, MOST_COMPONENTS * VALUE_BYTES, code_face, &work);
 }

@@ -216,7 +216,7 @@ static bool code_axis(Work *w, const Sight *s, int j, int32_t *pair, int32_t *ga
     e.context[5] = j == 0 ? 0 : *hits + (1 << PREDICTIONS);
     e.set = j;
 
-    int32_t value = code_value(&w->coder, &w->model, &e, w->coder.reading ? 0 : pair[j] / FINE);
+    int32_t value = code_value(w->coder, &w->model, &e, w->coder->reading ? 0 : pair[j] / FINE);
     if (value < -far / FINE || value > far / FINE) return false;
     pair[j] = value * FINE;
     *hits = hits_of(&e, value);
@@ -231,7 +231,7 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
     View front = {.first = 0, .second = 1, .pole = 2, .sign = 1, .size = FINE * k}; /* that of the levels */
     Sight s;
     look(w, v, last, &s);
-    if (!w->coder.reading) {
+    if (!w->coder->reading) {
         int32_t given[PAIR] = {(own[0] - k) * FINE, (own[1] - k) * FINE};
         Direction d = seen_as(&front, given);
         see(&s.view, &d, pair);
@@ -248,7 +248,7 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
     return true;
 }
 
-int64_t code_normals(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
-    Work work = {.model = model, .corners = corners, .values = values, .code = code_vertex};
-    return code_vertices(coder, &work, first, count);
+int64_t code_normals(RangeCoder *coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
+    Work work = {.coder = coder, .model = model, .corners = corners, .values = values, .code = code_vertex};
+    return code_vertices(&work, first, count);
 }

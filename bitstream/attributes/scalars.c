@@ -103,7 +103,7 @@ static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int
     e.context[5] = j > 0 ? (j << PREDICTIONS) + own->hits : size_class(t.spread) * BASES + p->number;
     e.set = (int32_t)least(j, WEIGHT_SETS - 1);
 
-    int32_t value = code_value(&w->coder, &w->model, &e, w->coder.reading ? 0 : value_at(g, v, j));
+    int32_t value = code_value(w->coder, &w->model, &e, w->coder->reading ? 0 : value_at(g, v, j));
     if (value < 0 || value > most) return false;
     keep_value(g, v, j, value);
     own->hits = hits_of(&e, value);
@@ -121,7 +121,7 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
     return true;
 }
 
-int64_t code_scalars(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
-    Work work = {.model = model, .corners = corners, .values = values, .code = code_vertex};
-    return code_vertices(coder, &work, first, count);
+int64_t code_scalars(RangeCoder *coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
+    Work work = {.coder = coder, .model = model, .corners = corners, .values = values, .code = code_vertex};
+    return code_vertices(&work, first, count);
 }

@@ -21,7 +21,7 @@ INLINE int state_of(const int32_t *end) {
     return (int)(least(end[KNOWN_SEAMS], 3) * 8 + least(end[LEFT], 3) * 2 + (end[BORDER] > 0));
 }
 
-static bool code_edge(RangeCoder *coder, const Mixer *mixer, const Corners *c, const uint8_t *seams,
+static bool code_edge(RangeCoder *coder, const Bank *bank, const Corners *c, const uint8_t *seams,
     const uint8_t *others, int32_t *ends, int32_t k, bool seam) {
     int32_t beyond = c->opposite.data[k];
     int32_t *u = ends + END_COLUMNS * c->faces.data[next_corner(k)],
@@ -39,44 +39,32 @@ static bool code_edge(RangeCoder *coder, const Mixer *mixer, const Corners *c, c
         SIDES_CONTEXT + here * 16 + there,
         OTHER_CONTEXT + other,
     };
-    seam = code_mixed_bit(coder, mixer, INPUTS, contexts, 0, other, seam);
+    seam = code_mixed_bit(coder, bank, INPUTS, contexts, 0, other, seam);
     u[KNOWN_SEAMS] += seam;
     v[KNOWN_SEAMS] += seam;
     return seam;
 }
 
 /* Code for each edge that two corners face whether it is a seam; `seams` has an entry for each corner, for the edge
- * that it faces. `ends`: three numbers for each vertex, scratch. Returns how many seams there are, or -1 where the data
- * is beyond its end. */
-int64_t code_edges(Coder given, Bank bank, Corners corners, Bytes seams, ConstBytes others, Ints2 ends) {
-    RangeCoder coder;
-    Mixer mixer;
-    int64_t size = corners.corners.size, n = corners.rank.size;
-    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, SLOTS, OTHERS, INPUTS) || !fits_corners(&corners)
-        || seams.size != size || others.size != size || ends.rows != n || ends.columns != END_COLUMNS)
-        return MISUSED;
-    for (int64_t k = 0; k < size; k++)
-        if (others.data[k] >= OTHERS) return MISUSED;
-    for (int64_t i = 0; i < END_COLUMNS * n; i++) ends.data[i] = 0;
-    uint8_t *seam = seams.data;
-    int64_t count = 0;
+ * that it faces. `ends`: three numbers for each vertex, scratch. */
+void code_edges(
+    RangeCoder *coder, const Bank *bank, const Corners *corners, uint8_t *seam, const uint8_t *others, Ints2 ends) {
+    int64_t size = corners->corners.size;
+    for (int64_t i = 0; i < END_COLUMNS * ends.rows; i++) ends.data[i] = 0;
     for (int32_t k = 0; k < size; k++) {
-        bool open = corners.opposite.data[k] < 0;
-        int32_t *u = ends.data + END_COLUMNS * corners.faces.data[next_corner(k)];
-        int32_t *v = ends.data + END_COLUMNS * corners.faces.data[previous_corner(k)];
+        bool open = corners->opposite.data[k] < 0;
+        int32_t *u = ends.data + END_COLUMNS * corners->faces.data[next_corner(k)];
+        int32_t *v = ends.data + END_COLUMNS * corners->faces.data[previous_corner(k)];
         if (open) u[BORDER]++, v[BORDER]++;
-        else if (corners.opposite.data[k] > k) u[LEFT]++, v[LEFT]++;
+        else if (corners->opposite.data[k] > k) u[LEFT]++, v[LEFT]++;
         seam[k] = open ? OPEN : (uint8_t)(UNKNOWN | (seam[k] == SEAM ? WRITTEN : 0));
     }
-    for (int32_t k = 0; k < size && !overran(&coder); k++) {
-        int32_t beyond = corners.opposite.data[k];
+    for (int32_t k = 0; k < size && !overran(coder); k++) {
+        int32_t beyond = corners->opposite.data[k];
         if (beyond <= k) continue;
-        bool is_seam = code_edge(&coder, &mixer, &corners, seam, others.data, ends.data, k, seam[k] & WRITTEN);
+        bool is_seam = code_edge(coder, bank, corners, seam, others, ends.data, k, seam[k] & WRITTEN);
         seam[k] = seam[beyond] = is_seam ? SEAM : NO_SEAM;
-        count += is_seam;
     }
-    close_coder(&coder, given);
-    return overran(&coder) ? -1 : count;
 }
 
 static int32_t root_of(int32_t *joined, int32_t k) {
@@ -94,7 +82,6 @@ static void join(int32_t *joined, int32_t a, int32_t b) {
  * corners, which come into `first`. Returns how many there are. */
 int64_t join_corners(Corners corners, ConstBytes seams, Ints joined, Ints first) {
     int64_t size = corners.corners.size;
-    if (!fits_corners(&corners) || seams.size != size || joined.size != size || first.size != size) return MISUSED;
     const int32_t *vertex = corners.faces.data;
     for (int32_t k = 0; k < size; k++) joined.data[k] = k;
     for (int32_t k = 0; k < size; k++) {

@@ -164,7 +164,7 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     e.context[5] = j == 0 ? 0 : *hits + (1 << PREDICTIONS);
     e.set = j;
 
-    int32_t value = code_value(&w->coder, &w->model, &e, w->coder.reading ? 0 : at(g, v)[j]);
+    int32_t value = code_value(w->coder, &w->model, &e, w->coder->reading ? 0 : at(g, v)[j]);
     if (value < 0 || value > most) return false;
     keep_value(g, v, j, value);
     *hits = hits_of(&e, value);
@@ -195,7 +195,7 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
     return true;
 }
 
-int64_t code_texcoords(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
-    Work work = {.model = model, .corners = corners, .values = values, .code = code_vertex};
-    return code_vertices(coder, &work, first, count);
+int64_t code_texcoords(RangeCoder *coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
+    Work work = {.coder = coder, .model = model, .corners = corners, .values = values, .code = code_vertex};
+    return code_vertices(&work, first, count);
 }

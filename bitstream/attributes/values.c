@@ -9,8 +9,8 @@ static bool code_one(void *work, int64_t i) {
     return true;
 }
 
-int64_t code_vertices(Coder given, Work *w, int64_t first, int64_t count) {
-    return code_rows(given, &w->coder, w->values.order.size, first, count, MOST_COMPONENTS * VALUE_BYTES, code_one, w);
+int64_t code_vertices(Work *w, int64_t first, int64_t count) {
+    return code_rows(w->coder, w->values.order.size, first, count, MOST_COMPONENTS * VALUE_BYTES, code_one, w);
 }
 
 void keep_value(const Values *g, int32_t v, int j, int32_t value) {

@@ -17,33 +17,15 @@ enum {
     MEMORY = 8, /* blocks over which the usual magnitudes are averaged */
 };
 
-/* As Python keeps it: magnitudes in the present block and the one before, their running mean, number of blocks. */
-typedef struct {
-    Ints2 current, before, usual;
-    Longs blocks;
-} Past;
-
-/* Three magnitudes of row 0, and so on; the rows around them may be read. */
+/* What a chain remembers: magnitudes in the present block and the one before, and their running mean; three of row 0,
+ * and so on, and zeros in the rows around, which may be read. */
 typedef struct {
     int32_t *now, *before, *usual;
-    int64_t width;
-    int64_t *blocks;
-} Chain;
-
-/* False for arrays that are no past, or one of fewer rows. */
-INLINE bool open_past(Chain *chain, Past past, int64_t rows) {
-    int64_t padded = past.current.rows;
-    if (past.before.rows != padded || past.usual.rows != padded || padded < ABOVE + BEYOND + rows
-        || past.current.columns != 3 || past.before.columns != 3 || past.usual.columns != 3 || past.blocks.size != 1
-        || past.blocks.data[0] < 0)
-        return false;
-    *chain = (Chain){past.current.data + 3 * ABOVE, past.before.data + 3 * ABOVE, past.usual.data + 3 * ABOVE,
-        padded - ABOVE - BEYOND, past.blocks.data};
-    return true;
-}
+    int64_t width, blocks;
+} Past;
 
 /* Number of the weights for a coefficient. */
-INLINE int situation(const Chain *chain, int coordinate) { return coordinate + (*chain->blocks == 0 ? 3 : 0); }
+INLINE int situation(const Past *past, int coordinate) { return coordinate + (past->blocks == 0 ? 3 : 0); }
 
 /* What is remembered of a level. */
 INLINE int32_t remembered(int64_t level) { return (int32_t)least(level < 0 ? -level : level, CEILING); }
@@ -88,15 +70,15 @@ INLINE int expectation_bin(const int32_t *weights, const int32_t *inputs) {
 }
 
 /* Make the present block the one before, and start the next (M 9.7). */
-INLINE void close_block(Chain *chain) {
-    int32_t share = (int32_t)least(*chain->blocks + 1, MEMORY);
-    for (int64_t i = 0; i < 3 * chain->width; i++) {
-        int32_t change = UNIT * chain->now[i] - chain->usual[i];
-        chain->before[i] = chain->now[i];
-        chain->usual[i] += change / share - (change % share < 0); /* rounded down */
-        chain->now[i] = 0;
+INLINE void close_block(Past *past) {
+    int32_t share = (int32_t)least(past->blocks + 1, MEMORY);
+    for (int64_t i = 0; i < 3 * past->width; i++) {
+        int32_t change = UNIT * past->now[i] - past->usual[i];
+        past->before[i] = past->now[i];
+        past->usual[i] += change / share - (change % share < 0); /* rounded down */
+        past->now[i] = 0;
     }
-    ++*chain->blocks;
+    past->blocks++;
 }
 
 /* How a level becomes decisions: nodes and contexts (specification, M 9.5, M 9.6). */
@@ -128,25 +110,20 @@ INLINE int second_bit_node(int size, int first) {
     return SECOND_NODES + 2 * (size < BIT_SIZES ? size : BIT_SIZES) + first;
 }
 
-/* Weights of all expectations, a row for each expectation and situation. */
-INLINE bool are_expectations(ConstInts2 weights) {
-    return weights.rows == EXPECTATIONS * SITUATIONS && weights.columns == NEIGHBORS;
-}
-
 /* The contexts of a coefficient with these inputs, in this situation. */
-INLINE void set_contexts(ConstInts2 expectations, int situation, const int32_t *inputs, int64_t *contexts) {
+INLINE void set_contexts(const int32_t *expectations, int situation, const int32_t *inputs, int64_t *contexts) {
     for (int i = 0; i < EXPECTATIONS; i++) {
-        const int32_t *weights = expectations.data + (i * SITUATIONS + situation) * NEIGHBORS;
+        const int32_t *weights = expectations + (i * SITUATIONS + situation) * NEIGHBORS;
         contexts[i] = NODES * (BINS * i + expectation_bin(weights, inputs));
     }
 }
 
 /* First of the weight sets. */
-INLINE int64_t level_selector(const Chain *chain) { return *chain->blocks == 0 ? 0 : NODES; }
+INLINE int64_t level_selector(const Past *past) { return past->blocks == 0 ? 0 : NODES; }
 
-/* Adaptive coding of quantized coefficients. See adaptive.py. */
+/* Adaptive coding of quantized coefficients, with weights of all expectations, a row for each of them and situation. */
 extern INSIDE const BankPlan BLOCK_BANK;
-int64_t code_block(Coder coder, Bank bank, Past past, ConstInts2 expectations, Ints2 levels);
+void code_block(RangeCoder *coder, const Bank *bank, Past *past, const int32_t *expectations, Ints2 levels);
 
 /* Entropy coding of a sequence's levels. See matrices.c. */
 enum { CLASSES = 12 };
@@ -166,13 +143,13 @@ INLINE int64_t magnitude_at(const int32_t *data, int64_t rows, int64_t columns, 
 }
 
 extern INSIDE const BankPlan MATRIX_BANK;
-int64_t code_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
+void code_matrix(RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
     int64_t stair, int64_t turn, int64_t few, Longs slow);
 
 /* Choosing levels. See nearest.c. */
 enum { TARGET_UNIT = 256 }; /* targets are in 1 / TARGET_UNIT of a step */
 
-int64_t nearest_levels(ConstLongs targets, Ints2 ways, Bytes2 origins, Ints levels);
+void nearest_levels(ConstLongs targets, int32_t *ways, uint8_t *origins, int32_t *levels);
 
 /* The learned numbers that adaptive coefficients start from: the bytes of spec/priors.bin, which the build turns into
  * C. */

@@ -1,7 +1,6 @@
 /* Levels of a sequence, in matrices of frequencies by components (specification, S 4). */
 #include "bitstream/coefficients/coefficients.h"
 
-
 enum {
     UNARY = 14,
     OTHER_ZERO = SIGNED_SPAN(UNARY), /* nodes of the grid without even points: whether a level is zero, whether one */
@@ -37,7 +36,7 @@ INLINE int zero_node(int grid) { return grid ? OTHER_ZERO : 0; }
 INLINE int one_node(int grid) { return grid ? OTHER_ONE : 2; }
 
 /* Code whether row j or one behind it has levels (S 4.2); `behind` is the sum of the reference from row j on. */
-INLINE int code_more(RangeCoder *coder, const Mixer *mixer, Ints2 levels, ConstInts2 reference, int64_t j,
+INLINE int code_more(RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInts2 reference, int64_t j,
     int64_t behind, int64_t place, int64_t selector, int more) {
     int64_t lately = class_of(sum_of(levels.data, levels.rows, levels.columns, j - TOGETHER, j));
     int64_t next = class_of(sum_of(reference.data, reference.rows, reference.columns, j, j + TOGETHER));
@@ -50,48 +49,42 @@ INLINE int code_more(RangeCoder *coder, const Mixer *mixer, Ints2 levels, ConstI
         4 * TABLE + SPAN * (CLASSES * next + lately),
         5 * TABLE + SPAN * (PLACES * left + place),
     };
-    return code_mixed_bit(coder, mixer, INPUTS, contexts, MORE, selector, more);
+    return code_mixed_bit(coder, bank, INPUTS, contexts, MORE, selector, more);
 }
 
 /* Code one level of a grid (S 4.2). */
 INLINE int32_t code_level(
-    RangeCoder *coder, const Mixer *mixer, const int64_t *contexts, int64_t selector, int grid, int32_t level) {
-    if (!code_mixed_bit(coder, mixer, INPUTS, contexts, zero_node(grid), selector, level != 0)) return 0;
-    int negative = code_mixed_bit(coder, mixer, INPUTS, contexts, 1, selector, level < 0);
+    RangeCoder *coder, const Bank *bank, const int64_t *contexts, int64_t selector, int grid, int32_t level) {
+    if (!code_mixed_bit(coder, bank, INPUTS, contexts, zero_node(grid), selector, level != 0)) return 0;
+    int negative = code_mixed_bit(coder, bank, INPUTS, contexts, 1, selector, level < 0);
     int64_t magnitude = magnitude_of(level);
-    if (code_mixed_bit(coder, mixer, INPUTS, contexts, one_node(grid), selector, magnitude > 1))
-        magnitude = 2 + code_unsigned(coder, mixer, INPUTS, contexts, selector, UNARY - 1, magnitude - 2, 3);
+    if (code_mixed_bit(coder, bank, INPUTS, contexts, one_node(grid), selector, magnitude > 1))
+        magnitude = 2 + code_unsigned(coder, bank, INPUTS, contexts, selector, UNARY - 1, magnitude - 2, 3);
     else
         magnitude = 1;
     return (int32_t)(negative ? -magnitude : magnitude);
 }
 
-/* Code rows, as many together as it takes to reach the last of `rows`; returns how many were coded. Of the first row
- * `lead` columns are coded, of each next one `stair` more; if row `turn` is coded, how many columns, `few`, of it and
- * those behind it (S 4.2). The others are 0. `slow` is scratch, an entry a column. */
-int64_t code_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
+/* Code rows, as many together as it takes to reach the last of `rows`. Of the first row `lead` columns are coded, of
+ * each next one `stair` more; if row `turn` is coded, also how many columns, `few`, it and the following ones have (S
+ * 4.2). The others are 0. `slow` is scratch, an entry a column. */
+void code_matrix(RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
     int64_t stair, int64_t turn, int64_t few, Longs slow) {
-    RangeCoder coder;
-    Mixer mixer;
     int64_t columns = levels.columns;
-    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, MATRIX_SLOTS, WEIGHT_SETS * SPAN, INPUTS)
-        || reference.columns != columns || slow.size != columns || rows < 0 || rows > levels.rows
-        || lead < 0 || lead > columns || stair < 0 || stair > columns || turn < 0 || few < 0 || few > columns)
-        return MISUSED;
     for (int64_t i = 0; i < columns; i++) slow.data[i] = 0;
-    int64_t behind = sum_of(reference.data, reference.rows, columns, 0, reference.rows), most = columns, j = 0;
+    int64_t behind = sum_of(reference.data, reference.rows, columns, 0, reference.rows), most = columns;
     int state = 0;
-    for (; j < levels.rows && !overran(&coder); j++) {
+    for (int64_t j = 0; j < levels.rows && !overran(coder); j++) {
 #define A(row, column) magnitude_at(levels.data, levels.rows, columns, row, column)
 #define B(row, column) magnitude_at(reference.data, reference.rows, columns, row, column)
         int64_t band = octave(j), selector = SPAN * (j == 0 ? 0 : j < 12 ? 1 : 2), mean = 0;
         int64_t place = j < 20 ? j : least(PLACES - 1, 20 + (j - 20) / 8), whole = least(columns, lead + stair * j);
         if (j % TOGETHER == 0) {
-            int more = code_more(&coder, &mixer, levels, reference, j, behind, place, selector, j < rows);
+            int more = code_more(coder, bank, levels, reference, j, behind, place, selector, j < rows);
             behind -= sum_of(reference.data, reference.rows, columns, j, j + TOGETHER);
             if (!more) break;
         }
-        if (j == turn) most = code_uniform(&coder, few, columns + 1);
+        if (j == turn) most = code_uniform(coder, few, columns + 1);
         int64_t end = least(whole, most);
         for (int64_t i = 0; i < end; i++) {
             int64_t above = 2 * A(j - 1, i) + A(j - 2, i) + A(j - 3, i);
@@ -108,7 +101,7 @@ int64_t code_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, 
                 5 * TABLE + SPAN * (PLACES * class_of(left + around) + place),
             };
             int32_t *level = levels.data + j * columns + i;
-            *level = code_level(&coder, &mixer, contexts, selector, trellis_grid(state), *level);
+            *level = code_level(coder, bank, contexts, selector, trellis_grid(state), *level);
             state = trellis_following(state, *level);
             int64_t magnitude = least(magnitude_of(*level), 4096);
             slow.data[i] += (64 * magnitude - slow.data[i]) >> 2;
@@ -121,6 +114,4 @@ int64_t code_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, 
 #undef A
 #undef B
     }
-    close_coder(&coder, given);
-    return j;
 }

@@ -8,14 +8,8 @@ enum { STATES = TRELLIS_STATES };
 
 /* Levels for targets in 1 / TARGET_UNIT of a step, coefficient by coefficient. Zeros stay zero, so flat meshes stay
  * flat. `ways` and `origins` are scratch with a row of STATES for each coefficient. */
-KERNEL int64_t nearest_levels(ConstLongs targets, Ints2 ways, Bytes2 origins, Ints levels) {
+KERNEL void nearest_levels(ConstLongs targets, int32_t *ways, uint8_t *origins, int32_t *levels) {
     int64_t count = targets.size;
-    if (ways.rows != count || ways.columns != STATES || origins.rows != count || origins.columns != STATES
-        || levels.size != count)
-        return MISUSED;
-    for (int64_t i = 0; i < count; i++)
-        if (targets.data[i] > MAX_LEVEL * INT64_C(256) || targets.data[i] < -MAX_LEVEL * INT64_C(256)) return MISUSED;
-
     double errors[2][STATES];
     for (int s = 0; s < STATES; s++) errors[0][s] = s == 0 ? 0.0 : NEVER;
     for (int64_t i = 0; i < count; i++) {
@@ -31,8 +25,8 @@ KERNEL int64_t nearest_levels(ConstLongs targets, Ints2 ways, Bytes2 origins, In
                 int after = trellis_following(state, level);
                 if (old[state] + error * error >= new[after]) continue;
                 new[after] = old[state] + error * error;
-                ways.data[STATES * i + after] = level;
-                origins.data[STATES * i + after] = (uint8_t)state;
+                ways[STATES * i + after] = level;
+                origins[STATES * i + after] = (uint8_t)state;
             }
         }
     }
@@ -40,9 +34,8 @@ KERNEL int64_t nearest_levels(ConstLongs targets, Ints2 ways, Bytes2 origins, In
     for (int s = 1; s < STATES; s++)
         if (errors[count & 1][s] < errors[count & 1][state]) state = s;
     for (int64_t i = count; i-- > 0;) {
-        int32_t level = ways.data[STATES * i + state];
-        levels.data[i] = targets.data[i] >= 0 ? level : -level;
-        state = origins.data[STATES * i + state];
+        int32_t level = ways[STATES * i + state];
+        levels[i] = targets.data[i] >= 0 ? level : -level;
+        state = origins[STATES * i + state];
     }
-    return 0;
 }

@@ -106,7 +106,7 @@ typedef struct {
 } Vertex;
 
 typedef struct {
-    Mixer valence, event, rare;
+    Bank valence, event, rare;
     int bits; /* binary logarithm of the number of contexts in each hashed table of valences */
     int64_t contexts[VALENCE_CONTEXTS], event_contexts[EVENT_CONTEXTS];
 } ValenceModel;
@@ -213,7 +213,7 @@ typedef struct {
 
 /* The conquest: triangle by triangle over a closed surface (specification, C 6). */
 typedef struct {
-    RangeCoder coder;
+    RangeCoder *coder;
     ValenceModel model;
     Guide map;
     Polygons front;
@@ -231,7 +231,7 @@ typedef struct {
 typedef enum { CONQUEST_DONE, CONQUEST_NONSENSE, CONQUEST_NO_ROOM } ConquestEnd;
 enum { TURN_BYTES = 1024 /* more than one triangle can take */ };
 
-ConquestEnd conquer(Coder coder, Conquest *walk);
+ConquestEnd conquer(Conquest *walk);
 
 /* Half-edges of a triangle list: number 3 i + k runs from corner k of face i to corner k + 1. */
 INLINE int32_t next_halfedge(int32_t h) { return h % 3 != 2 ? h + 1 : h - 2; }
@@ -242,14 +242,15 @@ void join_sheets(ConstInts origin, ConstInts order, Ints twin);
 int64_t find_fans(ConstInts origin, ConstInts twin, Ints corner, Ints vertex);
 int64_t fill_loops(ConstInts twin, ConstInts corner, Ints leaving, Ints full_twin, Ints full_corner);
 
-/* The part of each vertex. See partition.py. */
+/* The part of each vertex. See partition.c. */
 extern INSIDE const BankPlan LABEL_BANK;
-int64_t code_labels(Coder coder, Bank bank, ConstInts offsets, ConstInts neighbors, Ints labels, int64_t parts);
+int64_t code_labels(
+    RangeCoder *coder, const Bank *bank, ConstInts offsets, ConstInts neighbors, Ints labels, int64_t parts);
 
-/* Permutations and rotations. See permutation.py. */
+/* Permutations and rotations. See permutation.c. */
 extern INSIDE const BankPlan STEP_BANK, TURN_BANK;
-int64_t code_steps(Coder coder, Bank bank, Ints values, Ints tree);
-int64_t code_turns(Coder coder, Bank bank, Ints values);
+bool code_steps(RangeCoder *coder, const Bank *bank, Ints values, Ints tree);
+void code_turns(RangeCoder *coder, const Bank *bank, Ints values);
 
 /* Fans that are the same vertex, and faces that repeat a corner: an entry per fan, -1 for none or an unknown one. */
 typedef struct {
@@ -257,8 +258,8 @@ typedef struct {
 } Seams;
 
 extern INSIDE const BankPlan FAN_BANK;
-int64_t code_fans(Coder coder, Bank bank, ConstInts known, Seams seams);
-int64_t code_degenerate(Coder coder, Ints corners, int64_t count);
+int64_t code_fans(RangeCoder *coder, const Bank *bank, ConstInts known, Seams seams);
+int64_t code_degenerate(RangeCoder *coder, Ints corners, int64_t count);
 
 /* Numbering by first appearance. */
 int64_t number_by_appearance(ConstInts sequence, Ints order, Ints number);

@@ -11,20 +11,20 @@ enum { REACH = 4096 /* a node further along the front than this is named by its 
 INLINE int64_t add_vertex(Conquest *walk, int32_t fan, bool dummy) {
     int64_t vertex = walk->coded_vertices, valence = 2;
     if (vertex == walk->vertex_room) return -1;
-    if (!is_reading(&walk->coder)) {
+    if (!is_reading(walk->coder)) {
         valence = walk->map.valence[fan];
         walk->map.number[fan] = (int32_t)vertex;
     }
     if (dummy) {
-        valence = 2 + code_rare(&walk->coder, &walk->model, RARE_LOOP, valence - 2);
+        valence = 2 + code_rare(walk->coder, &walk->model, RARE_LOOP, valence - 2);
         walk->vertices[vertex] = (Vertex){.label = 0, .sum = 0, .rank = -1};
         walk->dummies--;
     } else {
         if (vertex + walk->dummies >= walk->vertex_room) return -1;
-        valence = code_valence(&walk->coder, &walk->model, valence);
+        valence = code_valence(walk->coder, &walk->model, valence);
         int32_t label = (int32_t)least(valence, 15);
         walk->vertices[vertex] = (Vertex){.label = label, .sum = 0, .rank = (int32_t)walk->coded_real};
-        if (!is_reading(&walk->coder)) {
+        if (!is_reading(walk->coder)) {
             if (walk->coded_real >= walk->map.real) return -1;
             walk->map.fans[walk->coded_real] = fan;
         }
@@ -37,7 +37,7 @@ INLINE int64_t add_vertex(Conquest *walk, int32_t fan, bool dummy) {
 
 /* Mark triangle (a, b, c) as conquered, and add it to the faces unless it has a dummy (C 5.5). */
 INLINE bool emit(Conquest *walk, int32_t a, int32_t b, int32_t c, int32_t face) {
-    if (!is_reading(&walk->coder)) walk->map.conquered[face] = 1;
+    if (!is_reading(walk->coder)) walk->map.conquered[face] = 1;
     if (a == b || b == c || c == a) return false;
     int32_t rank_a = walk->vertices[a].rank, rank_b = walk->vertices[b].rank, rank_c = walk->vertices[c].rank;
     if (rank_a < 0 || rank_b < 0 || rank_c < 0) return true;
@@ -47,7 +47,7 @@ INLINE bool emit(Conquest *walk, int32_t a, int32_t b, int32_t c, int32_t face) 
     row[0] = rank_a;
     row[1] = rank_b;
     row[2] = rank_c;
-    if (!is_reading(&walk->coder)) walk->map.faces[number] = face;
+    if (!is_reading(walk->coder)) walk->map.faces[number] = face;
     walk->coded_faces++;
     return true;
 }
@@ -62,7 +62,7 @@ INLINE void meet(Conquest *walk, int32_t a, int32_t b) {
 /* The edge from `node` to its next one has become a gate, with `halfedge` on the conquered side. */
 INLINE void set_gate(Conquest *walk, int32_t node, int32_t apex, int32_t halfedge) {
     walk->front.nodes[node].apex = apex;
-    if (!is_reading(&walk->coder)) {
+    if (!is_reading(walk->coder)) {
         int32_t gate = walk->map.twin[halfedge];
         walk->front.nodes[node].gate = gate;
         walk->map.node[gate] = node;
@@ -73,14 +73,14 @@ INLINE void set_gate(Conquest *walk, int32_t node, int32_t apex, int32_t halfedg
 static bool start_component(Conquest *walk) {
     int32_t first = (int32_t)walk->coded_vertices, node = walk->front.heads[MADE];
     int32_t start = (int32_t)walk->start;
-    if (!is_reading(&walk->coder)) {
+    if (!is_reading(walk->coder)) {
         while (start < walk->face_room && walk->map.conquered[start]) start++;
         if (start == walk->face_room) return false;
         walk->start = start;
     }
     look_nowhere(&walk->model);
     for (int k = 0; k < 3; k++) {
-        int32_t fan = is_reading(&walk->coder) ? 0 : walk->map.corner[3 * start + k];
+        int32_t fan = is_reading(walk->coder) ? 0 : walk->map.corner[3 * start + k];
         int64_t valence = add_vertex(walk, fan, false);
         if (valence < 0) return false;
         add_node(&walk->front, first + k, (int32_t)valence - 2);
@@ -144,7 +144,7 @@ static int search(const Node *nodes, int32_t f, int32_t node, int64_t reach, int
  * Candidates have two free edges. All steps together are bounded, so that work is, too. Returns -1 for nonsense. */
 static int32_t code_node(Conquest *walk, int32_t f, int32_t node) {
     const Node *nodes = walk->front.nodes;
-    RangeCoder *coder = &walk->coder;
+    RangeCoder *coder = walk->coder;
     int64_t reach = least(REACH, walk->steps), count = 0;
     int way = is_reading(coder) ? 2 : search(nodes, f, node, reach, &count);
     if (code_rare_bit(coder, &walk->model, RARE_WAY, way >> 1)) {
@@ -184,7 +184,7 @@ static int32_t find_node(const Conquest *walk, int32_t gate, int32_t *free) {
 SHARED bool pass_gate(Conquest *walk, int32_t f) {
     Polygons *front = &walk->front;
     Node *nodes = front->nodes;
-    RangeCoder *coder = &walk->coder;
+    RangeCoder *coder = walk->coder;
     int32_t n = nodes[f].next, gate = nodes[f].gate, v_f = nodes[f].vertex, v_n = nodes[n].vertex;
     /* The node to split at, its free edges on the side of f, or else the new vertex. */
     int32_t node = -1, free = 0, fan = 0;
@@ -226,11 +226,12 @@ SHARED bool pass_gate(Conquest *walk, int32_t f) {
     return true;
 }
 
-static ConquestEnd take_turns(Conquest *walk) {
+/* Code the surface, from where the last call ran out of room. */
+ConquestEnd conquer(Conquest *walk) {
     Polygons *front = &walk->front;
     while (front->heads[ALIVE] > 0 || walk->coded_faces < walk->face_room) {
-        if (front->heads[MADE] + 3 > front->capacity || !has_room(&walk->coder, TURN_BYTES)) return CONQUEST_NO_ROOM;
-        if (--walk->turns < 0 || overran(&walk->coder)) return CONQUEST_NONSENSE;
+        if (front->heads[MADE] + 3 > front->capacity || !has_room(walk->coder, TURN_BYTES)) return CONQUEST_NO_ROOM;
+        if (--walk->turns < 0 || overran(walk->coder)) return CONQUEST_NONSENSE;
         int32_t f = first_node(front);
         bool legal = f < 0              ? start_component(walk)
             : front->nodes[f].free == 0 ? close_node(walk, f)
@@ -238,12 +239,4 @@ static ConquestEnd take_turns(Conquest *walk) {
         if (!legal) return CONQUEST_NONSENSE;
     }
     return walk->coded_vertices == walk->vertex_room ? CONQUEST_DONE : CONQUEST_NONSENSE;
-}
-
-/* Code the surface, from where the last call ran out of room. */
-ConquestEnd conquer(Coder coder, Conquest *walk) {
-    if (!open_coder(&walk->coder, coder)) return CONQUEST_NONSENSE;
-    ConquestEnd end = take_turns(walk);
-    close_coder(&walk->coder, coder);
-    return end;
 }

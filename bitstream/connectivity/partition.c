@@ -44,7 +44,7 @@ static void ask_neighbors(Poll *poll, ConstInts offsets, const int32_t *neighbor
 
 /* Code one label, which is at most `used`; a reader ignores it. */
 INLINE int64_t code_label(
-    RangeCoder *coder, const Mixer *mixer, const Poll *poll, int64_t label, int64_t used, int64_t parts) {
+    RangeCoder *coder, const Bank *bank, const Poll *poll, int64_t label, int64_t used, int64_t parts) {
     for (int k = 0; k < poll->count; k++) {
         int64_t others = poll->known - poll->votes[k];
         const int64_t contexts[INPUTS] = {
@@ -52,38 +52,29 @@ INLINE int64_t code_label(
             CONTEXTS + 16 * k + least(poll->votes[k], 7) + (poll->count > k + 1 ? 8 : 0),
             2 * CONTEXTS + 16 * k + least(others, 3) + 4 * (poll->count - 1),
         };
-        if (code_mixed_bit(coder, mixer, INPUTS, contexts, 0, k, label == poll->label[k])) return poll->label[k];
+        if (code_mixed_bit(coder, bank, INPUTS, contexts, 0, k, label == poll->label[k])) return poll->label[k];
     }
     const int64_t contexts[INPUTS] = {
         16 * CANDIDATES,
         CONTEXTS + 16 * CANDIDATES + poll->count,
         2 * CONTEXTS + 16 * CANDIDATES + (used < parts),
     };
-    bool fresh = code_mixed_bit(coder, mixer, INPUTS, contexts, 0, CANDIDATES, label == used);
+    bool fresh = code_mixed_bit(coder, bank, INPUTS, contexts, 0, CANDIDATES, label == used);
     return fresh || used == 0 ? used : code_uniform(coder, label, used);
 }
 
 /* Code all labels in place, over a graph in compressed rows. Returns how many distinct ones there are, or -1 where the
  * data is beyond its end or has more than `parts`. */
-int64_t code_labels(Coder given, Bank bank, ConstInts offsets, ConstInts neighbors, Ints labels, int64_t parts) {
-    RangeCoder coder;
-    Mixer mixer;
-    int64_t size = labels.size, used = 0;
-    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, INPUTS * CONTEXTS, CANDIDATES + 1, INPUTS)
-        || size > INT32_MAX || offsets.size != size + 1 || offsets.data[0] < 0 || offsets.data[size] > neighbors.size)
-        return MISUSED;
-    for (int64_t v = 0; v < size; v++)
-        if (offsets.data[v] > offsets.data[v + 1]) return MISUSED;
-    for (int64_t i = 0; i < neighbors.size; i++)
-        if (neighbors.data[i] < 0) return MISUSED;
-    for (int64_t v = 0; v < size && used >= 0; v++) {
+int64_t code_labels(
+    RangeCoder *coder, const Bank *bank, ConstInts offsets, ConstInts neighbors, Ints labels, int64_t parts) {
+    int64_t used = 0;
+    for (int64_t v = 0; v < labels.size && used >= 0; v++) {
         Poll poll;
         ask_neighbors(&poll, offsets, neighbors.data, labels.data, v);
-        int64_t label = code_label(&coder, &mixer, &poll, labels.data[v], used, parts);
+        int64_t label = code_label(coder, bank, &poll, labels.data[v], used, parts);
         labels.data[v] = (int32_t)label;
         used += label == used;
-        if (used > parts || overran(&coder)) used = -1;
+        if (used > parts || overran(coder)) used = -1;
     }
-    close_coder(&coder, given);
     return used;
 }

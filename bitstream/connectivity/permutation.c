@@ -41,30 +41,24 @@ static int64_t class_of(int64_t step) {
     return step >= 0 ? size : 16 + size;
 }
 
-/* Code the permutation `values`; `tree` has an entry more. Returns 1, or 0 for nonsense. */
-int64_t code_steps(Coder given, Bank bank, Ints values, Ints tree) {
-    RangeCoder coder;
-    Mixer mixer;
+/* Code the permutation `values`; `tree` has an entry more. False for nonsense. */
+bool code_steps(RangeCoder *coder, const Bank *bank, Ints values, Ints tree) {
     int64_t size = values.size;
-    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, STEP_SLOTS, SPAN, INPUTS) || tree.size != size + 1
-        || size >= 1 << 30)
-        return MISUSED;
     for (int64_t k = 0; k <= size; k++) tree.data[k] = (int32_t)(k & -k);
     int64_t expected = 0, repeated = 0, last = 0, older = 0, oldest = 0;
     bool legal = true;
     for (int64_t i = 0; i < size && legal; i++) {
-        if (!is_reading(&coder) && (values.data[i] < 0 || values.data[i] >= size)) return MISUSED;
         int64_t rank = count_before(tree.data, expected);
-        int64_t step = is_reading(&coder) ? 0 : count_before(tree.data, values.data[i]) - rank;
+        int64_t step = is_reading(coder) ? 0 : count_before(tree.data, values.data[i]) - rank;
         const int64_t contexts[INPUTS] = {
             0,
             SPAN * (1 + last),
             SPAN * (1 + CLASSES + CLASSES * older + last),
             SPAN * (1 + CLASSES + CLASSES * CLASSES + CLASSES * oldest + older),
         };
-        if (code_mixed_bit(&coder, &mixer, INPUTS, contexts, SAME, 0, step == repeated)) step = repeated;
-        else step = code_signed(&coder, &mixer, INPUTS, contexts, 0, UNARY, step);
-        legal = rank + step >= 0 && rank + step < size - i && !overran(&coder);
+        if (code_mixed_bit(coder, bank, INPUTS, contexts, SAME, 0, step == repeated)) step = repeated;
+        else step = code_signed(coder, bank, INPUTS, contexts, 0, UNARY, step);
+        legal = rank + step >= 0 && rank + step < size - i && !overran(coder);
         if (legal) {
             values.data[i] = take(tree, rank + step);
             expected = values.data[i] + 1;
@@ -74,23 +68,17 @@ int64_t code_steps(Coder given, Bank bank, Ints values, Ints tree) {
             repeated = step;
         }
     }
-    close_coder(&coder, given);
     return legal;
 }
 
-/* Code rotations, 0 to 2. Returns 1, or 0 for nonsense. */
-int64_t code_turns(Coder given, Bank bank, Ints values) {
-    RangeCoder coder;
-    Mixer mixer;
-    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, TURN_SLOTS, 2, 2)) return MISUSED;
+/* Code rotations, 0 to 2. */
+void code_turns(RangeCoder *coder, const Bank *bank, Ints values) {
     int history = 0;
-    for (int64_t i = 0; i < values.size && !overran(&coder); i++) {
+    for (int64_t i = 0; i < values.size && !overran(coder); i++) {
         const int64_t contexts[2] = {3 * (history % 9), 3 * (9 + history)};
-        int value = code_mixed_bit(&coder, &mixer, 2, contexts, 0, 0, values.data[i] > 0);
-        if (value) value += code_mixed_bit(&coder, &mixer, 2, contexts, 1, 0, values.data[i] > 1);
+        int value = code_mixed_bit(coder, bank, 2, contexts, 0, 0, values.data[i] > 0);
+        if (value) value += code_mixed_bit(coder, bank, 2, contexts, 1, 0, values.data[i] > 1);
         values.data[i] = value;
         history = (history * 3 + value) % 27;
     }
-    close_coder(&coder, given);
-    return !overran(&coder);
 }

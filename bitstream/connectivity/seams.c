@@ -38,30 +38,27 @@ static int find_candidates(const Seams *seams, int32_t fan, int32_t *candidates)
 
 /* Code a vertex below `count`: one of the candidates, or by number. */
 static int32_t code_vertex(
-    RangeCoder *coder, const Mixer *mixer, const Seams *seams, int32_t fan, int32_t given, int32_t count) {
+    RangeCoder *coder, const Bank *bank, const Seams *seams, int32_t fan, int32_t given, int32_t count) {
     int32_t candidates[CANDIDATES];
     int number = find_candidates(seams, fan, candidates);
     for (int k = 0; k < number; k++) {
         int64_t context = CANDIDATE + 2 * k + (number > 1);
-        if (code_mixed_bit(coder, mixer, 1, &context, 0, 0, given == candidates[k])) return candidates[k];
+        if (code_mixed_bit(coder, bank, 1, &context, 0, 0, given == candidates[k])) return candidates[k];
     }
     return (int32_t)code_uniform(coder, given, count);
 }
 
 /* Code the vertex of every fan; `known` tells a writer. Returns the number of vertices, or -1 for nonsense. */
-int64_t code_fans(Coder given, Bank bank, ConstInts known, Seams seams) {
-    RangeCoder coder;
-    Mixer mixer;
+int64_t code_fans(RangeCoder *coder, const Bank *bank, ConstInts known, Seams seams) {
     int64_t size = known.size;
-    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, FAN_SLOTS, 1, 1)) return MISUSED;
     for (int64_t fan = 0; fan < size; fan++) seams.vertex.data[fan] = seams.sibling.data[fan] = -1;
     int32_t count = 0;
-    for (int32_t fan = 0; fan < size && !overran(&coder); fan++) {
+    for (int32_t fan = 0; fan < size && !overran(coder); fan++) {
         int32_t after = seams.after.data[fan], before = seams.before.data[fan], u = known.data[fan];
         /* 0 inside, else 1 to 9: each neighbor along the boundary is not known yet, or new, or a repetition. */
         int64_t context = after < 0 ? 0 : 1 + 3 * state_of(&seams, after) + state_of(&seams, before);
-        if (code_mixed_bit(&coder, &mixer, 1, &context, 0, 0, u < count) && count > 0) {
-            u = code_vertex(&coder, &mixer, &seams, fan, u, count);
+        if (code_mixed_bit(coder, bank, 1, &context, 0, 0, u < count) && count > 0) {
+            u = code_vertex(coder, bank, &seams, fan, u, count);
             seams.sibling.data[fan] = seams.latest.data[u];
         } else {
             u = count++;
@@ -69,24 +66,20 @@ int64_t code_fans(Coder given, Bank bank, ConstInts known, Seams seams) {
         seams.vertex.data[fan] = u;
         seams.latest.data[u] = fan;
     }
-    close_coder(&coder, given);
-    return overran(&coder) ? -1 : count;
+    return overran(coder) ? -1 : count;
 }
 
 /* Code the corners of degenerate faces, each a vertex below `count` or the next new one. Fills `corners` when reading.
  * Returns the number of vertices afterwards, or -1 for nonsense. */
-int64_t code_degenerate(Coder given, Ints corners, int64_t count) {
-    RangeCoder coder;
-    if (!open_coder(&coder, given)) return MISUSED;
+int64_t code_degenerate(RangeCoder *coder, Ints corners, int64_t count) {
     bool legal = true;
     for (int64_t i = 0; i < corners.size && legal; i += 3) {
         int32_t *face = corners.data + i;
         for (int k = 0; k < 3; k++) {
-            face[k] = (int32_t)code_uniform(&coder, face[k], count + 1);
+            face[k] = (int32_t)code_uniform(coder, face[k], count + 1);
             count += face[k] == count;
         }
-        legal = !overran(&coder) && (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]);
+        legal = !overran(coder) && (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]);
     }
-    close_coder(&coder, given);
     return legal ? count : -1;
 }

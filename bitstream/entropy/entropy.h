@@ -20,19 +20,11 @@ double growth(double x);
 /* The range coder: decisions and uniform numbers, in integers only (specification, C 1).
  *
  * One function serves both directions: a coder either writes or reads, and that is data inside it. What is coded is
- * passed in and returned; a reader ignores what is passed in. A kernel loads the coder of Python into a RangeCoder at
- * its start (open_coder) and stores it at its end (close_coder).
+ * passed in and returned; a reader ignores what is passed in.
  */
 enum { ONE_BITS = 16, ONE = 1 << ONE_BITS }; /* probabilities are 1 .. ONE - 1 */
 
-/* As Python keeps it: low end (writing) or code minus low end (reading), range, position, direction, overflow. */
-typedef struct {
-    Longs state;
-    Bytes data;
-} Coder;
-
-enum { CODER_LOW, CODER_RANGE, CODER_POSITION, CODER_READING, CODER_FULL, CODER_STATES };
-
+/* `low` is the low end (writing), or the code less the low end (reading). */
 typedef struct {
     uint8_t *data;
     int64_t size, position;
@@ -51,31 +43,14 @@ INLINE bool is_reading(const RangeCoder *coder) {
 #endif
 }
 
-/* False for a state that no coder of these functions has. */
-INLINE bool open_coder(RangeCoder *coder, Coder given) {
-    if (given.state.size < CODER_STATES) return false;
-    const int64_t *state = given.state.data;
-    *coder = (RangeCoder){given.data.data, given.data.size, state[CODER_POSITION], (uint64_t)state[CODER_LOW],
-        (uint64_t)state[CODER_RANGE], state[CODER_READING] != 0, state[CODER_FULL] != 0};
-    return coder->range >= CODER_TOP && (coder->range | coder->low) >> 32 == 0 && coder->position >= 0
-        && (is_reading(coder) || coder->position <= coder->size);
-}
-
-INLINE void close_coder(const RangeCoder *coder, Coder given) {
-    int64_t *state = given.state.data;
-    state[CODER_LOW] = (int64_t)coder->low;
-    state[CODER_RANGE] = (int64_t)coder->range;
-    state[CODER_POSITION] = coder->position;
-    state[CODER_FULL] = coder->full;
-}
-
 /* Whether the coder reads, or can write at least `capacity` bytes more. */
 INLINE bool has_room(const RangeCoder *coder, int64_t capacity) {
     return is_reading(coder) || coder->position + capacity < coder->size;
 }
 
-/* Whether more was read than any complete payload of this length can hold (C 1.6). */
-INLINE bool overran(const RangeCoder *coder) { return is_reading(coder) && coder->position > coder->size + 4; }
+/* Whether more was read than any complete payload of this length can hold (C 1.6): bytes are read that much ahead. */
+enum { AHEAD = 4 };
+INLINE bool overran(const RangeCoder *coder) { return is_reading(coder) && coder->position > coder->size + AHEAD; }
 
 /* Shift bytes out of (or into) the range until it is large again: at most two of them after one decision (C 1.3). */
 INLINE void renormalize(RangeCoder *coder) {
@@ -148,14 +123,7 @@ INLINE int64_t code_uniform(RangeCoder *coder, int64_t value, int64_t count) {
  * symbol uses slot `context + node` of each context, and row `selector + node` of the mixing weights. The number of
  * inputs is a constant wherever speed matters, so that the loops over them are unrolled.
  */
-enum { SLOT_BITS = 22, MOST_INPUTS = 16, MOST_RATE = 1024 };
-
-/* As Python keeps it; settings: largest count, learning rate of the mixer. */
-typedef struct {
-    Words slots;
-    Ints2 weights;
-    Longs settings;
-} Bank;
+enum { SLOT_BITS = 22, MOST_INPUTS = 16 };
 
 /* What a bank starts from; 0 is what most have: limit 255, rate 14, probability 1 / 2. */
 typedef struct {
@@ -163,21 +131,12 @@ typedef struct {
     int inputs, limit, rate, probability, trust;
 } BankPlan;
 
+/* `limit` is the largest count of a slot, `rate` that of learning weights. */
 typedef struct {
     uint32_t *slots;
     int32_t *weights;
     int32_t limit, rate;
-} Mixer;
-
-/* False for a bank without all the slots, weights and settings that a kernel uses. */
-INLINE bool open_bank(Mixer *mixer, Bank bank, int64_t slots, int64_t selectors, int inputs) {
-    if (bank.slots.size < slots || bank.weights.rows < selectors || bank.weights.columns != inputs
-        || bank.settings.size < 2)
-        return false;
-    int64_t limit = bank.settings.data[0], rate = bank.settings.data[1];
-    *mixer = (Mixer){bank.slots.data, bank.weights.data, (int32_t)limit, (int32_t)rate};
-    return limit > 0 && limit < 1 << SLOT_COUNT_BITS && rate > 0 && rate <= MOST_RATE;
-}
+} Bank;
 
 /* Log-odds of what a slot predicts, in 1 / 256 nat (C 2.2). */
 INLINE int32_t slot_odds(uint32_t slot) { return STRETCH[slot >> (32 - STRETCH_BITS)]; }
@@ -202,36 +161,36 @@ INLINE void learn_slot(uint32_t *slot, int bit, int32_t limit) {
 
 /* Probability of a one, in 1 .. ONE - 1, and the log-odds of each input (C 2.4). */
 INLINE uint32_t mixed_probability(
-    const Mixer *mixer, int inputs, const int64_t *contexts, int64_t node, int64_t selector, int32_t *stretched) {
-    const int32_t *weights = mixer->weights + (selector + node) * inputs;
+    const Bank *bank, int inputs, const int64_t *contexts, int64_t node, int64_t selector, int32_t *stretched) {
+    const int32_t *weights = bank->weights + (selector + node) * inputs;
     int64_t total = 0;
     for (int i = 0; i < inputs; i++) {
-        stretched[i] = slot_odds(mixer->slots[contexts[i] + node]);
+        stretched[i] = slot_odds(bank->slots[contexts[i] + node]);
         total += (int64_t)stretched[i] * weights[i];
     }
     return squashed(total >> 16);
 }
 
 /* Predict a decision from all contexts, code it, and learn from it (C 2.5, C 2.6). */
-INLINE int code_decision(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts, int64_t node,
+INLINE int code_decision(RangeCoder *coder, const Bank *bank, int inputs, const int64_t *contexts, int64_t node,
     int64_t selector, int bit) {
     int32_t stretched[MOST_INPUTS];
-    uint32_t probability = mixed_probability(mixer, inputs, contexts, node, selector, stretched);
+    uint32_t probability = mixed_probability(bank, inputs, contexts, node, selector, stretched);
     bit = code_bit(coder, probability, bit);
 
-    int64_t error = ((int64_t)bit * ONE - probability) * mixer->rate;
-    int32_t *weights = mixer->weights + (selector + node) * inputs;
+    int64_t error = ((int64_t)bit * ONE - probability) * bank->rate;
+    int32_t *weights = bank->weights + (selector + node) * inputs;
     for (int i = 0; i < inputs; i++) {
         weights[i] = trained(weights[i], stretched[i], error);
-        learn_slot(mixer->slots + contexts[i] + node, bit, mixer->limit);
+        learn_slot(bank->slots + contexts[i] + node, bit, bank->limit);
     }
     return bit;
 }
 
 /* The same, copied to its calls unless a decoder is built alone. */
-SHARED int code_mixed_bit(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts, int64_t node,
+SHARED int code_mixed_bit(RangeCoder *coder, const Bank *bank, int inputs, const int64_t *contexts, int64_t node,
     int64_t selector, int bit) {
-    return code_decision(coder, mixer, inputs, contexts, node, selector, bit);
+    return code_decision(coder, bank, inputs, contexts, node, selector, bit);
 }
 
 /* Integers as mixed decisions (specification, C 3). */
@@ -242,19 +201,19 @@ enum { SUFFIX_NODES = 24 };
 #define SIGNED_SPAN(unary) (UNSIGNED_SPAN(unary) + 2)
 
 /* Code an integer in 0 .. 2^24 - 2 + unary, from `node` on: a unary prefix, then an Exp-Golomb escape (C 3.1). */
-SHARED int64_t code_unsigned(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts,
+SHARED int64_t code_unsigned(RangeCoder *coder, const Bank *bank, int inputs, const int64_t *contexts,
     int64_t selector, int unary, int64_t value, int64_t node) {
     for (int k = 0; k < unary; k++)
-        if (!code_mixed_bit(coder, mixer, inputs, contexts, node + k, selector, value > k)) return k;
+        if (!code_mixed_bit(coder, bank, inputs, contexts, node + k, selector, value > k)) return k;
     int64_t rest = value - unary + 1;
     int size = 0;
     while (size < SUFFIX_NODES - 1
-        && code_mixed_bit(coder, mixer, inputs, contexts, node + unary + size, selector, rest >> (size + 1) > 0))
+        && code_mixed_bit(coder, bank, inputs, contexts, node + unary + size, selector, rest >> (size + 1) > 0))
         size++;
     int64_t result = 1;
     if (size > 0) { /* the leading bit below the first is worth modeling, the others are noise */
         int leading = (int)(rest >> (size - 1)) & 1;
-        result = 2 + code_mixed_bit(coder, mixer, inputs, contexts, node + unary + SUFFIX_NODES, selector, leading);
+        result = 2 + code_mixed_bit(coder, bank, inputs, contexts, node + unary + SUFFIX_NODES, selector, leading);
         if (size > 1) {
             int64_t count = INT64_C(1) << (size - 1);
             result = result * count + code_uniform(coder, rest & (count - 1), count);
@@ -264,20 +223,11 @@ SHARED int64_t code_unsigned(RangeCoder *coder, const Mixer *mixer, int inputs, 
 }
 
 /* Code an integer of magnitude below 2^24: zero, sign, then the rest (C 3.2). */
-SHARED int64_t code_signed(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts,
+SHARED int64_t code_signed(RangeCoder *coder, const Bank *bank, int inputs, const int64_t *contexts,
     int64_t selector, int unary, int64_t value) {
-    if (!code_mixed_bit(coder, mixer, inputs, contexts, 0, selector, value != 0)) return 0;
-    int negative = code_mixed_bit(coder, mixer, inputs, contexts, 1, selector, value < 0);
+    if (!code_mixed_bit(coder, bank, inputs, contexts, 0, selector, value != 0)) return 0;
+    int negative = code_mixed_bit(coder, bank, inputs, contexts, 1, selector, value < 0);
     int64_t rest = (value < 0 ? -value : value) - 1;
-    int64_t magnitude = 1 + code_unsigned(coder, mixer, inputs, contexts, selector, unary, rest, 2);
+    int64_t magnitude = 1 + code_unsigned(coder, bank, inputs, contexts, selector, unary, rest, 2);
     return negative ? -magnitude : magnitude;
 }
-
-/* The bytes written, with the fewest that still tell the last decision (C 1.4); -1 without room for them. A coder
- * is finished once. */
-int64_t finish_coder(Coder coder);
-
-/* Single symbols, for the few that are coded one by one. Each returns the coded number, or MISUSED. */
-int64_t code_one_uniform(Coder coder, int64_t value, int64_t count);
-int64_t code_one_unsigned(
-    Coder coder, Bank bank, ConstLongs contexts, int64_t selector, int64_t unary, int64_t value, int64_t node);

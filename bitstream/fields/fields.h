@@ -30,7 +30,6 @@ INLINE int32_t next_corner(int32_t k) { return k % 3 == 2 ? k - 2 : k + 1; }
 INLINE int32_t previous_corner(int32_t k) { return k % 3 == 0 ? k + 2 : k - 1; }
 INLINE int32_t faces_at(const Corners *c, int32_t v) { return c->starts.data[v + 1] - c->starts.data[v]; }
 
-bool fits_corners(const Corners *corners);
 void gather_around(const Corners *corners, int32_t v, Around *around);
 
 int64_t link_corners(Corners corners, Ints scratch);
@@ -243,16 +242,14 @@ INLINE void settle(Expectation *e, int32_t low, int32_t high, int32_t *off) {
 typedef bool CodeRow(void *work, int64_t i);
 
 /* Code `count` rows from `first` on, as far as there is room for `bytes` (writing) or sense (reading); returns how
- * many. */
-INLINE int64_t code_rows(Coder given, RangeCoder *coder, int64_t rows, int64_t first, int64_t count, int64_t bytes,
+ * many, or -1 if there are not so many. */
+INLINE int64_t code_rows(RangeCoder *coder, int64_t rows, int64_t first, int64_t count, int64_t bytes,
     CodeRow *code_row, void *work) {
-    if (!open_coder(coder, given) || first < 0 || count < 0 || first > rows - count) return MISUSED;
+    if (first < 0 || count < 0 || first > rows - count) return -1;
     int64_t done = 0;
     while (done < count && has_room(coder, bytes) && !overran(coder) && code_row(work, first + done)) done++;
-    close_coder(coder, given);
     return done;
 }
-
 
 /* Sizes of the gaps of a vertex, added. */
 int32_t error_at(const Ints2 *gaps, int32_t v);
@@ -286,7 +283,7 @@ typedef struct {
     struct Twins *twins; /* or NULL */
 } Grid;
 
-int64_t ISA(code_grid)(Coder coder, ValueModel model, Corners corners, Grid grid, int64_t first, int64_t count);
+int64_t ISA(code_grid)(RangeCoder *coder, ValueModel model, Corners corners, Grid grid, int64_t first, int64_t count);
 
 /* Positions on a grid by a small model, vertices as they are numbered. See light.c. */
 enum {
@@ -310,7 +307,7 @@ typedef struct {
     int32_t *weights;    /* with twins: LEAN_NODES x LEAN_INPUTS */
 } Light;
 
-int64_t code_light(Coder coder, Corners corners, Light light, int64_t first, int64_t count);
+int64_t code_light(RangeCoder *coder, Corners corners, Light light, int64_t first, int64_t count);
 
 /* Which float of the cell of a grid each coordinate is. See light.c. */
 #define NO_FLOAT (INT64_C(1) << 40)
@@ -320,7 +317,7 @@ typedef struct {
     Longs2 known; /* 3 x values: the last float in each cell of an axis, or `NO_FLOAT` */
 } Floats;
 
-int64_t code_floats(Coder coder, Floats floats, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest,
+int64_t code_floats(RangeCoder *coder, Floats floats, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest,
     ConstLongs2 high, Longs2 chosen);
 
 /* Levels around a prediction. See layer.simd.c. */
@@ -332,4 +329,5 @@ typedef struct {
     Longs2 learners;
 } Levels;
 
-int64_t ISA(code_levels)(Coder coder, Bank bank, Corners corners, Levels levels, int64_t first, int64_t count);
+int64_t ISA(code_levels)(
+    RangeCoder *coder, const Bank *bank, Corners corners, Levels levels, int64_t first, int64_t count);

@@ -281,7 +281,7 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
 }
 
 typedef struct {
-    RangeCoder coder;
+    RangeCoder *coder;
     ValueModel model;
     Corners corners;
     Grid grid;
@@ -296,7 +296,7 @@ OFTEN static bool code_vertex(void *work, int64_t i) {
     look_around(&w->corners, g, v, last, &p);
     if (g->twins) seek_images(g->twins, &w->corners, &g->values, &p.around, v, p.base);
     if (g->twins && g->twins->asks_whole
-        && code_whole(&w->coder, g->twins, &p.around, v, p.base, p.error_near, g->largest.data, x)) {
+        && code_whole(w->coder, g->twins, &p.around, v, p.base, p.error_near, g->largest.data, x)) {
         for (int j = 0; j < AXES; j++) {
             g->gaps.data[AXES * (int64_t)v + j] = FINE * x[j] - p.base[j];
             mark_seen(g->seen.data + j * g->seen.columns, x[j]);
@@ -305,14 +305,14 @@ OFTEN static bool code_vertex(void *work, int64_t i) {
         survey(&w->corners, g, v, &p);
         if (g->twins) seek_echoes(g->twins, &w->corners, &g->values, &p.around, v);
         for (int step = 0; step < STEPS; step++)
-            if (!code_axis(&w->coder, &w->model, g, v, step, &p, &hits, &first_gap)) return false;
+            if (!code_axis(w->coder, &w->model, g, v, step, &p, &hits, &first_gap)) return false;
     }
     pass_on(&w->corners, &g->values, &g->sums, v);
     return !g->twins || remember_twins(g->twins, &g->values, &p.around, v);
 }
 
-int64_t ISA(code_grid)(Coder given, ValueModel model, Corners corners, Grid g, int64_t first, int64_t count) {
-    int64_t n = corners.rank.size;
-    Work work = {.model = model, .corners = corners, .grid = g};
-    return code_rows(given, &work.coder, n, first, count, AXES * VALUE_BYTES, code_vertex, &work);
+int64_t ISA(code_grid)(
+    RangeCoder *coder, ValueModel model, Corners corners, Grid g, int64_t first, int64_t count) {
+    Work work = {.coder = coder, .model = model, .corners = corners, .grid = g};
+    return code_rows(coder, corners.rank.size, first, count, AXES * VALUE_BYTES, code_vertex, &work);
 }

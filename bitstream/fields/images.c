@@ -34,8 +34,8 @@ static int code_hit(RangeCoder *coder, Twins *t, const Candidate *c, const int32
     };
     for (int i = 0; i < WHOLE_CONTEXTS; i++) context[i] = 2 * (context[i] + i * CONTEXT_SIZE);
     int trusted = (trust >= ONE / 5) + (trust >= ONE / 2) + (trust >= ONE / 5 * 4);
-    Mixer mixer = {t->whole_slot, t->whole_weight, LIMIT, RATE};
-    bit = code_decision(coder, &mixer, WHOLE_CONTEXTS, context, t->misses, 2 * trusted, bit);
+    Bank bank = {t->whole_slot, t->whole_weight, LIMIT, RATE};
+    bit = code_decision(coder, &bank, WHOLE_CONTEXTS, context, t->misses, 2 * trusted, bit);
     t->latest[c->image] = 2 * latest + bit;
     return bit;
 }

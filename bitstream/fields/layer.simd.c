@@ -44,7 +44,7 @@ typedef struct { /* what is known of a vertex before its axes */
 
 typedef struct { /* a level under way */
     RangeCoder *coder;
-    const Mixer *mixer;
+    const Bank *bank;
     int64_t context[INPUTS], selector;
 } Level;
 
@@ -87,7 +87,7 @@ static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p)
 }
 
 SHARED int decide_level(const Level *w, int node, int bit) {
-    return code_decision(w->coder, w->mixer, INPUTS, w->context, node, w->selector, bit);
+    return code_decision(w->coder, w->bank, INPUTS, w->context, node, w->selector, bit);
 }
 
 /* How far a level is from the guess, less one: its class, of at least 2^k distances, then its place in the class. */
@@ -116,7 +116,7 @@ INLINE int32_t code_level(const Level *w, int32_t center, int32_t off, int k, in
 
 INLINE int32_t near_to(int32_t x, int32_t center) { return within((int64_t)x - center, -3, 3) + 3; }
 
-static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t v, int j, const Place *p,
+static bool code_axis(RangeCoder *coder, const Bank *bank, Levels *l, int32_t v, int j, const Place *p,
     int32_t *own) {
     const Around *r = &p->around;
     const int64_t axes = AXES;
@@ -152,7 +152,7 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
               : (within(guess + 96, 0, 191) >> 2) * 8 + p->valence,
         around * 14 + side * 2 + (s > 8),
     };
-    Level w = {.coder = coder, .mixer = mixer, .selector = j > 0 ? NODES : 0};
+    Level w = {.coder = coder, .bank = bank, .selector = j > 0 ? NODES : 0};
     for (int i = 0; i < INPUTS; i++)
         w.context[i] = (((j > 0) * INPUTS + i) * SPAN + context[i]) * (int64_t)NODES;
 
@@ -168,8 +168,8 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
 }
 
 typedef struct {
-    RangeCoder coder;
-    Mixer mixer;
+    RangeCoder *coder;
+    const Bank *bank;
     Corners corners;
     Levels levels;
 } Work;
@@ -180,13 +180,12 @@ OFTEN static bool code_vertex(void *work, int64_t v) {
     survey(&w->corners, &w->levels, (int32_t)v, &p);
     int32_t own = 0;
     for (int j = 0; j < AXES; j++)
-        if (!code_axis(&w->coder, &w->mixer, &w->levels, (int32_t)v, j, &p, &own)) return false;
+        if (!code_axis(w->coder, w->bank, &w->levels, (int32_t)v, j, &p, &own)) return false;
     return true;
 }
 
-int64_t ISA(code_levels)(Coder given, Bank bank, Corners corners, Levels levels, int64_t first, int64_t count) {
-    Work work = {.corners = corners, .levels = levels};
-    int64_t n = corners.rank.size;
-    if (!open_bank(&work.mixer, bank, SORTS * INPUTS * SPAN * NODES, SORTS * NODES, INPUTS)) return MISUSED;
-    return code_rows(given, &work.coder, n, first, count, AXES * LEVEL_BYTES, code_vertex, &work);
+int64_t ISA(code_levels)(
+    RangeCoder *coder, const Bank *bank, Corners corners, Levels levels, int64_t first, int64_t count) {
+    Work work = {.coder = coder, .bank = bank, .corners = corners, .levels = levels};
+    return code_rows(coder, corners.rank.size, first, count, AXES * LEVEL_BYTES, code_vertex, &work);
 }

@@ -106,8 +106,8 @@ INLINE int32_t class_of(int32_t size) { return (int32_t)least(size_class(size >>
 INLINE int decide(const Model *m, int node, int bit) {
     uint32_t *slots = m->light->slots.data;
     if (is_lean(m->light)) {
-        Mixer mixer = {slots, m->light->weights, LATEST_MIXED, MIXING_RATE};
-        return code_decision(m->coder, &mixer, LEAN_INPUTS, m->context, node, 0, bit);
+        Bank bank = {slots, m->light->weights, LATEST_MIXED, MIXING_RATE};
+        return code_decision(m->coder, &bank, LEAN_INPUTS, m->context, node, 0, bit);
     }
     int row = node < LIGHT_ROW ? m->kind : LIGHT_KINDS - 1;
     return code_plain_bit(m->coder, slots + class_of(m->size) * LIGHT_SPAN + row * LIGHT_ROW + node, bit);
@@ -133,7 +133,7 @@ OFTEN static int32_t code_distance(const Model *m, int32_t off, int32_t distance
 }
 
 typedef struct {
-    RangeCoder coder;
+    RangeCoder *coder;
     Corners corners;
     Light light;
 } Work;
@@ -145,7 +145,7 @@ static bool code_by_images(Work *w, int32_t v, const Place *p, Around *around) {
     gather_around(&w->corners, v, around);
     seek_images(g->twins, &w->corners, &g->values, around, v, p->guess);
     bool done = g->twins->asks_whole
-        && code_whole(&w->coder, g->twins, around, v, p->guess, p->size, g->largest.data, x);
+        && code_whole(w->coder, g->twins, around, v, p->guess, p->size, g->largest.data, x);
     for (int j = 0; done && j < AXES; j++) g->gaps.data[AXES * (int64_t)v + j] = size_of(FINE * x[j] - p->guess[j]);
     return done;
 }
@@ -174,7 +174,7 @@ INLINE void expect_image(Model *m, const Place *p, const Around *r, int j, int32
 
 OFTEN static bool code_vertex(void *work, int64_t v) {
     Work *w = work;
-    RangeCoder *coder = &w->coder;
+    RangeCoder *coder = w->coder;
     const Light *g = &w->light;
     Twins *t = g->twins;
     Model m = {.coder = coder, .light = g};
@@ -205,10 +205,9 @@ OFTEN static bool code_vertex(void *work, int64_t v) {
     return !is_lean(g) || remember_twins(t, &g->values, &around, (int32_t)v);
 }
 
-int64_t code_light(Coder given, Corners corners, Light light, int64_t first, int64_t count) {
-    int64_t n = corners.rank.size;
-    Work work = {.corners = corners, .light = light};
-    return code_rows(given, &work.coder, n, first, count, AXES * VALUE_BYTES, code_vertex, &work);
+int64_t code_light(RangeCoder *coder, Corners corners, Light light, int64_t first, int64_t count) {
+    Work work = {.coder = coder, .corners = corners, .light = light};
+    return code_rows(coder, corners.rank.size, first, count, AXES * VALUE_BYTES, code_vertex, &work);
 }
 
 /* Which float of the cell of a grid each coordinate is (specification, V 16). */
@@ -216,7 +215,7 @@ int64_t code_light(Coder given, Corners corners, Light light, int64_t first, int
 enum { HISTORIES = 8, SLOTS = HISTORIES + 1 };
 
 typedef struct {
-    RangeCoder coder;
+    RangeCoder *coder;
     Floats floats;
     const int32_t *values;
     const int64_t *low, *nearest, *high;
@@ -233,9 +232,9 @@ static bool code_cells(void *work, int64_t i) {
         bool new = *known == NO_FLOAT;
         int64_t guess = new ? w->nearest[at] : *known;
         uint32_t *slot = w->floats.slots.data + SLOTS * j + (new ? HISTORIES : *latest & (HISTORIES - 1));
-        int same = code_plain_bit(&w->coder, slot, *number == guess);
+        int same = code_plain_bit(w->coder, slot, *number == guess);
         if (!new) *latest = (2 * *latest + same) & (HISTORIES - 1);
-        *number = same ? guess : w->low[at] + code_uniform(&w->coder, *number - w->low[at], count);
+        *number = same ? guess : w->low[at] + code_uniform(w->coder, *number - w->low[at], count);
         *known = *number;
     }
     return true;
@@ -243,10 +242,10 @@ static bool code_cells(void *work, int64_t i) {
 
 /* Code the numbers of floats, from `low` to below `high`, of values of a grid: each may be the latest of its value, or
  * else, where the value is new, the `nearest` to its place. Returns of how many vertices. */
-int64_t code_floats(Coder given, Floats f, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest, ConstLongs2 high,
-                    Longs2 chosen) {
+int64_t code_floats(RangeCoder *coder, Floats f, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest,
+    ConstLongs2 high, Longs2 chosen) {
     int64_t rows = values.rows;
-    Cells work = {.floats = f, .values = values.data, .low = low.data, .nearest = nearest.data, .high = high.data,
-        .chosen = chosen.data};
-    return code_rows(given, &work.coder, rows, 0, rows, AXES * VALUE_BYTES, code_cells, &work);
+    Cells work = {.coder = coder, .floats = f, .values = values.data, .low = low.data, .nearest = nearest.data,
+        .high = high.data, .chosen = chosen.data};
+    return code_rows(coder, rows, 0, rows, AXES * VALUE_BYTES, code_cells, &work);
 }

@@ -70,14 +70,8 @@ static void code_transform(RangeCoder *coder, ConstInts span, int32_t *number) {
     for (int i = 5; i < 8; i++) number[i] = (int32_t)code_uniform(coder, number[i], shifts);
 }
 
-int64_t code_transforms(Coder given, ConstInts span, Ints2 numbers) {
-    RangeCoder coder;
-    if (!open_coder(&coder, given) || span.size != AXES || numbers.rows > MOST_TRANSFORMS
-        || numbers.columns != TRANSFORM_ROW || !has_room(&coder, TWIN_BYTES * MOST_TRANSFORMS))
-        return MISUSED;
-    for (int64_t i = 0; i < numbers.rows; i++) code_transform(&coder, span, numbers.data + TRANSFORM_ROW * i);
-    close_coder(&coder, given);
-    return 0;
+void code_transforms(RangeCoder *coder, ConstInts span, Ints2 numbers) {
+    for (int64_t i = 0; i < numbers.rows; i++) code_transform(coder, span, numbers.data + TRANSFORM_ROW * i);
 }
 
 static void set_parallel(ConstInts span, const int32_t *number, Image *image) {

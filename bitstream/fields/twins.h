@@ -86,7 +86,7 @@ void start_learnt(const ValueModel *model, Longs2 learners);
 void start_whole(Twins *twins);
 
 /* Code the transforms of a grid, a row each of `numbers`. */
-int64_t code_transforms(Coder coder, ConstInts largest, Ints2 numbers);
+void code_transforms(RangeCoder *coder, ConstInts largest, Ints2 numbers);
 /* The transforms and their inverses. */
 void list_images(ConstInts largest, ConstInts2 numbers, Twins *twins);
 

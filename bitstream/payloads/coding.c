@@ -1,18 +1,23 @@
 #include "bitstream/payloads/coding.h"
 
-enum { AHEAD = 4 };
-
 #ifdef BSMDEC_WRITES
 static void begin_writing(Coding *writing) {
     Writing *to = writing->context->writing;
-    writing->state[1] = UINT32_MAX;
-    writing->coder = (Coder){{writing->state, CODER_STATES}, {to->data + to->size, to->room - to->size}};
+    writing->coder = (RangeCoder){.data = to->data + to->size, .size = to->room - to->size, .range = UINT32_MAX};
 }
 
-static bool finish_writing(const Coding *writing) {
+/* Write the fewest bytes that still tell the last decision (C 1.4). */
+static bool finish_writing(Coding *writing) {
     Writing *to = writing->context->writing;
-    int64_t size = finish_coder(writing->coder);
-    if (size < 0) return FAIL(writing->context, NO_MEMORY, "a payload has no room");
+    RangeCoder *coder = &writing->coder;
+    int64_t size = coder->position, unit = INT64_C(1) << 32, value;
+    if (coder->full || size + AHEAD > coder->size) return FAIL(writing->context, NO_MEMORY, "a payload has no room");
+    while ((value = ((int64_t)coder->low + unit - 1) / unit * unit) >= (int64_t)(coder->low + coder->range)) {
+        unit >>= 8;
+        size++;
+    }
+    for (int64_t i = coder->position; value >> 32 && i > 0 && ++coder->data[i - 1] == 0;) i--;
+    for (int64_t i = coder->position, bits = 24; i < size; i++, bits -= 8) coder->data[i] = (uint8_t)(value >> bits);
     to->size += size;
     to->ends[to->count++] = to->size;
     return true;
@@ -20,7 +25,7 @@ static bool finish_writing(const Coding *writing) {
 
 bool room_to_write(Coding *writing, int64_t bytes) {
     Writing *to = writing->context->writing;
-    int64_t room = to != NULL ? to->size + writing->state[CODER_POSITION] + bytes + AHEAD : 0;
+    int64_t room = to != NULL ? to->size + writing->coder.position + bytes + AHEAD : 0;
     if (to == NULL || room < to->room) return true;
     uint8_t *data;
     if (!TAKE_OF_HOST(writing->context, 2 * room, data)) return false;
@@ -28,7 +33,8 @@ bool room_to_write(Coding *writing, int64_t bytes) {
     host_give(writing->context, to->data, (size_t)to->room);
     to->data = data;
     to->room = 2 * room;
-    writing->coder.data = (Bytes){to->data + to->size, to->room - to->size};
+    writing->coder.data = to->data + to->size;
+    writing->coder.size = to->room - to->size;
     return true;
 }
 #endif
@@ -42,39 +48,36 @@ bool begin_coding(Context *context, Span payload, Coding *coding) {
     if (context->writing != NULL) return begin_writing(coding), true;
 #endif
     if (code >= UINT32_MAX) return FAIL(context, CORRUPT, "an entropy-coded payload cannot begin with ff ff ff ff");
-    *coding = (Coding){.context = context, .state = {(int64_t)code, UINT32_MAX, AHEAD, 1, 0}};
-    coding->coder = (Coder){{coding->state, CODER_STATES}, {(uint8_t *)payload.data, payload.size}}; /* only read */
+    *coding = (Coding){context, {.data = (uint8_t *)payload.data, .size = payload.size, .position = AHEAD, .low = code,
+        .range = UINT32_MAX, .reading = true}}; /* bytes are only read */
     return true;
 }
 
-bool ran_over(const Coding *coding) { return coding->state[CODER_POSITION] > coding->coder.data.size + AHEAD; }
-
 bool nonsense(const Coding *coding, const char *what) {
-    if (ran_over(coding))
+    if (overran(&coding->coder))
         return FAIL(coding->context, TRUNCATED, "an entropy-coded payload of # bytes ends before its last symbol",
-            coding->coder.data.size);
+            coding->coder.size);
     return FAIL(coding->context, CORRUPT, what);
 }
 
-bool finish_coding(const Coding *coding) {
+bool finish_coding(Coding *coding) {
 #ifdef BSMDEC_WRITES
     if (coding->context->writing != NULL) return finish_writing(coding);
 #endif
-    int64_t left = coding->coder.data.size - coding->state[CODER_POSITION];
-    if (ran_over(coding)) return nonsense(coding, "");
+    int64_t left = coding->coder.size - coding->coder.position;
+    if (overran(&coding->coder)) return nonsense(coding, "");
     return left <= 0
         || FAIL(coding->context, CORRUPT, "# bytes are left over behind the last symbol of a payload", left);
 }
 
 bool make_bank(Arena *arena, BankPlan plan, Bank *bank) {
-    if (!take_words(arena, plan.slots, &bank->slots) || !take_ints2(arena, plan.selectors, plan.inputs, &bank->weights)
-        || !take_longs(arena, 2, &bank->settings))
+    if (!TAKE(arena, plan.slots, bank->slots) || !TAKE(arena, plan.selectors * plan.inputs, bank->weights))
         return false;
     uint32_t probability = (uint32_t)(plan.probability > 0 ? plan.probability : ONE / 2);
     int32_t weight = plan.inputs < 3 ? ONE / plan.inputs : ONE * 5 / (4 * plan.inputs);
-    for (int64_t i = 0; i < plan.slots; i++) bank->slots.data[i] = probability << 16 | (uint32_t)plan.trust;
-    for (int64_t i = 0; i < plan.selectors * plan.inputs; i++) bank->weights.data[i] = weight;
-    bank->settings.data[0] = plan.limit > 0 ? plan.limit : 255;
-    bank->settings.data[1] = plan.rate > 0 ? plan.rate : 14;
+    for (int64_t i = 0; i < plan.slots; i++) bank->slots[i] = probability << 16 | (uint32_t)plan.trust;
+    for (int64_t i = 0; i < plan.selectors * plan.inputs; i++) bank->weights[i] = weight;
+    bank->limit = plan.limit > 0 ? plan.limit : 255;
+    bank->rate = plan.rate > 0 ? plan.rate : 14;
     return true;
 }

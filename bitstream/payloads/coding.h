@@ -1,16 +1,14 @@
-/* What entropy-coded payloads are read with (specification, C 1 to C 3): the kernels' coder and banks, of a decoder's
- * memory. */
+/* What entropy-coded payloads are read with (specification, C 1 to C 3): a coder, and banks in memory of a decoder. */
 #pragma once
 
 #include "bitstream/entropy/entropy.h"
 #include "bitstream/container/wire.h"
 #include "bitstream/payloads/payloads.h"
 
-/* A payload that is read; it must not be moved, for `coder` points into it. */
+/* A payload that is read, or written. */
 typedef struct {
     Context *context;
-    int64_t state[CODER_STATES];
-    Coder coder;
+    RangeCoder coder;
 } Coding;
 
 bool begin_coding(Context *context, Span payload, Coding *coding);
@@ -20,11 +18,9 @@ bool room_to_write(Coding *coding, int64_t bytes);
 #else
 INLINE bool room_to_write(Coding *coding, int64_t bytes) { return (void)coding, (void)bytes, true; }
 #endif
-/* Whether more was read than any payload of this length can hold (C 1.6). */
-bool ran_over(const Coding *coding);
 /* The error that nonsense is: truncated if the payload is over. */
 bool nonsense(const Coding *coding, const char *what);
-/* Whether the payload was read exactly to its end (C 1.5). */
-bool finish_coding(const Coding *coding);
+/* Whether the payload was read exactly to its end (C 1.5), or written. */
+bool finish_coding(Coding *coding);
 
 MUST_CHECK bool make_bank(Arena *arena, BankPlan plan, Bank *bank);

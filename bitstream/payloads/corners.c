@@ -47,7 +47,7 @@ bool make_learners(Arena *arena, int64_t count, Longs2 *learners) {
     return zero_longs2(arena, count, LEARNER_COLUMNS, learners);
 }
 
-bool check_chunk_done(const Coding *coding, int64_t done, int64_t count) {
-    if (ran_over(coding) || done < count) return nonsense(coding, "a value is out of its range");
+bool check_chunk_done(Coding *coding, int64_t done, int64_t count) {
+    if (overran(&coding->coder) || done < count) return nonsense(coding, "a value is out of its range");
     return finish_coding(coding);
 }

@@ -11,4 +11,4 @@ bool order_mesh(Corners *corners, Arena *arena, Arena *scratch, Ints *order);
 MUST_CHECK bool make_value_model(Arena *arena, ValueModel *model, bool of_twins);
 MUST_CHECK bool make_learners(Arena *arena, int64_t count, Longs2 *learners);
 /* What a kernel of values says of a payload: how many of `count` it has done. */
-bool check_chunk_done(const Coding *coding, int64_t done, int64_t count);
+bool check_chunk_done(Coding *coding, int64_t done, int64_t count);

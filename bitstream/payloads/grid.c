@@ -92,12 +92,9 @@ static bool begin_floats(GridField *field, Arena *arena) {
 }
 
 /* The transforms, which precede the first value (V 17.2). */
-static bool code_twins(GridField *field, Coder coder) {
-    ConstInts span = const_ints(field->largest);
-    if (code_transforms(coder, span, field->transforms) < 0)
-        return FAIL(field->context, CORRUPT, "transforms that cannot be read");
-    list_images(span, const_ints2(field->transforms), field->twins);
-    return true;
+static void code_twins(GridField *field, RangeCoder *coder) {
+    code_transforms(coder, const_ints(field->largest), field->transforms);
+    list_images(const_ints(field->largest), const_ints2(field->transforms), field->twins);
 }
 
 bool begin_grid(GridField *field, const GridField *like, Context *context, const Header *header, ConstInts2 faces,
@@ -118,14 +115,13 @@ bool begin_grid(GridField *field, const GridField *like, Context *context, const
 
 bool code_grid_values(GridField *field, int64_t first, int64_t count, Span payload) {
     Coding coding;
-    if (!begin_coding(field->context, payload, &coding)
-        || (first == 0 && field->twins != NULL && !code_twins(field, coding.coder)))
-        return false;
+    if (!begin_coding(field->context, payload, &coding)) return false;
+    if (first == 0 && field->twins != NULL) code_twins(field, &coding.coder);
     int64_t looks = (int64_t)(work_left(field->context) / LOOK_WORK);
     if (field->twins != NULL) field->twins->looks = looks;
     int64_t done = method_of(field->header) == LIGHT
-        ? code_light(coding.coder, field->corners, field->light, first, count)
-        : code_grid(coding.coder, field->model, field->corners, field->grid, first, count);
+        ? code_light(&coding.coder, field->corners, field->light, first, count)
+        : code_grid(&coding.coder, field->model, field->corners, field->grid, first, count);
     return (field->twins == NULL || charge(field->context, LOOK_WORK * (double)(looks - field->twins->looks), 0))
         && check_chunk_done(&coding, done, count);
 }
@@ -183,7 +179,7 @@ bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scr
         high.data[i] = number_of_float(up + header->center[j]);
         chosen.data[i] = number_of_float(field->positions.data[AXES * (int64_t)vertices.data[i / AXES] + j]);
     }
-    int64_t done = code_floats(coding.coder, field->floats, const_ints2(values), const_longs2(low), const_longs2(near),
+    int64_t done = code_floats(&coding.coder, field->floats, const_ints2(values), const_longs2(low), const_longs2(near),
         const_longs2(high), chosen);
     if (!check_chunk_done(&coding, done, count)) return false;
     double spoiled = 0.0;

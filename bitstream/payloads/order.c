@@ -12,15 +12,15 @@ static bool code_permutation(Coding *coding, Arena *scratch, Ints values) {
     Bank bank;
     Ints tree;
     if (!make_bank(scratch, STEP_BANK, &bank) || !take_ints(scratch, values.size + 1, &tree)) return false;
-    bool legal = code_steps(coding->coder, bank, values, tree);
-    return (legal && !ran_over(coding)) || nonsense(coding, "a payload is not a permutation");
+    bool legal = code_steps(&coding->coder, &bank, values, tree);
+    return (legal && !overran(&coding->coder)) || nonsense(coding, "a payload is not a permutation");
 }
 
 static bool code_small(Coding *coding, Arena *scratch, Ints values) {
     Bank bank;
     if (!make_bank(scratch, TURN_BANK, &bank)) return false;
-    bool legal = code_turns(coding->coder, bank, values);
-    return (legal && !ran_over(coding)) || nonsense(coding, "a payload is not numbers from 0 to 2");
+    code_turns(&coding->coder, &bank, values);
+    return !overran(&coding->coder) || nonsense(coding, "");
 }
 
 /* Whole numbers, as a matrix of one column (F 9.3); a writer says how many come before all that are 0. */
@@ -28,9 +28,9 @@ static bool code_column(Coding *coding, Arena *scratch, Ints values, int64_t use
     Bank bank;
     Longs slow;
     if (!make_bank(scratch, MATRIX_BANK, &bank) || !take_longs(scratch, 1, &slow)) return false;
-    code_matrix(coding->coder, bank, (Ints2){values.data, values.size, 1}, (ConstInts2){values.data, 0, 1}, used, 1, 0,
+    code_matrix(&coding->coder, &bank, (Ints2){values.data, values.size, 1}, (ConstInts2){values.data, 0, 1}, used, 1, 0,
         values.size, 1, slow);
-    return !ran_over(coding) || nonsense(coding, "");
+    return !overran(&coding->coder) || nonsense(coding, "");
 }
 
 /* Corner k of a face, of the three in ascending order. */

@@ -9,24 +9,20 @@ enum { FIRST_NODES_ROOM = 16, EVENT_TRUST = 30,
 /* Bytes that decoding and the graph take at most for each; only fans that are sewn together count (M 14.8). */
 static const double FACE_MEMORY = 100, VERTEX_MEMORY = 400, FAN_MEMORY = 240;
 
-static bool make_models(Arena *arena, int64_t vertices, ValenceModel *models, Bank *rare) {
+static bool make_models(Arena *arena, int64_t vertices, ValenceModel *models) {
     int bits = (int)largest(LEAST_HASH_BITS, least(64 - __builtin_clzll((uint64_t)vertices) - 2, MOST_HASH_BITS));
     int64_t valences = ((int64_t)VALENCE_CONTEXTS << bits) * VALENCE_NODES;
-    Bank valence, event;
     models->bits = bits;
     return make_bank(arena, (BankPlan){.slots = valences, .selectors = VALENCE_NODES, .inputs = VALENCE_CONTEXTS,
-        .limit = 1023, .rate = 16}, &valence)
+        .limit = 1023, .rate = 16}, &models->valence)
         && make_bank(arena, (BankPlan){.slots = EVENT_CONTEXTS * EVENT_SIZE, .selectors = 1, .inputs = EVENT_CONTEXTS,
-            .limit = 1023, .rate = 16, .probability = ONE - ONE / 500, .trust = EVENT_TRUST}, &event)
-        && make_bank(arena, (BankPlan){.slots = RARE_NODES, .selectors = RARE_NODES, .inputs = 1}, rare)
-        && open_bank(&models->valence, valence, valences, VALENCE_NODES, VALENCE_CONTEXTS)
-        && open_bank(&models->event, event, EVENT_CONTEXTS * EVENT_SIZE, 1, EVENT_CONTEXTS)
-        && open_bank(&models->rare, *rare, RARE_NODES, RARE_NODES, 1);
+            .limit = 1023, .rate = 16, .probability = ONE - ONE / 500, .trust = EVENT_TRUST}, &models->event)
+        && make_bank(arena, (BankPlan){.slots = RARE_NODES, .selectors = RARE_NODES, .inputs = 1}, &models->rare);
 }
 
-static int64_t code_count(Coding *coding, Bank rare, int64_t count) {
+static int64_t code_count(Coding *coding, const Bank *rare, int64_t count) {
     int64_t context = 0;
-    return code_one_unsigned(coding->coder, rare, (ConstLongs){&context, 1}, 0, RARE_UNARY, count, RARE_HEADER);
+    return code_unsigned(&coding->coder, rare, 1, &context, 0, RARE_UNARY, count, RARE_HEADER);
 }
 
 /* The conquest (C 6) of faces that do not repeat a corner, with more memory for its front each time it asks. */
@@ -40,7 +36,7 @@ static bool code_surface(Coding *coding, Conquest *walk, Arena *scratch, Ints2 f
     if (!TAKE(scratch, walk->vertex_room, walk->vertices) || !TAKE(scratch, walk->front.capacity, walk->front.nodes))
         return false;
     for (;;) {
-        ConquestEnd end = conquer(coding->coder, walk);
+        ConquestEnd end = conquer(walk);
         if (end == CONQUEST_DONE) return true;
         Node *nodes = walk->front.nodes, *wider;
         int64_t made = walk->front.capacity;
@@ -87,7 +83,7 @@ static int64_t join_fans(Coding *coding, Arena *scratch, Ints2 faces, Ints known
         if (!take_ints(scratch, fans, &known)) return -1;
         for (int64_t i = 0; i < fans; i++) known.data[i] = -1;
     }
-    int64_t count = code_fans(coding->coder, bank, const_ints(known), (Seams){vertex, after, before, sibling, latest});
+    int64_t count = code_fans(&coding->coder, &bank, const_ints(known), (Seams){vertex, after, before, sibling, latest});
     for (int64_t i = 0; count >= 0 && i < 3 * faces.rows; i++) faces.data[i] = vertex.data[faces.data[i]];
     return count;
 }
@@ -106,9 +102,9 @@ static void number_vertices(const Surface *surface, int64_t fans, Ints corners) 
 static bool code_faces_of(Coding *coding, const Header *header, const Surface *surface, Arena *arena, Arena *scratch,
     Ints2 *faces) {
     Context *context = coding->context;
-    Conquest walk = {.map = surface->guide};
-    Bank rare;
-    if (!make_models(scratch, header->vertices, &walk.model, &rare)) return false;
+    Conquest walk = {.coder = &coding->coder, .map = surface->guide};
+    const Bank *rare = &walk.model.rare;
+    if (!make_models(scratch, header->vertices, &walk.model)) return false;
     int64_t repeated = code_count(coding, rare, surface->repeated);
     int64_t lonely = code_count(coding, rare, surface->lonely);
     int64_t surplus = code_count(coding, rare, surface->surplus);
@@ -120,7 +116,7 @@ static bool code_faces_of(Coding *coding, const Header *header, const Surface *s
     double memory = FACE_MEMORY * (double)header->faces + VERTEX_MEMORY * (double)header->vertices
         + FAN_MEMORY * (double)(surplus + dummies);
     if (!WITHIN(context, vertices, fans + dummies)
-        || !within_memory(context, memory, header->vertices, (double)coding->coder.data.size))
+        || !within_memory(context, memory, header->vertices, (double)coding->coder.size))
         return false;
     if (!take_ints2(arena, header->faces, 3, faces)) return false;
     Ints2 usual = {faces->data, proper, 3};
@@ -133,7 +129,7 @@ static bool code_faces_of(Coding *coding, const Header *header, const Surface *s
 #endif
     int64_t count = surplus > 0 ? join_fans(coding, scratch, usual, known) : fans;
     if (failed(context)) return false;
-    if (count != regular || code_degenerate(coding->coder, corners, count) != header->vertices)
+    if (count != regular || code_degenerate(&coding->coder, corners, count) != header->vertices)
         return nonsense(coding, "a connectivity payload does not make its vertices");
     return finish_coding(coding);
 }
@@ -148,12 +144,16 @@ bool code_connectivity(Context *context, Span payload, const Header *header, con
     return done;
 }
 
-bool decode_labels(Context *context, Span payload, ConstInts offsets, ConstInts neighbors, int64_t parts,
+enum { LABEL_BYTES = 8 }; /* more than a label can take */
+
+bool code_partition(Context *context, Span payload, ConstInts offsets, ConstInts neighbors, int64_t parts,
     Arena *scratch, Ints labels) {
     Coding coding;
     Bank bank;
-    if (!make_bank(scratch, LABEL_BANK, &bank) || !begin_coding(context, payload, &coding)) return false;
-    int64_t used = code_labels(coding.coder, bank, offsets, neighbors, labels, parts);
+    if (!make_bank(scratch, LABEL_BANK, &bank) || !begin_coding(context, payload, &coding)
+        || !room_to_write(&coding, LABEL_BYTES * labels.size))
+        return false;
+    int64_t used = code_labels(&coding.coder, &bank, offsets, neighbors, labels, parts);
     return finish_coding(&coding)
         && (used == parts || FAIL(context, CORRUPT, "the partition has # parts where the header has #", used, parts));
 }

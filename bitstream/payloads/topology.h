@@ -16,5 +16,5 @@ typedef struct {
 bool code_connectivity(Context *context, Span payload, const Header *header, const Surface *surface, Arena *arena,
     Arena *scratch, Ints2 *faces);
 /* `offsets`, `neighbors`: of the graph of a mesh. */
-bool decode_labels(Context *context, Span payload, ConstInts offsets, ConstInts neighbors, int64_t parts,
+bool code_partition(Context *context, Span payload, ConstInts offsets, ConstInts neighbors, int64_t parts,
     Arena *scratch, Ints labels);

@@ -186,12 +186,12 @@ static int64_t find_levels(ConstInts2 levels, int64_t from, int64_t *few) {
 }
 
 /* Read levels, or write those that are there. */
-static bool code_matrices(Context *context, Bank bank, Span payload, const Matrix *matrices, int64_t count,
+static bool code_matrices(Context *context, const Bank *bank, Span payload, const Matrix *matrices, int64_t count,
     int64_t columns, int64_t stair, Arena *scratch) {
     Coding coding;
     Longs slow;
     if (!take_longs(scratch, columns, &slow) || !begin_coding(context, payload, &coding)) return false;
-    for (int64_t i = 0; i < count && !ran_over(&coding); i++) {
+    for (int64_t i = 0; i < count && !overran(&coding.coder); i++) {
         const Matrix *m = matrices + i;
         Ints2 levels = {m->levels, m->rows, columns};
         ConstInts2 reference = {m->reference, m->reference_rows, columns};
@@ -199,9 +199,9 @@ static bool code_matrices(Context *context, Bank bank, Span payload, const Matri
         if (CHOOSES) find_levels(const_ints2(levels), turn, &few);
         if (!room_to_write(&coding, 16 * m->rows * columns + 64)) return false;
         if (m->lead > 0)
-            code_matrix(coding.coder, bank, levels, reference, coded, least(m->lead, columns), least(stair, columns),
+            code_matrix(&coding.coder, bank, levels, reference, coded, least(m->lead, columns), least(stair, columns),
                 m->rows, columns, slow);
-        else code_matrix(coding.coder, bank, levels, reference, coded, columns, 0, turn, few, slow);
+        else code_matrix(&coding.coder, bank, levels, reference, coded, columns, 0, turn, few, slow);
     }
     return finish_coding(&coding);
 }
@@ -282,7 +282,7 @@ static bool code_basis(Context *context, const GopField *field, int64_t frames, 
             (ConstInts2){matrices[c].reference, matrices[c].reference_rows, r}, c + 1, width, 1.0,
             (Doubles2){NULL, 0, r}, (Doubles2){NULL, 0, r}, scratch, (Ints2){matrices[c].levels, frames, r},
             rows_from(turned, c * frames, frames));
-    done = done && code_matrices(context, bank, field->basis, matrices, width, r, width, scratch);
+    done = done && code_matrices(context, &bank, field->basis, matrices, width, r, width, scratch);
     if (done)
         basis_of_levels((ConstInts2){levels.data, width * frames, r}, const_ints(field->exponents),
             const_doubles2(time), turned, vector, shares, *basis);
@@ -487,7 +487,7 @@ static int64_t coded_rows(const Gops *gops) {
 }
 
 /* The levels of all parts in a field, whose references are the parts before (no `before`) or the same parts there. */
-static bool code_levels(Gops *gops, Bank bank, const GopField *field, const int32_t *before, int64_t columns,
+static bool code_levels(Gops *gops, const Bank *bank, const GopField *field, const int32_t *before, int64_t columns,
     Arena *scratch, Ints levels) {
     Mark mark = mark_of(scratch);
     Matrix *matrices;
@@ -541,13 +541,13 @@ static bool code_learned(Gops *gops, const Gop *gop, Arena *scratch) {
         Mark mark = mark_of(scratch);
         if (!make_bank(scratch, MATRIX_BANK, &bank)
             || (field->step > 0 && !choosing
-                && !code_levels(gops, bank, field, NULL, field->components, scratch, decoding.levels[k])))
+                && !code_levels(gops, &bank, field, NULL, field->components, scratch, decoding.levels[k])))
             return false;
         if (!choosing) release_to(scratch, mark);
     }
     if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)
         || (choosing
-            && !code_levels(gops, bank, gop->field, NULL, gop->field->components, scratch, *decoding.levels)))
+            && !code_levels(gops, &bank, gop->field, NULL, gop->field->components, scratch, *decoding.levels)))
         return false;
     release_all(&gops->history);
     for (int k = 0; k < gops->tracks; k++) {
@@ -637,13 +637,13 @@ static bool code_next(Gops *gops, const Gop *gop, Arena *scratch) {
             || !hold_cosines(track->width, const_doubles2(decoding.time), &gops->frames, gops->basis + k))
             return false;
         if (field->components > 0 && !choosing
-            && !code_levels(gops, track->bank, field, track->levels.data, columns, scratch, decoding.levels[k]))
+            && !code_levels(gops, &track->bank, field, track->levels.data, columns, scratch, decoding.levels[k]))
             return false;
     }
     gops->together = gop->frames;
     if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)
         || (choosing
-            && !code_levels(gops, gops->track->bank, gop->field, gops->track->levels.data, gops->basis->columns,
+            && !code_levels(gops, &gops->track->bank, gop->field, gops->track->levels.data, gops->basis->columns,
                 scratch, *decoding.levels)))
         return false;
     for (int k = 0; k < gops->tracks; k++) {
@@ -718,9 +718,9 @@ bool copy_gops(const Gops *from, int k, Context *context, Arena *arena, Gops *co
     if (!make_bank(&copy->history, MATRIX_BANK, &own->bank)
         || !take_ints(&copy->levels, given->levels.size, &own->levels))
         return false;
-    memcpy(own->bank.slots.data, given->bank.slots.data, (size_t)own->bank.slots.size * sizeof(uint32_t));
-    memcpy(own->bank.weights.data, given->bank.weights.data,
-        (size_t)(own->bank.weights.rows * own->bank.weights.columns) * sizeof(int32_t));
+    const BankPlan *plan = &MATRIX_BANK;
+    memcpy(own->bank.slots, given->bank.slots, (size_t)plan->slots * sizeof(uint32_t));
+    memcpy(own->bank.weights, given->bank.weights, (size_t)(plan->selectors * plan->inputs) * sizeof(int32_t));
     memcpy(own->levels.data, given->levels.data, (size_t)own->levels.size * sizeof(int32_t));
     for (int64_t t = 0; t < MOST_KEPT; t++) {
         if (given->ring[t].data == NULL) continue;

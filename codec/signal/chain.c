@@ -6,6 +6,7 @@
 #include "bitstream/payloads/zstd.h"
 
 static const double STIFFNESS = 8; /* half of it costs 1.0 %, twice 1.6 % */
+enum { LEVEL_BYTES = 64 }; /* more than a level can take */
 enum { PRIOR_WEIGHTS = EXPECTATIONS * SITUATIONS * NEIGHBORS, PRIOR_MIXES = SELECTORS * NODES * EXPECTATIONS };
 
 bool begin_chains(Chains *chains, Context *context, const Header *header, const Graph *graph, const Blocks *blocks,
@@ -29,10 +30,10 @@ static uint16_t prior(int64_t place) { return (uint16_t)(PRIORS[2 * place] | PRI
 /* What the coder starts from (M 9.1, M 9.2). */
 static void learn_beforehand(Chains *chains) {
     for (int64_t i = 0; i < PRIOR_WEIGHTS; i++) chains->expectations.data[i] = prior(i);
-    for (int64_t i = 0; i < PRIOR_MIXES; i++) chains->bank.weights.data[i] = 16 * (int16_t)prior(PRIOR_WEIGHTS + i);
+    for (int64_t i = 0; i < PRIOR_MIXES; i++) chains->bank.weights[i] = 16 * (int16_t)prior(PRIOR_WEIGHTS + i);
     for (int64_t i = 0; i < LEVEL_SLOTS; i++) {
         uint32_t stored = prior(PRIOR_WEIGHTS + PRIOR_MIXES + i);
-        chains->bank.slots.data[i] = (stored >> 4) << 20 | 1u << 19 | (stored & 15) << 2;
+        chains->bank.slots[i] = (stored >> 4) << 20 | 1u << 19 | (stored & 15) << 2;
     }
 }
 
@@ -64,13 +65,14 @@ static void enter_chain(Chains *chains, int64_t number) {
 bool begin_chain(Chains *chains, int64_t number) {
     Arena *arena = &chains->chain;
     Past *past = &chains->past;
-    int64_t rows = ABOVE + chains->header->coefficients + BEYOND;
+    int64_t width = chains->header->coefficients, size = 3 * (ABOVE + width + BEYOND);
+    Ints magnitudes;
     enter_chain(chains, number);
     if (!make_bank(arena, BLOCK_BANK, &chains->bank)
-        || !zero_ints2(arena, rows, 3, &past->current) || !zero_ints2(arena, rows, 3, &past->before)
-        || !zero_ints2(arena, rows, 3, &past->usual) || !zero_longs(arena, 1, &past->blocks)
-        || !take_ints2(arena, EXPECTATIONS * SITUATIONS, NEIGHBORS, &chains->expectations))
+        || !zero_ints(arena, 3 * size, &magnitudes) || !take_ints(arena, PRIOR_WEIGHTS, &chains->expectations))
         return false;
+    int32_t *first = magnitudes.data + 3 * ABOVE;
+    *past = (Past){first, first + size, first + 2 * size, width, 0};
     learn_beforehand(chains);
     return !chains->knows || charge(chains->context, chain_work((double)chains->graph->size), 0);
 }
@@ -96,13 +98,14 @@ static bool read_packed(Chains *chains, Span payload, int64_t count, Arena *scra
     return true;
 }
 
-/* Coded coefficients (M 9.1 to M 9.11), `count` rows of three. */
-static bool read_levels(Chains *chains, Span payload, Ints2 levels) {
+/* Coded coefficients (M 9.1 to M 9.11), rows of three. */
+static bool code_coefficients(Chains *chains, Span payload, Ints2 levels) {
     Coding coding;
     if (levels.rows > chains->header->coefficients)
         return FAIL(chains->context, CORRUPT, "# coefficients are too many", levels.rows);
-    if (!begin_coding(chains->context, payload, &coding)) return false;
-    code_block(coding.coder, chains->bank, chains->past, const_ints2(chains->expectations), levels);
+    if (!begin_coding(chains->context, payload, &coding) || !room_to_write(&coding, 3 * LEVEL_BYTES * levels.rows))
+        return false;
+    code_block(&coding.coder, &chains->bank, &chains->past, chains->expectations.data, levels);
     return finish_coding(&coding);
 }
 
@@ -150,6 +153,49 @@ void weigh_rows(const Patch *patch, Doubles weights) {
     for (int64_t r = 0; r < patch->size; r++)
         weights.data[r] = patch->diagonal.data[r] > 1.0 ? patch->diagonal.data[r] : 1.0;
 }
+
+#ifdef BSMDEC_WRITES
+Singles2 first_columns(Singles2 dictionary, int64_t width) {
+    Singles2 first = {dictionary.data, dictionary.rows, width};
+    for (int64_t r = 1; width < dictionary.columns && r < first.rows; r++)
+        memmove(first.data + r * width, dictionary.data + r * dictionary.columns, (size_t)width * sizeof *first.data);
+    return first;
+}
+
+/* Levels nearest to coefficients; returns the rows that they take, one at least. */
+static int64_t round_coefficients(ConstDoubles2 coefficients, double step, Arena *scratch, Ints2 levels) {
+    int64_t count = 3 * coefficients.rows, rows = 1;
+    const double most = (double)MAX_LEVEL * TARGET_UNIT;
+    Longs targets;
+    int32_t *ways;
+    uint8_t *origins;
+    if (!take_longs(scratch, count, &targets) || !TAKE(scratch, count * TRELLIS_STATES, ways)
+        || !TAKE(scratch, count * TRELLIS_STATES, origins))
+        return 0;
+    for (int64_t i = 0; i < count; i++) {
+        double target = __builtin_rint(coefficients.data[i] * (TARGET_UNIT / step));
+        targets.data[i] = (int64_t)(target > most ? most : target > -most ? target : -most);
+    }
+    nearest_levels((ConstLongs){targets.data, count}, ways, origins, levels.data);
+    for (int64_t i = 0; i < count; i++)
+        if (levels.data[i] != 0) rows = i / 3 + 1;
+    return rows;
+}
+
+bool write_levels(Chains *chains, ConstDoubles2 prediction, ConstSingles2 dictionary, ConstDoubles2 coefficients,
+    bool all, Arena *scratch, int64_t *rows, Doubles2 positions) {
+    double step = chains->header->step;
+    Ints2 levels;
+    Doubles room;
+    if (!take_ints2(scratch, coefficients.rows, 3, &levels) || !take_doubles(scratch, 3 * coefficients.rows, &room))
+        return false;
+    int64_t used = round_coefficients(coefficients, step, scratch, levels);
+    *rows = levels.rows = all ? coefficients.rows : used;
+    if (used == 0 || !code_coefficients(chains, (Span){0}, levels)) return false;
+    place_block(prediction, dictionary, const_ints2(levels), step / 2, room, positions);
+    return true;
+}
+#endif
 
 /* Positions of a block whose levels are known (M 10.2). */
 static bool place(Chains *chains, Suspended *block, int64_t index, int64_t width, Ints2 levels, Doubles2 coefficients,
@@ -201,7 +247,7 @@ static bool decode_next(Chains *chains, int64_t index, int64_t width, Span paylo
             || !read_packed(chains, payload, width, scratch, coefficients))
             return false;
     } else {
-        if (!zero_ints2(scratch, width, 3, &levels) || !read_levels(chains, payload, levels)) return false;
+        if (!zero_ints2(scratch, width, 3, &levels) || !code_coefficients(chains, payload, levels)) return false;
     }
     return find_patch_fronts(context, scratch, patch) && fits_memory(context, patch_memory(&patch->fronts, width))
         && place(chains, &block, index, width, levels, coefficients, scratch, decoded);

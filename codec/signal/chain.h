@@ -27,7 +27,7 @@ typedef struct {
     bool elsewhere;            /* what the chain has learned is not here: its blocks were decoded ahead */
     Bank bank;
     Past past;
-    Ints2 expectations;
+    Ints expectations;
 } Chains;
 
 /* A block whose levels have not been read yet: its patch, the springs to known positions around it, and the smooth
@@ -70,6 +70,14 @@ bool suspend_block(Chains *chains, Arena *scratch, Suspended *block);
 bool make_dictionary(Chains *chains, const Suspended *block, int64_t width, Arena *scratch, Singles2 *dictionary);
 void weigh_rows(const Patch *patch, Doubles weights);
 void commit_block(Chains *chains, Singles2 dictionary, const DecodedBlock *decoded);
+#ifdef BSMDEC_WRITES
+/* Leave the first columns of a dictionary. */
+Singles2 first_columns(Singles2 dictionary, int64_t width);
+/* Write the levels nearest to coefficients, in steps of the header: all `rows`, or those up to the last that is not 0;
+ * and place the block as decoders will. */
+bool write_levels(Chains *chains, ConstDoubles2 prediction, ConstSingles2 dictionary, ConstDoubles2 coefficients,
+    bool all, Arena *scratch, int64_t *rows, Doubles2 positions);
+#endif
 /* Forget the chain under way: the next block begins one. */
 void leave_chain(Chains *chains);
 /* Count a block as decoded that other chains decoded, and make its charges. */

@@ -80,10 +80,11 @@ def even_interval(interval: int, blocks: int) -> int:
 class Chain(Steps):
     """The blocks of one chain after the other; a dictionary and predictions may be a user's."""
 
-    def __init__(self, rules: ChainRules, blocks: Blocks) -> None:
+    def __init__(self, rules: ChainRules, blocks: Blocks, width: int = 0) -> None:
         graph, self._own = blocks.graph, rules.overrides
         arrays = graph.offsets, graph.neighbors, blocks.cores, blocks.starts, blocks.edges, blocks.members
-        super().__init__(*arrays, **{name: value for name, value in vars(rules).items() if name != "overrides"})
+        given = {name: value for name, value in vars(rules).items() if name != "overrides"}
+        super().__init__(*arrays, **given, width=width)
 
     def begin(self, index: int) -> tuple[Indices, Matrix, Matrix]:
         """Return the vertices of the next block, its prediction, shape (n_i, 3), and its weights in a blend."""

@@ -105,7 +105,7 @@ bool code_layer(Layer *layer, int64_t first, int64_t count, Span payload) {
     Coding coding;
     return begin_coding(layer->context, payload, &coding)
         && check_chunk_done(&coding,
-            code_levels(coding.coder, layer->bank, layer->corners, layer->levels, first, count), count);
+            code_levels(&coding.coder, &layer->bank, layer->corners, layer->levels, first, count), count);
 }
 
 bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch) {

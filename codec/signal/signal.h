@@ -16,7 +16,7 @@ void continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDo
 void suspend(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
     ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch,
     Singles values, Singles inverse, Doubles2 continued);
-int64_t place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step,
+void place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step,
     Doubles scratch, Doubles2 positions);
 void apply_powers(ConstInts offsets, ConstInts neighbors, Doubles terms, int64_t degree);
 void combine_powers(ConstDoubles2 positions, ConstDoubles terms, double amount, Doubles2 smoothed);

@@ -8,10 +8,9 @@ coefficient.
 import math
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm._core import codec as _kernels
-from bsm.codec.arrays import Basis, Levels, Matrix
+from bsm.codec.arrays import Basis, Matrix
 from bsm.codec.basis.laplacian import solver_of
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blocks
@@ -25,13 +24,6 @@ def project(subspace: Basis, values: Matrix, count: int) -> Matrix:
     coefficients = np.empty((count, flat.shape[1]))
     _kernels.project(np.ascontiguousarray(subspace), flat, coefficients)
     return coefficients.reshape(count, *values.shape[1:])
-
-
-def placed(prediction: Matrix, subspace: Basis, levels: Levels, step: float) -> Matrix:
-    """Prediction, shape (n, 3), plus U times the coefficients of levels, shape (c, 3), on the trellis's two grids."""
-    positions = np.empty(prediction.shape)
-    _kernels.place_block(prediction, subspace, levels, step / 2, np.empty(levels.size), positions)
-    return positions
 
 
 def reconstruct(subspace: Basis, coefficients: Matrix) -> Matrix:
@@ -60,12 +52,6 @@ def packed_range(first: float, others: float, bits: int) -> tuple[float, int]:
     while first > half * step * 2**coarser:
         coarser += 1
     return step, coarser
-
-
-def targets(coefficients: Matrix, step: float, unit: int, largest: int) -> npt.NDArray[np.int64]:
-    """Coefficients, shape (c, 3), in whole multiples of `step` / `unit`, cut to `largest` steps."""
-    scaled = np.rint(coefficients * (unit / step))
-    return np.clip(scaled, -largest * unit, largest * unit).astype(np.int64)
 
 
 SAMPLES = 2  # blocks that are measured; one, or four, come to 1 % more bytes, which is chance

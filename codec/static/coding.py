@@ -1,32 +1,18 @@
-"""Ways of coding the residual of a block's prediction: `choose`, `write` and `positions`, block by block."""
+"""Ways of coding the residual of a block's prediction."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 
-from bsm.bitstream.coefficients import adaptive
 from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
 from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Paper
-from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Basis, Integers, Matrix
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.signal import transform
-from bsm.codec.signal.chain import ChainRules
-
-
-@dataclass(frozen=True, eq=False)
-class Ground:
-    """What both sides know of a block before its levels: where its rows are expected, shape (n, 3), and U."""
-
-    prediction: Matrix
-    dictionary: Basis
-
-    def add(self, coefficients: Matrix) -> Matrix:
-        """The prediction, and U times coefficients, shape (c_i, 3)."""
-        return self.prediction + transform.reconstruct(self.dictionary, coefficients)
+from bsm.codec.signal.chain import Chain, ChainRules
 
 
 @dataclass(frozen=True)
@@ -38,21 +24,19 @@ class Packed:
     step: float
     coarser: int
 
-    def begin(self) -> Packed:
-        return self
-
-    def choose(self, coefficients: Matrix, sized: bool) -> Integers:
-        return np.rint(coefficients / self._steps(len(coefficients))).astype(np.int64)
-
-    def write(self, levels: Integers) -> bytes:
-        half = 1 << (self.bits - 1)
-        return pack_coefficients(np.clip(levels + half, 0, 2 * half - 1), self.bits)
+    def write(
+        self, chain: Chain, prediction: Matrix, dictionary: Basis, coefficients: Matrix, sized: bool
+    ) -> tuple[int, bytes, Matrix]:
+        """c_i, the payload of coefficients, shape (c, 3), and the decoded positions of a chain's present block."""
+        levels, half = np.rint(coefficients / self._steps(len(coefficients))).astype(np.int64), 1 << (self.bits - 1)
+        data = pack_coefficients(np.clip(levels + half, 0, 2 * half - 1), self.bits)
+        return len(levels), data, self.positions(prediction, dictionary, levels)
 
     def read(self, data: bytes, count: int) -> Integers:
         return unpack_coefficients(data, self.bits, 3 * count).reshape(-1, 3) - (1 << (self.bits - 1))
 
-    def positions(self, ground: Ground, levels: Integers) -> Matrix:
-        return ground.add(levels * self._steps(len(levels)))
+    def positions(self, prediction: Matrix, dictionary: Basis, levels: Integers) -> Matrix:
+        return prediction + transform.reconstruct(dictionary, levels * self._steps(len(levels)))
 
     def _steps(self, count: int) -> Matrix:
         steps = np.full((count, 1), self.step)
@@ -60,7 +44,7 @@ class Packed:
         return steps
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True)
 class Adaptive:
     """Levels on two grids, coded with the statistics of the chain."""
 
@@ -70,23 +54,11 @@ class Adaptive:
     width: int
     step: float
 
-    @cached_property
-    def model(self) -> adaptive.CoefficientModel:
-        return adaptive.CoefficientModel(self.width)
-
-    def begin(self) -> Adaptive:
-        return replace(self)
-
-    def choose(self, coefficients: Matrix, sized: bool) -> Integers:
-        targets = transform.targets(coefficients, self.step, adaptive.TARGET_UNIT, adaptive.MAX_LEVEL)
-        levels = adaptive.nearest_levels(targets)
-        return levels if sized else levels[: 1 + int(np.flatnonzero(levels.any(axis=1)).max(initial=0))]
-
-    def write(self, levels: Integers) -> bytes:
-        return adaptive.encode_coefficients(self.model, np.asarray(levels, np.int32))
-
-    def positions(self, ground: Ground, levels: Integers) -> Matrix:
-        return transform.placed(ground.prediction, ground.dictionary, np.asarray(levels, np.int32), self.step)
+    def write(
+        self, chain: Chain, prediction: Matrix, dictionary: Basis, coefficients: Matrix, sized: bool
+    ) -> tuple[int, bytes, Matrix]:
+        """As `Packed` does; but unless it has a size, a block ends with the last coefficient that is not 0."""
+        return chain.write(prediction, coefficients, self.step, sized)
 
 
 KEY_SEEDS = ("cosines", "svd")  # where a block without predecessor begins

@@ -8,10 +8,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from bsm._core import Field
+from bsm._core import Cut, Field
 from bsm._core.bitstream import constant
 from bsm.bitstream.connectivity.faces import Splits, encode_connectivity, encode_order
-from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Packet, Writer, write_brief
@@ -225,8 +224,7 @@ class Parts:
         """The labels of parts, where a decoder cannot derive them."""
         if not self.metis:
             return ()
-        labels = encode_labels(graph.offsets, graph.neighbors, partition.labels, partition.parts)
-        return (packets.Partition(labels),)
+        return (packets.Partition(Cut(graph.offsets, graph.neighbors).write(partition.labels, partition.parts)),)
 
 
 def prepare(

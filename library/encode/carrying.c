@@ -186,7 +186,7 @@ bool write_seams(Writer *writer, const CodedMesh *coded, int index, const Carrie
             + (before_last == NULL ? 0 : 1 + (before_last[i] == SEAM)));
         seams.data[i] = own.data[i];
     }
-    if (done) code_edges(coding.coder, bank, corners, seams, const_bytes(others), ends);
+    if (done) code_edges(&coding.coder, &bank, &coded->corners, seams.data, others.data, ends);
     done = done && finish_coding(&coding);
     context->writing = NULL;
     release_to(scratch, mark);

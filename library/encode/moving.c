@@ -77,25 +77,6 @@ static void keep_section(Encoding *encoding) {
     motion->ends.data[motion->ends.size++] = motion->bytes.size;
 }
 
-/* Levels nearest to coefficients; returns the rows that they take, one at least. */
-static int64_t round_coefficients(ConstDoubles2 coefficients, double step, Arena *scratch, Ints2 levels) {
-    int64_t count = 3 * coefficients.rows, rows = 1;
-    Longs targets;
-    Ints2 ways;
-    Bytes2 origins;
-    if (!take_longs(scratch, count, &targets) || !take_ints2(scratch, count, TRELLIS_STATES, &ways)
-        || !take_bytes2(scratch, count, TRELLIS_STATES, &origins))
-        return 0;
-    for (int64_t i = 0; i < count; i++) {
-        double target = __builtin_rint(coefficients.data[i] * (TARGET_UNIT / step)), most = MAX_LEVEL * 256.0;
-        targets.data[i] = (int64_t)(target > most ? most : target < -most ? -most : target);
-    }
-    nearest_levels((ConstLongs){targets.data, count}, ways, origins, (Ints){levels.data, count});
-    for (int64_t i = 0; i < count; i++)
-        if (levels.data[i] != 0) rows = i / 3 + 1;
-    return rows;
-}
-
 /* Code a block of the first frame, as decoders will see it. */
 static bool code_block_at(Encoding *encoding, int64_t index) {
     Context *context = &encoding->writer->context;
@@ -107,37 +88,28 @@ static bool code_block_at(Encoding *encoding, int64_t index) {
     Patch *patch = &block.patch;
     Singles2 dictionary;
     Doubles2 coefficients, positions;
-    Doubles weights, room;
-    Ints2 levels;
+    Doubles weights;
+    int64_t rows;
     if (!order_patch(&encoding->graph, members_of(&encoding->blocks, index, n), scratch, patch)
         || !find_patch_fronts(context, scratch, patch) || !suspend_block(chains, scratch, &block)
         || !make_dictionary(chains, &block, n, scratch, &dictionary) || !take_doubles2(scratch, n, 3, &coefficients)
-        || !take_doubles2(scratch, n, 3, &positions) || !take_doubles(scratch, n, &weights)
-        || !take_doubles(scratch, 3 * n, &room) || !zero_ints2(scratch, n, 3, &levels))
+        || !take_doubles2(scratch, n, 3, &positions) || !take_doubles(scratch, n, &weights))
         return false;
     for (int64_t i = 0; i < 3 * n; i++) {
         double place = encoding->frames.data[3 * patch->vertices.data[i / 3] + i % 3] - header->center[i % 3];
         positions.data[i] = place / header->scale - block.continued.data[i];
     }
     project(const_singles2(dictionary), const_doubles2(positions), coefficients);
-    levels.rows = round_coefficients(const_doubles2(coefficients), header->step, scratch, levels);
-    Coding coding;
     write_anew(encoding);
-    if (levels.rows == 0 || !begin_coding(context, (Span){0}, &coding) || !room_to_write(&coding, 192 * levels.rows))
+    if (!write_levels(chains, const_doubles2(block.continued), const_singles2(dictionary), const_doubles2(coefficients),
+            false, scratch, &rows, positions))
         return false;
-    code_block(coding.coder, chains->bank, chains->past, const_ints2(chains->expectations), levels);
-    if (!finish_coding(&coding)) return false;
     put_varint(&encoding->motion->bytes, index);
-    put_varint(&encoding->motion->bytes, levels.rows);
+    put_varint(&encoding->motion->bytes, rows);
     keep_section(encoding);
-    Singles2 first = {dictionary.data, n, levels.rows};
-    for (int64_t r = 1; r < n; r++)
-        memmove(first.data + r * levels.rows, dictionary.data + r * n, (size_t)levels.rows * sizeof *first.data);
-    place_block(const_doubles2(block.continued), const_singles2(first), const_ints2(levels), header->step / 2, room,
-        positions);
     weigh_rows(patch, weights);
     DecodedBlock decoded = {index, patch->vertices, const_doubles2(positions), const_doubles(weights)};
-    commit_block(chains, first, &decoded);
+    commit_block(chains, first_columns(dictionary, rows), &decoded);
     add_block(&encoding->assembly, &decoded);
     chains->next++;
     return true;

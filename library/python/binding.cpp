@@ -327,6 +327,16 @@ class Output {
         raise(error_of(*encoding_error(encoding), limits, DecoderState{}));
     }
 
+    // The payload that work writes.
+    template <typename Work> nb::bytes written(Work work) {
+        run([&] {
+            Writing *writing = encoding_anew(encoding);
+            return writing != nullptr && work(writing);
+        });
+        const Writing &written = *encoding_payloads(encoding);
+        return nb::bytes(written.data, (size_t)written.size);
+    }
+
     nb::typed<nb::list, nb::bytes> payloads() const {
         const Writing &written = *encoding_payloads(encoding);
         nb::list all;
@@ -526,8 +536,8 @@ class Chain : public Steps {
   public:
     Chain(ConstInts offsets, ConstInts neighbors, ConstInts cores, ConstLongs starts, ConstLongs edges,
         ConstInts members, bool exact, bool springs, int power, int iterations, int key_iterations, int apart,
-        int64_t key_interval, int64_t whole, double shift) {
-        ChainRules rules = {exact, springs, power, iterations, key_iterations, apart, key_interval, whole, shift};
+        int64_t key_interval, int64_t whole, double shift, int64_t width) {
+        ChainRules rules = {exact, springs, power, iterations, key_iterations, apart, key_interval, whole, width, shift};
         run([&] { return begin_coded_chain(chain, rules, offsets, neighbors, cores, starts, edges, members); });
     }
     // Hang the parts that blocks grew from on each other, by a first frame; see chaining.h.
@@ -561,6 +571,17 @@ class Chain : public Steps {
     void give(ConstSingles2 own) {
         run([&] { return give_dictionary(chain, own); });
     }
+    // Levels nearest to coefficients, all or those up to the last that is not 0: their rows, their payload, and the
+    // positions that they decode to.
+    auto write(ConstDoubles2 prediction, ConstDoubles2 coefficients, double step, bool all) {
+        Made<double> made = made_of<double>(prediction.rows, 3);
+        int64_t rows = 0;
+        nb::bytes payload = written([&](Writing *writing) {
+            return write_coded_block(
+                chain, prediction, coefficients, step, all, writing, &rows, {made.data, prediction.rows, 3});
+        });
+        return std::make_tuple(rows, payload, made);
+    }
     void commit(int64_t width, ConstDoubles2 positions) {
         run([&] { return commit_coded_block(chain, width, positions); });
     }
@@ -572,13 +593,8 @@ class Chain : public Steps {
 class Track : public Steps {
     template <typename Work> auto coded(Work work) {
         ConstDoubles2 found = {nullptr, 0, 0};
-        run([&] {
-            Writing *writing = encoding_anew(encoding);
-            return writing != nullptr && work(writing, &found);
-        });
-        const Writing &written = *encoding_payloads(encoding);
-        return std::make_tuple(nb::bytes(written.data, (size_t)written.size),
-            copy_of(found.data, found.columns > 0 ? found.rows : 0, found.columns));
+        nb::bytes payload = written([&](Writing *writing) { return work(writing, &found); });
+        return std::make_tuple(payload, copy_of(found.data, found.columns > 0 ? found.rows : 0, found.columns));
     }
 
   public:
@@ -617,6 +633,11 @@ class Cut : public Steps {
         run([&] { return grow_parts(chain, offsets, neighbors, labels, parts, size, &grown); });
         return std::make_tuple(copied(grown.cores), copied(grown.starts), copied(grown.edges),
             copied(grown.members));
+    }
+    // The payload of parts that are numbered by their first vertices.
+    nb::bytes write(ConstInts labels, int64_t parts) {
+        return written(
+            [&](Writing *writing) { return write_labels(chain, offsets, neighbors, labels, parts, writing); });
     }
     // Vertices of a block in the order of its rows, and the graph among them.
     auto rows(ConstInts members) {
@@ -681,10 +702,10 @@ NB_MODULE(_core, m) {
     m.def("gop_memory", &memory_of_gop, "method"_a, "frames"_a, "fields"_a, "vertices"_a, "around"_a);
     nb::class_<Chain>(m, "Chain")
         .def(nb::init<ConstInts, ConstInts, ConstInts, ConstLongs, ConstLongs, ConstInts, bool, bool, int, int, int,
-                 int, int64_t, int64_t, double>(),
+                 int, int64_t, int64_t, double, int64_t>(),
             "offsets"_a, "neighbors"_a, "cores"_a, "starts"_a, "edges"_a, "members"_a, nb::kw_only(), "exact"_a,
             "springs"_a, "power"_a, "iterations"_a, "key_iterations"_a, "apart"_a, "key_interval"_a, "whole"_a,
-            "shift"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
+            "shift"_a, "width"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
             nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>())
         .def("hang", in_turn(&Chain::hang), "faces"_a, "first_frame"_a, "starts"_a, "widths"_a)
         .def("begin", in_turn(&Chain::begin), "index"_a)
@@ -692,6 +713,7 @@ NB_MODULE(_core, m) {
         .def("costs", in_turn(&Chain::costs), "width"_a)
         .def("dictionary", in_turn(&Chain::dictionary), "width"_a)
         .def("give", in_turn(&Chain::give), "own"_a)
+        .def("write", in_turn(&Chain::write), "prediction"_a, "coefficients"_a, "step"_a, "all"_a)
         .def("commit", in_turn(&Chain::commit), "width"_a, "positions"_a);
     nb::class_<Track>(m, "Track")
         .def(nb::init<const Chain &, int64_t>(), "whole"_a, "number"_a, nb::keep_alive<1, 2>())
@@ -703,6 +725,7 @@ NB_MODULE(_core, m) {
             nb::keep_alive<1, 3>())
         .def("labels", in_turn(&Cut::labels), "parts"_a)
         .def("blocks", in_turn(&Cut::blocks), "labels"_a, "parts"_a, "size"_a)
+        .def("write", in_turn(&Cut::write), "labels"_a, "parts"_a)
         .def("rows", in_turn(&Cut::rows), "members"_a);
     nb::class_<Solver>(m, "Solver")
         .def(nb::init<ConstInts, ConstInts, ConstDoubles>(), "offsets"_a, "neighbors"_a, "shift"_a,

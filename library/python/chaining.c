@@ -1,5 +1,6 @@
 #include "library/python/chaining.h"
 
+#include "bitstream/payloads/topology.h"
 #include "codec/signal/signal.h"
 #include "codec/signal/chain.h"
 #include "codec/sequence/frames.h"
@@ -67,16 +68,33 @@ bool label_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors, int6
         && derive_labels(&writer->context, &chain->graph, parts, &writer->scratch, labels);
 }
 
+static bool are_labels(CodedChain *chain, ConstInts labels, int64_t parts) {
+    return (labels.size == chain->graph.size && parts > 0 && parts <= labels.size
+               && are_below(labels.data, labels.size, 0, parts)
+               && are_all_there(chain->writer, labels.data, labels.size, parts))
+        || FAIL(&chain->writer->context, MISUSED, "labels do not fit the graph, or a part is empty");
+}
+
+bool write_labels(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts labels, int64_t parts,
+    Writing *writing) {
+    Context *context = &chain->writer->context;
+    Ints own;
+    if (!take_graph(chain, offsets, neighbors) || !are_labels(chain, labels, parts)
+        || !take_ints(&chain->writer->scratch, labels.size, &own))
+        return false;
+    memcpy(own.data, labels.data, (size_t)labels.size * sizeof *own.data);
+    context->writing = writing;
+    bool done = code_partition(context, (Span){0}, offsets, neighbors, parts, &chain->writer->scratch, own);
+    context->writing = NULL;
+    return done;
+}
+
 bool grow_parts(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts labels, int64_t parts,
     int64_t size, GrownBlocks *grown) {
     Writer *writer = chain->writer;
     Blocks blocks;
     Header header = {.blocks = parts, .block_size = size};
-    if (!take_graph(chain, offsets, neighbors)) return false;
-    bool fits = labels.size == chain->graph.size && parts > 0 && parts <= labels.size && size > 0
-        && are_below(labels.data, labels.size, 0, parts)
-        && are_all_there(writer, labels.data, labels.size, parts);
-    if (!fits) return FAIL(&writer->context, MISUSED, "labels do not fit the graph, or a part is empty");
+    if (!take_graph(chain, offsets, neighbors) || !are_labels(chain, labels, parts)) return false;
     if (!make_blocks(&writer->context, &header, &chain->graph, (Ints){(int32_t *)labels.data, labels.size},
             &writer->arena, &writer->scratch, &blocks))
         return false;
@@ -102,7 +120,7 @@ bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts offsets, C
     bool fits = is_graph(offsets, neighbors) && count > 0 && edges.size == count
         && cores.size == count && starts.data[0] == 0
         && starts.data[count] == members.size && rules.power >= 0 && rules.iterations >= 0 && rules.key_iterations >= 0
-        && rules.apart >= 0 && rules.key_interval >= 0;
+        && rules.apart >= 0 && rules.key_interval >= 0 && rules.width >= 0;
     for (int64_t i = 0; fits && i < count; i++)
         fits = cores.data[i] > 0 && starts.data[i] + cores.data[i] <= starts.data[i + 1];
     if (!fits || !are_below(members.data, members.size, 0, n))
@@ -113,7 +131,7 @@ bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts offsets, C
         .starts = {(int64_t *)starts.data, count + 1}, .edges = {(int64_t *)edges.data, count},
         .members = {(int32_t *)members.data, members.size}};
     chain->header = (Header){.blocks = count, .key_interval = rules.key_interval, .onorm = rules.apart,
-        .coefficients = rules.whole, .gop_frames = rules.whole > 0,
+        .coefficients = largest(rules.whole, rules.width), .gop_frames = rules.whole > 0,
         .paper = {.exact = rules.exact, .power = rules.power, .iterations = rules.iterations,
             .key_iterations = rules.key_iterations, .springs = rules.springs, .shift = rules.shift}};
     return begin_chains(&chain->chains, context, &chain->header, &chain->graph, &chain->blocks, &chain->writer->arena);
@@ -196,13 +214,28 @@ bool give_dictionary(CodedChain *chain, ConstSingles2 own) {
     return true;
 }
 
+bool write_coded_block(CodedChain *chain, ConstDoubles2 prediction, ConstDoubles2 coefficients, double step, bool all,
+    Writing *writing, int64_t *rows, Doubles2 positions) {
+    Context *context = &chain->writer->context;
+    Arena *scratch = &chain->writer->scratch;
+    ConstSingles2 dictionary = const_singles2(chain->dictionary);
+    if (!(step > 0.0) || coefficients.rows < 1 || coefficients.rows > dictionary.columns || coefficients.columns != 3
+        || prediction.rows != dictionary.rows || prediction.columns != 3)
+        return FAIL(context, MISUSED, "# coefficients do not fit the block", coefficients.rows);
+    chain->header.step = step;
+    context->writing = writing;
+    Mark mark = mark_of(scratch);
+    bool done = write_levels(&chain->chains, prediction, dictionary, coefficients, all, scratch, rows, positions);
+    context->writing = NULL;
+    release_to(scratch, mark);
+    return done;
+}
+
 bool commit_coded_block(CodedChain *chain, int64_t width, ConstDoubles2 positions) {
-    Singles2 all = chain->dictionary, first = {all.data, all.rows, width};
+    Singles2 all = chain->dictionary;
     if (width > all.columns || positions.rows != all.rows || positions.columns != 3)
         return FAIL(&chain->writer->context, MISUSED, "positions or columns do not fit the block");
-    for (int64_t r = 1; width < all.columns && r < all.rows; r++)
-        memmove(first.data + r * width, all.data + r * all.columns, (size_t)width * sizeof *all.data);
-    commit_block(&chain->chains, first,
+    commit_block(&chain->chains, first_columns(all, width),
         &(DecodedBlock){chain->index, chain->shown.vertices, positions, chain->shown.weights});
     chain->dictionary = (Singles2){NULL, 0, 0};
     chain->chains.next++;

@@ -6,6 +6,7 @@
 /* One chain after the other, a part, or a graph alone: of an encoding, which has its errors. */
 typedef struct CodedChain CodedChain;
 struct Writer;
+struct Writing;
 /* Whether numbers are from `least` to below `bound`; whether each of those below it is among them. */
 bool are_below(const int32_t *numbers, int64_t count, int64_t least, int64_t bound);
 bool are_all_there(struct Writer *writer, const int32_t *numbers, int64_t count, int64_t bound);
@@ -21,13 +22,17 @@ typedef struct {
 } GrownBlocks;
 bool grow_parts(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts labels, int64_t parts,
     int64_t size, GrownBlocks *grown);
+/* The payload of parts that are numbered by their first vertices (C 10). */
+bool write_labels(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts labels, int64_t parts,
+    struct Writing *writing);
 bool order_rows(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts members);
 
-/* The header's rules of dictionaries and chains; columns beyond half of `whole` rows are completed (M 8.7). */
+/* The header's rules of dictionaries and chains; columns beyond half of `whole` rows are completed (M 8.7). Blocks have
+ * levels for `width` columns at most. */
 typedef struct {
     bool exact, springs;
     int power, iterations, key_iterations, apart;
-    int64_t key_interval, whole;
+    int64_t key_interval, whole, width;
     double shift;
 } ChainRules;
 /* All arrays stay with the caller, as long as the chain is used. */
@@ -51,6 +56,9 @@ double block_memory_of(const CodedChain *chain, int64_t width);
 bool make_coded_dictionary(CodedChain *chain, int64_t width);
 bool give_dictionary(CodedChain *chain, ConstSingles2 own);
 ConstSingles2 present_dictionary(const CodedChain *chain);
+/* Write the levels nearest to coefficients, as `write_levels` of codec/signal/chain.h. */
+bool write_coded_block(CodedChain *chain, ConstDoubles2 prediction, ConstDoubles2 coefficients, double step, bool all,
+    struct Writing *writing, int64_t *rows, Doubles2 positions);
 /* Positions become what the next block knows, and the first `width` columns its predecessor's U. */
 bool commit_coded_block(CodedChain *chain, int64_t width, ConstDoubles2 positions);
 
@@ -61,7 +69,6 @@ bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame, 
     double *facts);
 /* Positions, or an attribute that moves, of a chain that stays, before the first GOP; or as another one is now. */
 bool begin_track(CodedChain *track, const CodedChain *from, int64_t k);
-struct Writing;
 /* Write a basis, of what is free in it, or the levels of a field (codec/sequence/frames.h); without rows it is not
  * coded. What is decoded lasts until the next call. */
 bool write_track_basis(CodedChain *track, ConstInts exponents, ConstDoubles2 spectrum, struct Writing *writing,

@@ -16,10 +16,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm import BsmError
-from bsm._core.bitstream import code_uniform, code_unsigned
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.header import MOST_GRID
-from bsm.bitstream.entropy.range_coder import finish_writing, make_bank, start_writing
 from bsm.codec.geometry.graph import graph_of_faces
 from spec import reference_integers as reference
 from tests.bitstream.connectivity.test_faces import compact
@@ -115,22 +113,6 @@ def test_kernels_compute_the_tables_of_the_document(tmp_path: Path) -> None:
     }
     for place, (name, (table, kind)) in zip(places, expected.items(), strict=True):
         assert list((kind * len(table)).from_address(place)) == table, name
-
-
-@quick
-@given(st.lists(st.tuples(st.integers(1, 1 << 32), st.integers(0, (1 << 24) - 1)), max_size=20))
-def test_integers_of_any_size(items: list[tuple[int, int]]) -> None:
-    """Also those that no small mesh needs."""
-    coder, contexts = start_writing(10000), np.zeros(1, np.int64)
-    bank = make_bank(2 * 29, 29, 1)
-    for count, value in items:
-        code_uniform(coder, value % count, count)
-        code_unsigned(coder, bank, contexts, 0, 3, value)
-    decoder, model = reference.RangeDecoder(finish_writing(coder)), reference.Model(inputs=1)
-    for count, value in items:
-        assert decoder.uniform(count) == value % count
-        assert reference.read_unsigned(decoder, model, (0,), 3, 0) == value
-    decoder.finish()
 
 
 def lines(text: str) -> list[str]:

@@ -8,23 +8,22 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm._core import Place, write_faces
+from bsm._core import Cut, Place, write_faces
 from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, Splits, encode_connectivity, encode_order
-from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopField, GopMethod, write_gop_body
 from bsm.bitstream.container.header import AS_CODED, FACE, HEADER_FIELDS, OTHERWISE, RECOMPUTED, Declaration
 from bsm.bitstream.container.packets import WRITERS
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_varint
-from bsm.codec.blocks.overlap import derive_partition, grow_blocks, partition_of_labels
+from bsm.codec.blocks.overlap import partition_of_labels
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.attributes.encoding import Surface, carry, field_of, write_values
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.ways.grid import levels_field
 from tools.gridded import gridded
-from tools.payloads import Ints, encode_levels, make_level_bank
+from tools.payloads import still_levels
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
 from tools.vectors.meshes import torus
 
@@ -123,7 +122,7 @@ def _scattered(shape: tuple[Any, ...], parts: int) -> tuple[int, bytes]:
     coded = _coded(*shape)
     graph = graph_of_faces(coded.faces, len(coded.vertex_order))
     labels = partition_of_labels(np.arange(graph.size, dtype=np.int32) % parts).labels
-    return FrameType.PARTITION, encode_labels(graph.offsets, graph.neighbors, labels, parts)
+    return FrameType.PARTITION, Cut(graph.offsets, graph.neighbors).write(labels, parts)
 
 
 def _tiny_blocks(shape: tuple[Any, ...], size: int, **fields: Any) -> bytes:
@@ -236,29 +235,15 @@ def _joined(streams: Iterable[bytes], agains: Iterable[int] = (), gop: GopBody |
     return stream_of(frames)
 
 
-def level_references(matrices: list[Ints], columns: int) -> list[Ints]:
-    """What the levels of each block, shape (c_i, columns), are expected to resemble within a GOP."""
-    return [np.zeros((0, columns), np.int32), *matrices[:-1]]
-
-
-def _still(rows: int, columns: int, width: int, components: int, part: int = 400) -> bytes:
-    """Levels of a GOP in which nothing happens."""
-    coded = _coded("torus", rows, columns)
-    graph = graph_of_faces(coded.faces, len(coded.vertex_order))
-    partition = derive_partition(graph, max(1, graph.size // part))
-    cores = grow_blocks(graph, partition, int(np.bincount(partition.labels).max())).cores
-    levels = [np.zeros((min(width, int(core)), components), np.int32) for core in cores]
-    return encode_levels(make_level_bank(), levels, level_references(levels, components))
+def _still(rows: int, columns: int, part: int = 400) -> bytes:
+    """Levels of a GOP in which nothing happens, of a torus in parts."""
+    return still_levels(max(1, len(_coded("torus", rows, columns).vertex_order) // part))
 
 
 def _learnt_gop(frames: int, components: int, levels: bytes = b"", attributes: int = 0) -> GopBody:
     """A GOP whose temporal bases are nothing but zeros, which take next to no bytes; optionally with attributes."""
     exponents = np.zeros(components, np.int32)
-    fields = []
-    for width in (3, 4)[: 1 + (attributes > 0)]:
-        spectrum = [np.zeros((frames, components), np.int32)] * width
-        basis = encode_levels(make_level_bank(), spectrum, level_references(spectrum, components))
-        fields.append(GopField(width, 1.0, components, exponents, basis, levels))
+    fields = [GopField(width, 1.0, components, exponents, still_levels(width), levels) for width in (3, 4)]
     return GopBody(GopMethod.LEARNT, frames, (fields[0], *fields[1:] * attributes))
 
 
@@ -527,47 +512,42 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "sequence-runs": lambda: _joined(_sequence(4, 4 + k % 9, [NOTHING], width=4, power=1) for k in range(3000)),
     # More large meshes than are kept
     "sequence-runs-kept": lambda: _joined(
-        _sequence(100, 100 + k, [_learnt_gop(1, 0, _still(100, 100 + k, 440, 0))], width=440, power=1)
-        for k in range(20)
+        _sequence(100, 100 + k, [_learnt_gop(1, 0, _still(100, 100 + k))], width=440, power=1) for k in range(20)
     ),
     # Two large meshes in turn, whose dictionaries are made again for each frame
     "sequence-runs-again": lambda: _joined(
-        [_sequence(100, 100, [_learnt_gop(1, 0, _still(100, 100, 440, 0))], width=440, power=2, key_iterations=2)] * 2,
+        [_sequence(100, 100, [_learnt_gop(1, 0, _still(100, 100))], width=440, power=2, key_iterations=2)] * 2,
         [k % 2 for k in range(100)],
-        _learnt_gop(1, 0, _still(100, 100, 440, 0)),
+        _learnt_gop(1, 0, _still(100, 100)),
     ),
     # More dictionaries than there is room for, frame after frame
     "sequence-again": lambda: _sequence(
-        250, 200, _key_gops(40, _still(250, 200, 440, 3)), width=440, power=2, key_iterations=2
+        250, 200, _key_gops(40, _still(250, 200)), width=440, power=2, key_iterations=2
     ),
     # Many components of one part
-    "gop-part": lambda: _sequence(
-        70, 70, [_learnt_gop(300, 160, _still(70, 70, 4, 160, 4900))], width=4, part=4900, power=1
-    ),
+    "gop-part": lambda: _sequence(70, 70, [_learnt_gop(300, 160, _still(70, 70, 4900))], width=4, part=4900, power=1),
     # As many components as there is room for
-    "gop-components": lambda: _sequence(250, 200, [_learnt_gop(64, 75, _still(250, 200, 20, 75))] * 3, width=20),
+    "gop-components": lambda: _sequence(250, 200, [_learnt_gop(64, 75, _still(250, 200))] * 3, width=20),
     # A GOP of 1,024 frames and 3,072 components
-    "gop-wide": lambda: _sequence(20, 20, [_learnt_gop(1024, 3072, _still(20, 20, 50, 3072))], width=50),
+    "gop-wide": lambda: _sequence(20, 20, [_learnt_gop(1024, 3072, _still(20, 20))], width=50),
     # 1,024 frames of nothing, again and again
-    "gop-still": lambda: _sequence(100, 100, [_learnt_gop(1024, 0, _still(100, 100, 10, 0))] * 20, width=10),
+    "gop-still": lambda: _sequence(100, 100, [_learnt_gop(1024, 0, _still(100, 100))] * 20, width=10),
     # 1,024 frames of 300 components
-    "gop-300": lambda: _sequence(50, 50, [_learnt_gop(1024, 300, _still(50, 50, 400, 300))] * 2, width=400),
+    "gop-300": lambda: _sequence(50, 50, [_learnt_gop(1024, 300, _still(50, 50))] * 2, width=400),
     # Frames that refer to many
-    "gop-next": lambda: _sequence(100, 80, _next_gops(1000, _still(100, 80, 400, 3)), width=400),
+    "gop-next": lambda: _sequence(100, 80, _next_gops(1000, _still(100, 80)), width=400),
     # 60 attributes of four doubles that move
-    "moving": lambda: _moving(60, 60, 60, [_learnt_gop(100, 4, _still(60, 60, 10, 4), 60)]),
+    "moving": lambda: _moving(60, 60, 60, [_learnt_gop(100, 4, _still(60, 60), 60)]),
     # 255 attributes in parts of eight vertices, coded in every GOP
-    "moving-most": lambda: _moving(
-        20, 20, 255, [_learnt_gop(1, 1, _still(20, 20, 8, 1, 8), 255)] * 20, part=8, width=8
-    ),
+    "moving-most": lambda: _moving(20, 20, 255, [_learnt_gop(1, 1, _still(20, 20, 8), 255)] * 20, part=8, width=8),
     # The same, frame by frame
     "moving-keys": lambda: _moving(
-        20, 20, 255, _key_gops(20, _still(20, 20, 8, 3, 8), *[_still(20, 20, 8, 4, 8)] * 255), part=8, width=8
+        20, 20, 255, _key_gops(20, _still(20, 20, 8), *[_still(20, 20, 8)] * 255), part=8, width=8
     ),
     # 255 attributes of nine vertices, in 200 frames of nothing
-    "moving-frames": lambda: _moving(3, 3, 255, [_learnt_gop(200, 0, _still(3, 3, 8, 0))]),
+    "moving-frames": lambda: _moving(3, 3, 255, [_learnt_gop(200, 0, _still(3, 3))]),
     # As many components of attributes as there is room for
-    "moving-components": lambda: _moving(200, 200, 2, [_learnt_gop(8, 12, _still(200, 200, 20, 12), 2)] * 3, width=20),
+    "moving-components": lambda: _moving(200, 200, 2, [_learnt_gop(8, 12, _still(200, 200), 2)] * 3, width=20),
     # Many small ones of all that there can be many of
     "runs": lambda: _joined([_run()] * 300),
     "runs-again": lambda: _joined([_run()], [0] * 1500, NOTHING),
@@ -578,19 +558,15 @@ BOMBS: dict[str, Callable[[], bytes]] = {
         [(FrameType.METADATA, write_map([(f"{k:04}{entry:03}", 1) for entry in range(256)])) for k in range(300)]
     ),
     "gops": lambda: _sequence(3, 3, [NOTHING] * 2000, width=1, **ONCE),
-    "gops-learned": lambda: _sequence(3, 3, [_learnt_gop(1, 3, _still(3, 3, 4, 3))] * 1500, width=4, **ONCE),
-    "gops-parts": lambda: _sequence(
-        20, 20, [_learnt_gop(1, 3, _still(20, 20, 8, 3, 8))] * 80, width=8, part=8, power=1
-    ),
-    "gops-following": lambda: _sequence(3, 3, _followed(1500, _learnt_gop(1, 3, _still(3, 3, 4, 3))), width=4, power=1),
-    "gops-following-large": lambda: _sequence(
-        100, 100, _followed(3, _learnt_gop(64, 75, _still(100, 100, 20, 75))), width=20
-    ),
+    "gops-learned": lambda: _sequence(3, 3, [_learnt_gop(1, 3, _still(3, 3))] * 1500, width=4, **ONCE),
+    "gops-parts": lambda: _sequence(20, 20, [_learnt_gop(1, 3, _still(20, 20, 8))] * 80, width=8, part=8, power=1),
+    "gops-following": lambda: _sequence(3, 3, _followed(1500, _learnt_gop(1, 3, _still(3, 3))), width=4, power=1),
+    "gops-following-large": lambda: _sequence(100, 100, _followed(3, _learnt_gop(64, 75, _still(100, 100))), width=20),
     "gops-stretches": lambda: _sequence(3, 3, [replace(_learnt_gop(1024, 0), shown=BACK_AND_FORTH)] * 20, width=1),
-    "gops-keys": lambda: _sequence(3, 3, _key_gops(1500, _still(3, 3, 4, 3)), width=4, power=1),
-    "gops-next": lambda: _sequence(3, 3, _next_gops(1500, _still(3, 3, 4, 3)), width=4, power=1),
+    "gops-keys": lambda: _sequence(3, 3, _key_gops(1500, _still(3, 3)), width=4, power=1),
+    "gops-next": lambda: _sequence(3, 3, _next_gops(1500, _still(3, 3)), width=4, power=1),
     "moving-gops": lambda: _moving(3, 3, 100, [NOTHING] * 100),
-    "moving-parts": lambda: _moving(20, 20, 60, [_learnt_gop(1, 1, _still(20, 20, 8, 1, 8), 60)] * 5, part=8, width=8),
+    "moving-parts": lambda: _moving(20, 20, 60, [_learnt_gop(1, 1, _still(20, 20, 8), 60)] * 5, part=8, width=8),
     "sequence-parts": lambda: _sequence(50, 50, [NOTHING], width=8, part=1, power=1),
     "attributes-small": lambda: _valued(3, 3, 255, 9),
     # Small ones of a large mesh

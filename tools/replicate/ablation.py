@@ -14,8 +14,6 @@ from unittest.mock import patch
 
 import numpy as np
 
-from bsm._core.bitstream import bank_plan
-from bsm.bitstream.coefficients import adaptive
 from bsm.bitstream.container.gop import GopMethod
 from bsm.bitstream.errors import BsmError
 from bsm.codec.decoding import decode
@@ -66,16 +64,6 @@ def _ways(keep: Callable[[Any], bool], plain: bool = False) -> Any:
     return ways
 
 
-def _unlearnt(self: Any, begin: Any = adaptive.CoefficientModel.__post_init__) -> None:
-    """Every probability a half, every context of the same weight, as before anything was learnt."""
-    shipped = self.experience
-    slots = np.full_like(shipped.slots, 1 << 15)
-    even = np.full_like(shipped.mixing, (1 << 12) // bank_plan("code_block")[2])
-    expected = np.full_like(shipped.expectations, int(np.median(shipped.expectations)))
-    self.experience = adaptive.Experience(expected, even, slots)
-    begin(self)
-
-
 UPRIGHT = np.eye(3).reshape(1, 9)  # a frame along the axes of space instead of along normals
 TOOLS: dict[str, Tool] = {
     "blocks (only grids)": Tool({}, [(search.Search, "_ways", _ways(lambda way: isinstance(way, Gridded)))]),
@@ -104,7 +92,6 @@ TOOLS: dict[str, Tool] = {
     "second iteration of key blocks": Tool({"key_iterations": 1}),
     "parts that both sides derive (METIS, sent)": Tool({"partition": "metis"}),
     "blocks of 450 (of 225)": Tool({"block_size": 225}),
-    "learnt priors": Tool({}, [(adaptive.CoefficientModel, "__post_init__", _unlearnt)], decodes=False),
     "mixing of contexts (grid14, fast profile)": Tool(
         {}, options={"grid": 14, "effort": "quick"}, against={"preset": "grid14"}
     ),

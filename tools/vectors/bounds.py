@@ -8,18 +8,21 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm._core import bitstream as _kernels
-from bsm.bitstream.coefficients.adaptive import CoefficientModel, encode_coefficients
 from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.container.header import LAW
 from bsm.bitstream.container.packets import Refinement
 from bsm.bitstream.container.wire import MAGIC, VERSION, FrameType, write_frame, write_map, write_varint
-from bsm.bitstream.entropy import range_coder as entropy
+from bsm.codec.blocks.overlap import derive_partition, grow_blocks
+from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.signal.chain import Chain
+from bsm.codec.static.coding import rules_of
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import changed
 from bsm.codec.static.ways.grid import levels_field
 from tools.attack.streams import entangled, one_block
 from tools.gridded import gridded
+from tools.payloads import Speller, law
 from tools.surgery import frames_of, header_frame, stream_of, with_header, write_stream
 from tools.vectors.good import BASE, PAPER, Good
 from tools.vectors.good_fields import base
@@ -123,20 +126,36 @@ def _metadata() -> bytes:
 def _counts(faces: int, degenerate: int, lonely: int, fans: int, dummies: int) -> bytes:
     """Faces that end behind their counts."""
     vertices = min(3 * faces, fans + lonely)
-    span = 28  # nodes of an unsigned integer (C 3.1)
-    coder, rare, context = entropy.start_writing(64), entropy.make_bank(6 * span, 6 * span, 1), np.zeros(1, np.int64)
-    for count in (degenerate, lonely, fans + lonely - vertices, dummies):
-        _kernels.code_unsigned(coder, rare, context, 0, 2, count, 5 * span)
+    counts = (degenerate, lonely, fans + lonely - vertices, dummies)
+    speller, rare = Speller(outcome for count in counts for outcome in _outcomes(count)), law.Model(inputs=1)
+    assert [law.read_unsigned(speller, rare, (0,), 2, law.COUNTS) for _ in counts] == [*counts]
     header = header_frame(vertices=vertices, faces=faces, grid=[1, 1, 1])
-    return stream_of([header, (FrameType.CONNECTIVITY, entropy.finish_writing(coder))])
+    return stream_of([header, (FrameType.CONNECTIVITY, speller.payload_of_all())])
+
+
+def _outcomes(count: int) -> list[int]:
+    """The decisions of an unsigned integer of unary length 2 (C 3.1)."""
+    if count < 2:
+        return [1] * count + [0]
+    rest, size = count - 1, (count - 1).bit_length() - 1
+    low = rest & (1 << max(size - 1, 0)) - 1
+    below = [low >> 16, low & 65535] if size > 17 else [low] * (size > 1)
+    return [1, 1, *[1] * size, *[0] * (size < 23), *[rest >> size - 1 & 1] * (size > 0), *below]
 
 
 def _expected(first: int) -> bytes:
     """One block, whose first x is this, zeros far behind it: 20 makes y's expected magnitude the least of a context."""
     header, faces, (kind, block) = frames_of(encode(torus(10, 8), changed(BASE, block_size=80)))
-    levels = np.zeros((60, 3), np.int32)
+    levels, state = np.zeros((60, 3)), 0
     levels[0], levels[40:55:3] = (first, 9, -5), (1, -2, 0)
-    data = encode_coefficients(CoefficientModel(60), levels)
+    for place, level in enumerate(levels.ravel().astype(int).tolist()):  # M 9.11
+        levels.flat[place] -= 0.5 * (state & 1) * np.sign(level)
+        state = state << 1 & 7 | (state ^ state >> 1 ^ state >> 2 ^ level) & 1
+    graph = graph_of_faces(torus(10, 8).faces, 80)
+    chain = Chain(rules_of(LAW), grow_blocks(graph, derive_partition(graph, 1), 80), 60)
+    prediction = chain.begin(0)[1]
+    chain.dictionary(60)
+    data = chain.write(prediction, levels, 1.0, True)[1]
     return with_header(stream_of([header, faces, (kind, block[:1] + bytes([60]) + data)]), coefficients=60)
 
 

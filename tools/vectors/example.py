@@ -5,7 +5,6 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.coefficients.adaptive import CoefficientModel
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.packets import Header
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
@@ -13,9 +12,7 @@ from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain
-from bsm.codec.signal.transform import placed
 from bsm.codec.static.coding import rules_of
-from tools.payloads import decode_coefficients
 from tools.surgery import frames_of, header_entries, scan
 from tools.vectors.store import FOLDER
 
@@ -74,12 +71,12 @@ def _numbers(stream: bytes) -> list[str]:
     graph = graph_of_faces(mesh.faces, header.vertices)
     blocks = grow_blocks(graph, derive_partition(graph, header.blocks), header.block_size)
     payload = frames_of(stream)[2][1]
-    levels = decode_coefficients(CoefficientModel(header.coefficients), payload[2:], payload[1])
     chain = Chain(rules_of(header.constants, header.key_interval), blocks)
     vertices = chain.begin(0)[0]
     subspace = chain.dictionary(payload[1])
-    unit = np.eye(len(levels), dtype=np.float32)
-    coefficients = placed(np.zeros(levels.shape), unit, levels, header.step)
+    places = (mesh.positions[vertices] - header.center) / header.scale
+    points = np.rint(2.0 * subspace.T @ places / header.step).astype(int)  # in half steps, since U is orthonormal
+    levels, coefficients = np.sign(points) * ((np.abs(points) + 1) // 2), 0.5 * header.step * points
     return [
         "The faces are " + ", ".join(f"({a} {b} {c})" for a, b, c in mesh.faces.tolist()) + ".",
         "The rows of the only block are the vertices " + " ".join(map(str, vertices.tolist())) + ".",

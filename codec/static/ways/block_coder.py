@@ -16,7 +16,7 @@ from bsm.codec.blocks.overlap import Blend
 from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import Chain
 from bsm.codec.signal.transform import project, reconstruct
-from bsm.codec.static.coding import Ground, Scheme
+from bsm.codec.static.coding import Scheme
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.threads import ordered_map
 
@@ -92,21 +92,19 @@ class ChainEncoder:
     def __init__(self, scheme: Scheme, sizing: Sizing, charge: Charge | None = None) -> None:
         self._charge = charge
         self._most, self._sizes = sizing.most, sizing.begin()
-        self._chain = Chain(scheme.rules, scheme.blocks)
-        self._coding = scheme.coding.begin()
+        self._chain, self._coding = Chain(scheme.rules, scheme.blocks, scheme.coding.width), scheme.coding
 
     def encode(self, index: int, positions: Matrix) -> CodedBlock:
         """Encode the block of an index; `positions`, shape (n, 3), are those of all vertices, in BSM units."""
-        chain, coding = self._chain, self._coding
+        chain = self._chain
         vertices, prediction, weights = chain.begin(index)
         residual = positions[vertices] - prediction
         dictionary, coefficients = offer(chain, residual, self._most, self._sizes, self._charge)
-        levels = coding.choose(coefficients, self._sizes is not None)
-        decoded = coding.positions(Ground(prediction, dictionary), levels)
-        coded = len(levels)
+        sized = self._sizes is not None
+        coded, payload, decoded = self._coding.write(chain, prediction, dictionary, coefficients, sized)
         *work, memory = chain.costs(coded)
         chain.commit(coded, decoded)
-        packet = packets.Block(index, coded, coding.write(levels))
+        packet = packets.Block(index, coded, payload)
         met = self._sizes is None or self._sizes.met
         return CodedBlock(packet, DecodedBlock(index, vertices, decoded, weights), sum(work), memory, met)
 

@@ -4,32 +4,6 @@ import pytest
 from bsm import CorruptError, OptionError
 from bsm.bitstream.coefficients.packed import compress, pack_coefficients, unpack_coefficients
 from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMethod, write_gop_body
-from tools.payloads import encode_levels, make_level_bank
-
-
-def empty(columns):
-    return np.zeros((0, columns), np.int32)
-
-
-def decaying(seed, rows=60, columns=20):
-    size = 40.0 / (1 + np.arange(rows)[:, None]) / (1 + np.arange(columns))
-    return np.round(np.random.default_rng(seed).laplace(size=(rows, columns)) * size).astype(np.int32)
-
-
-def test_references_are_worth_their_while():
-    first = decaying(0)
-    related = first + np.random.default_rng(2).integers(-1, 2, first.shape, dtype=np.int32) * (first != 0)
-    alone = encode_levels(make_level_bank(), [first, related], [empty(20), empty(20)])
-    informed = encode_levels(make_level_bank(), [first, related], [empty(20), first])
-    assert len(informed) < 0.98 * len(alone)
-
-
-def test_small_magnitudes_cost_about_their_entropy():
-    matrix = np.random.default_rng(0).choice([-1, 0, 1], p=[0.1, 0.8, 0.1], size=(400, 50)).astype(np.int32)
-    payload = encode_levels(make_level_bank(), [matrix], [empty(50)])
-    entropy = -(0.8 * np.log2(0.8) + 0.2 * np.log2(0.1)) * matrix.size / 8
-    assert len(payload) < 1.05 * entropy
-
 
 MOVING = GopField(3, 0.5, 3, np.array([7, 3, 40], np.int32), b"basis", b"levels")
 

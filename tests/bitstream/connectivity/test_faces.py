@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm import BsmError, CorruptError, LimitError, MeshError, OptionError, TruncatedError, read_mesh
+from bsm._core import Cut
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, Splits, encode_connectivity, encode_order
-from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.graph import graph_of_faces
 from tests.bitstream.fields.fields import SOUPS
@@ -253,5 +253,5 @@ def test_vertices_that_no_joined_one_has_are_refused(source: list[int], loose: i
 def test_compact_parts_cost_little():
     graph = graph_of_faces(grid_faces(60, 60), 3600)
     labels = np.add.outer(np.arange(60) // 20 * 3, np.arange(60) // 20).ravel().astype(np.int32)
-    data = encode_labels(graph.offsets, graph.neighbors, labels, 9)
+    data = Cut(graph.offsets, graph.neighbors).write(labels, 9)
     assert 8 * len(data) < 0.2 * len(labels)

@@ -5,15 +5,8 @@ from bsm.codec.basis.laplacian import solver_of
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blocks, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.signal.transform import MeasuredSpectrum, placed
+from bsm.codec.signal.transform import MeasuredSpectrum
 from tests.shapes import patch
-
-
-@pytest.mark.parametrize(("rows", "levels"), [(50, 10), (49, 3)])
-def test_a_block_of_another_shape_is_not_placed(rows, levels):
-    with pytest.raises(ValueError, match="fit together"):
-        placed(np.zeros((rows, 3)), np.zeros((50, 9), np.float32), np.zeros((levels, 3), np.int32), 0.25)
-
 
 SHIFT = 2.0**-5
 
