@@ -61,7 +61,7 @@ INLINE void choose_learners(Forecast *f, const Values *g, int components, int j,
     f->size = learners + components * BASES * VALENCES + j * BASES + number;
 }
 
-/* What is known around a vertex before its values. See places.c. */
+/* What is known around a vertex before its values. See values.c. */
 enum { MOST_BASES = 8, MOST_TWINS = 8 };
 
 /* An edge of the vertex's triangles of which both ends are known. */

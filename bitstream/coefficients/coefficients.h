@@ -4,7 +4,7 @@
 #include "bitstream/entropy/entropy.h"
 #include "bitstream/trellis.h"
 
-/* What surrounds a coefficient, and what that lets expect (specification, M 9.3 to M 9.5, M 9.7). See contexts.py. */
+/* What surrounds a coefficient, and what that lets expect (specification, M 9.3 to M 9.5, M 9.7). See adaptive.c. */
 enum {
     NEIGHBORS = 20,
     SITUATIONS = 6,
