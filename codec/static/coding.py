@@ -1,7 +1,5 @@
 """Ways of coding the residual of a block's prediction."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
