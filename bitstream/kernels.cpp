@@ -16,7 +16,8 @@ extern "C" {
 using namespace nb::literals;
 
 #define CONSTANT(name) {#name, name}
-static const std::map<std::string_view, int> CONSTANTS = {CONSTANT(MAX_LEVEL), CONSTANT(MOST_COMPONENTS), CONSTANT(MAJOR), CONSTANT(SHORT_PAYLOAD), CONSTANT(MOST_NAME),
+static const std::map<std::string_view, int> CONSTANTS = {CONSTANT(MAX_LEVEL),
+    CONSTANT(MOST_COMPONENTS), CONSTANT(MAJOR), CONSTANT(SHORT_PAYLOAD), CONSTANT(MOST_NAME),
     CONSTANT(MOST_COPIES), CONSTANT(FREE_COPIES), CONSTANT(METHODS), CONSTANT(RUNS), CONSTANT(WITH_ATTRIBUTES)};
 
 void bind_bitstream(nb::module_ &m) {

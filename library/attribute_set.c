@@ -303,8 +303,9 @@ bool code_group(Context *context, const Attribute *attribute, Group *group, Span
         done = code_faces(&coding.coder, group->model, group->corners, group->face_values, first, count);
     } else {
         ValueKind kind = value_kind(&attribute->declaration);
-        done = (kind == NORMALS ? code_normals : kind == TEXCOORDS ? code_texcoords : code_scalars)(
-            &coding.coder, group->model, group->corners, group->values, first, count);
+        Work work = {.coder = &coding.coder, .model = group->model, .corners = group->corners, .values = group->values,
+            .code = kind == NORMALS ? code_normal : kind == TEXCOORDS ? code_texcoord : code_scalar};
+        done = code_vertices(&work, first, count);
     }
     return check_chunk_done(&coding, done, count);
 }

@@ -44,9 +44,9 @@ int64_t code_vertices(Work *work, int64_t first, int64_t count);
 void keep_value(const Values *values, int32_t v, int component, int32_t value);
 
 int64_t expect_normals(Corners corners, Values values);
-int64_t code_scalars(RangeCoder *coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
-int64_t code_texcoords(RangeCoder *coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
-int64_t code_normals(RangeCoder *coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
+bool code_scalar(Work *work, int32_t v, int32_t last);
+bool code_texcoord(Work *work, int32_t v, int32_t last);
+bool code_normal(Work *work, int32_t v, int32_t last);
 
 INLINE int32_t value_at(const Values *g, int32_t v, int j) { return g->values.data[g->values.columns * v + j]; }
 INLINE int32_t near_seen(const Values *g, int j, int32_t v) {

@@ -126,7 +126,7 @@ static void average_ring(const Corners *c, const Values *g, int32_t v) {
     own[RING] = nowhere(sum) ? own[BY_AREA] : scaled(sum, FINE * middle(g));
 }
 
-/* Fill the directions that the surface tells; zeros where it tells none. Comes before code_normals. */
+/* Fill the directions that the surface tells; zeros where it tells none. Comes before code_normal. */
 int64_t expect_normals(Corners corners, Values values) {
     if (values.geometry.rows == 0) return 0;
     for (int32_t v = 0; v < corners.rank.size; v++) expect_normal(&corners, &values, v);
@@ -224,7 +224,7 @@ static bool code_axis(Work *w, const Sight *s, int j, int32_t *pair, int32_t *ga
     return true;
 }
 
-static bool code_vertex(Work *w, int32_t v, int32_t last) {
+bool code_normal(Work *w, int32_t v, int32_t last) {
     const Values *g = &w->values;
     int32_t pair[PAIR] = {0, 0}, gaps[PAIR] = {0, 0}, hits = 0, k = middle(g);
     int32_t *own = g->values.data + PAIR * (int64_t)v;
@@ -246,9 +246,4 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
         g->gaps.data[PAIR * (int64_t)v + j] = gaps[j];
     }
     return true;
-}
-
-int64_t code_normals(RangeCoder *coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
-    Work work = {.coder = coder, .model = model, .corners = corners, .values = values, .code = code_vertex};
-    return code_vertices(&work, first, count);
 }

@@ -112,16 +112,11 @@ static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int
     return true;
 }
 
-static bool code_vertex(Work *w, int32_t v, int32_t last) {
+bool code_scalar(Work *w, int32_t v, int32_t last) {
     Place place;
     Before own = {.hits = 0};
     survey_values(w, v, &place);
     for (int j = 0; j < w->values.values.columns; j++)
         if (!code_component(w, &place, v, last, j, &own)) return false;
     return true;
-}
-
-int64_t code_scalars(RangeCoder *coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
-    Work work = {.coder = coder, .model = model, .corners = corners, .values = values, .code = code_vertex};
-    return code_vertices(&work, first, count);
 }

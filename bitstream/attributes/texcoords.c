@@ -182,7 +182,7 @@ static void pass_chart(const Values *g, const Chart *p, int32_t v) {
     for (int i = 0; i < p->place.bases; i++) kept[TURN] += turn_of(g, p->place.base[i].a, p->place.base[i].b, v);
 }
 
-static bool code_vertex(Work *w, int32_t v, int32_t last) {
+bool code_texcoord(Work *w, int32_t v, int32_t last) {
     const Values *g = &w->values;
     Chart p;
     survey_values(w, v, &p.place);
@@ -193,9 +193,4 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
         if (!code_axis(w, &p, v, j, &hits, &first)) return false;
     pass_chart(g, &p, v);
     return true;
-}
-
-int64_t code_texcoords(RangeCoder *coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
-    Work work = {.coder = coder, .model = model, .corners = corners, .values = values, .code = code_vertex};
-    return code_vertices(&work, first, count);
 }

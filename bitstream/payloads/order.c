@@ -28,8 +28,8 @@ static bool code_column(Coding *coding, Arena *scratch, Ints values, int64_t use
     Bank bank;
     Longs slow;
     if (!make_bank(scratch, MATRIX_BANK, &bank) || !take_longs(scratch, 1, &slow)) return false;
-    code_matrix(&coding->coder, &bank, (Ints2){values.data, values.size, 1}, (ConstInts2){values.data, 0, 1}, used, 1, 0,
-        values.size, 1, slow);
+    Ints2 column = {values.data, values.size, 1};
+    code_matrix(&coding->coder, &bank, column, (ConstInts2){values.data, 0, 1}, used, 1, 0, values.size, 1, slow);
     return !overran(&coding->coder) || nonsense(coding, "");
 }
 

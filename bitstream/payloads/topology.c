@@ -83,7 +83,8 @@ static int64_t join_fans(Coding *coding, Arena *scratch, Ints2 faces, Ints known
         if (!take_ints(scratch, fans, &known)) return -1;
         for (int64_t i = 0; i < fans; i++) known.data[i] = -1;
     }
-    int64_t count = code_fans(&coding->coder, &bank, const_ints(known), (Seams){vertex, after, before, sibling, latest});
+    Seams seams = {vertex, after, before, sibling, latest};
+    int64_t count = code_fans(&coding->coder, &bank, const_ints(known), seams);
     for (int64_t i = 0; count >= 0 && i < 3 * faces.rows; i++) faces.data[i] = vertex.data[faces.data[i]];
     return count;
 }

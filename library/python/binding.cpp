@@ -537,7 +537,8 @@ class Chain : public Steps {
     Chain(ConstInts offsets, ConstInts neighbors, ConstInts cores, ConstLongs starts, ConstLongs edges,
         ConstInts members, bool exact, bool springs, int power, int iterations, int key_iterations, int apart,
         int64_t key_interval, int64_t whole, double shift, int64_t width) {
-        ChainRules rules = {exact, springs, power, iterations, key_iterations, apart, key_interval, whole, width, shift};
+        ChainRules rules = {
+            exact, springs, power, iterations, key_iterations, apart, key_interval, whole, width, shift};
         run([&] { return begin_coded_chain(chain, rules, offsets, neighbors, cores, starts, edges, members); });
     }
     // Hang the parts that blocks grew from on each other, by a first frame; see chaining.h.
@@ -705,8 +706,8 @@ NB_MODULE(_core, m) {
                  int, int64_t, int64_t, double, int64_t>(),
             "offsets"_a, "neighbors"_a, "cores"_a, "starts"_a, "edges"_a, "members"_a, nb::kw_only(), "exact"_a,
             "springs"_a, "power"_a, "iterations"_a, "key_iterations"_a, "apart"_a, "key_interval"_a, "whole"_a,
-            "shift"_a, "width"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
-            nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>())
+            "shift"_a, "width"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
+            nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>())
         .def("hang", in_turn(&Chain::hang), "faces"_a, "first_frame"_a, "starts"_a, "widths"_a)
         .def("begin", in_turn(&Chain::begin), "index"_a)
         .def("site", in_turn(&Chain::site))
