@@ -19,6 +19,7 @@ import numpy as np
 
 from bsm.api import decode, encode
 from bsm.bitstream.errors import imported
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats import metadata as formats
@@ -62,25 +63,11 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
     mesh = split_by_attributes(mesh)
     normal, color, texcoord = formats.shown_at_vertices(mesh)
     of_faces = formats.first(mesh, "color", (3, 4), "face")
-    known = formats.materials_in(mesh.metadata)
-    materials = [_material(words, mesh.metadata) for words in known.values()]
     visual = None
-    if texcoord is not None or materials:
-        uv = None if texcoord is None else texcoord.values[:, :2]
-        numbers = formats.face_numbers(mesh, "material")
-        place = {number: place for place, number in enumerate(known)}
-        if not materials or (numbers is not None and not np.isin(numbers.values, list(known)).all()):
-            # For faces without a material; trimesh would give them a gray material with an image.
-            materials.append(_library.visual.material.PBRMaterial())
-        several = numbers is not None and len(materials) > 1
-        material = _library.visual.material.MultiMaterial(materials) if several else materials[0]
-        of_each = None
-        if several and numbers is not None:
-            of_each = np.array([place.get(number, len(known)) for number in numbers.values[:, 0].tolist()])
-        visual = _library.visual.TextureVisuals(uv=uv, material=material, face_materials=of_each)
+    if texcoord is not None or formats.materials_in(mesh.metadata):
+        visual, of_faces = _textured(mesh, texcoord), None
         if color is not None:
             visual.vertex_attributes["color"] = formats.rgba(color)
-        of_faces = None
     elif color is not None:
         visual, of_faces = _library.visual.ColorVisuals(vertex_colors=formats.rgba(color)), None
     elif of_faces is not None:
@@ -100,6 +87,21 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
         "process": False,
     }
     return {name: value for name, value in arguments.items() if value is not None}
+
+
+def _textured(mesh: TriangleMesh, texcoord: Attribute | None) -> Any:
+    """Return the texture coordinates of vertices and the materials of faces as `TextureVisuals`."""
+    known, numbers = formats.materials_in(mesh.metadata), formats.face_numbers(mesh, "material")
+    materials = [_material(words, mesh.metadata) for words in known.values()]
+    if not materials or (numbers is not None and not np.isin(numbers.values, list(known)).all()):
+        # For faces without a material; trimesh would give them a gray material with an image.
+        materials.append(_library.visual.material.PBRMaterial())
+    uv, material, of_each = None if texcoord is None else texcoord.values[:, :2], materials[0], None
+    if numbers is not None and len(materials) > 1:
+        place = {number: place for place, number in enumerate(known)}
+        material = _library.visual.material.MultiMaterial(materials)
+        of_each = np.array([place.get(number, len(known)) for number in numbers.values[:, 0].tolist()])
+    return _library.visual.TextureVisuals(uv=uv, material=material, face_materials=of_each)
 
 
 def parts_of(mesh: TriangleMesh) -> Iterator[tuple[str, TriangleMesh]]:

@@ -110,20 +110,10 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
                 )
         original, decoded = (mesh.without_isolated_vertices()[0] for mesh in whole)
         seen: Look | None = None
-        more: dict[str, Any] = {}
+        more: dict[str, float] = {}
         if args.look or args.picture:
             progress.stage("comparing pictures")
-            if args.picture:
-                refuse_to_overwrite(args.picture, args.force)
-            looker = LookMetric(original)
-            seen = looker.compare(decoded)
-            more["flat"] = looker.flat(decoded)
-            for semantic, name in ATTRIBUTE_LOOKS.items():
-                values = look_values(original, semantic)
-                under = None if values is None else AttributeLook(original, semantic, values).compare(decoded)
-                more |= {} if under is None else {name: under}
-            if args.picture:
-                write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
+            seen, more = _seen(args, original, decoded)
         progress.stage("comparing")
         try:
             order = order_of_used(read_permutation(args.permutation), *whole) if args.permutation else None
@@ -145,6 +135,21 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
     for name, errors in attributes.items():
         words = (f"{what} {value:.4g}" for what, value in errors.items()) if errors else ["missing"]
         print(f"{printable(name)}: {', '.join(words)}")
+
+
+def _seen(args: argparse.Namespace, original: TriangleMesh, decoded: TriangleMesh) -> tuple[Look, dict[str, float]]:
+    """Return the look of a mesh, and that in flat shading, of texture coordinates and of colors; write the picture."""
+    if args.picture:
+        refuse_to_overwrite(args.picture, args.force)
+    looker = LookMetric(original)
+    seen, more = looker.compare(decoded), {"flat": looker.flat(decoded)}
+    for semantic, name in ATTRIBUTE_LOOKS.items():
+        values = look_values(original, semantic)
+        under = None if values is None else AttributeLook(original, semantic, values).compare(decoded)
+        more |= {} if under is None else {name: under}
+    if args.picture:
+        write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
+    return seen, more
 
 
 def explained(numbers: dict[str, Any]) -> list[str]:

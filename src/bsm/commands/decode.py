@@ -112,16 +112,7 @@ def _as_source(job: Job) -> Job:
 
 def decode_one(args: DecodeJob, console: Console) -> Facts:
     if is_scene(args.input):
-        document = by_name("bsm.gltf.document", "read_document")(args.input, limits_of(args.limits))
-        if (moving := document.moving) is not None:
-            return _decode_sequence(args, console, iter([moving]))
-        if args.tolerant or any(
-            given is not None for given in (args.blocks, args.layers, args.permutation, args.frames)
-        ):
-            raise OptionError(
-                "--blocks, --layers, --tolerant, --permutation and --frames are for streams, not for scenes"
-            )
-        return _restore(args, console, document)
+        return _decode_scene(args, console)
     header, chunks = peek_header(read_chunks(args.input))
     if header is not None and header.gop_frames:
         return _decode_sequence(args, console, chunks)
@@ -184,8 +175,13 @@ def _mesh_output(args: DecodeJob) -> tuple[str, str]:
     return output, kind
 
 
-def _restore(args: DecodeJob, console: Console, document: Any) -> Facts:
-    """Write a glTF scene without compressed geometry, or its rest pose as a mesh."""
+def _decode_scene(args: DecodeJob, console: Console) -> Facts:
+    """Decode the sequence in a glTF scene; write other scenes without compressed geometry, or as meshes at rest."""
+    document = by_name("bsm.gltf.document", "read_document")(args.input, limits_of(args.limits))
+    if (moving := document.moving) is not None:
+        return _decode_sequence(args, console, iter([moving]))
+    if args.tolerant or any(given is not None for given in (args.blocks, args.layers, args.permutation, args.frames)):
+        raise OptionError("--blocks, --layers, --tolerant, --permutation and --frames are for streams, not for scenes")
     (output, kind), begin = _mesh_output(args), time.perf_counter()
     if kind == "glb":
         file = Written(by_name("bsm.gltf.compress", "restore")(document))

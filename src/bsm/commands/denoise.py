@@ -102,14 +102,7 @@ def _suffix(name: str) -> str:
 
 
 def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | None) -> dict[str, Any]:
-    stream = args.output.lower().endswith(f".{STREAM}")
-    kind = args.format if args.output == "-" else STREAM if stream else meshes.format_of_name(args.output)
-    if kind not in (*table.WRITTEN_FORMATS, STREAM):
-        if args.output == "-":
-            raise OptionError(f"a pipe has no suffix; give --format: {', '.join(table.WRITTEN_FORMATS)}")
-        raise meshes.unknown_suffix(args.output, STREAM)
-    refuse_to_overwrite(args.output, args.may_replace(args.output))
-
+    kind = _kind_of_output(args)
     from bsm.api import encode, look
     from bsm.codec.denoise import FrameDenoiser
 
@@ -124,19 +117,14 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     unit = unit_of(mesh.metadata)
     for line in _found(denoiser.choice, args.goal, mean_edge_length(mesh.positions, mesh.faces), unit):
         console.note(line)
-    moves = np.linalg.norm(positions - mesh.positions, axis=1)
-    touched, farthest = int((moves > 0.0).sum()), float(moves.max(initial=0.0))
-    mean = float(moves[moves > 0.0].mean()) if touched else 0.0
-    who = "all vertices" if touched == len(moves) else f"{touched} of {counted(vertices=len(moves))}"
-    how = f"by {length(mean, unit)} on average, {length(farthest, unit)} at most"
-    same = not touched and kind == meshes.format_of_name(args.input) and Path(args.input).is_file()
+    words, moves = _movement(np.linalg.norm(positions - mesh.positions, axis=1), unit)
+    same = not moves["vertices"] and kind == meshes.format_of_name(args.input) and Path(args.input).is_file()
     for note in source.notes if not same else ():
         console.note(f"{args.input}: {note}")
-    copy = "; the file is copied" if same else ""
-    console.note(f"moved      {who}, {how}" if touched else f"moved      no vertex{copy}")
+    console.note(f"moved      {words}{'; the file is copied' if same else ''}")
     seconds = time.perf_counter() - begin
-    moved, stale = mesh.moved(positions) if touched else (mesh, ())
-    more: dict[str, Any] = {"moved": {"vertices": touched, "mean": mean, "farthest": farthest}}
+    moved, stale = mesh.moved(positions) if moves["vertices"] else (mesh, ())
+    more: dict[str, Any] = {"moved": moves}
     if args.look:
         seen = look(mesh, moved)
         console.note(f"look       {seen.distance:.2g} from the input (at 1, both look the same)")
@@ -153,6 +141,27 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
         console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")
     console.note(f"{args.input}: {counted(vertices=len(mesh.positions))} -> {args.output}, {seconds:.2f} s")
     return {**_result((len(positions), len(mesh.faces), 1), seconds, denoiser.choice, options), **more}
+
+
+def _movement(moves: Any, unit: str) -> tuple[str, Facts]:
+    """Return in words, and as numbers, how far vertices moved, shape (n,)."""
+    touched, farthest = int((moves > 0.0).sum()), float(moves.max(initial=0.0))
+    mean = float(moves[moves > 0.0].mean()) if touched else 0.0
+    who = "all vertices" if touched == len(moves) else f"{touched} of {counted(vertices=len(moves))}"
+    how = f"by {length(mean, unit)} on average, {length(farthest, unit)} at most"
+    facts = {"vertices": touched, "mean": mean, "farthest": farthest}
+    return f"{who}, {how}" if touched else "no vertex", facts
+
+
+def _kind_of_output(args: DenoiseJob) -> str:
+    stream = args.output.lower().endswith(f".{STREAM}")
+    kind = args.format if args.output == "-" else STREAM if stream else meshes.format_of_name(args.output)
+    if kind not in (*table.WRITTEN_FORMATS, STREAM):
+        if args.output == "-":
+            raise OptionError(f"a pipe has no suffix; give --format: {', '.join(table.WRITTEN_FORMATS)}")
+        raise meshes.unknown_suffix(args.output, STREAM)
+    refuse_to_overwrite(args.output, args.may_replace(args.output))
+    return str(kind)
 
 
 def _denoise_sequence(

@@ -40,14 +40,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         raise OptionError(f"{args.output}: the output must be a .glb")
     streamed = not Path(args.input).is_dir() and is_stream(args.input)
     if streamed and (header := peek_header(read_chunks(args.input))[0]) and header.gop_frames:
-        if any((args.fallback, args.images, args.quick is not None, args.attribute, args.one_grid, args.jobs != 1)) or (
-            args.preset != PRESETS[-1]
-        ):
-            raise OptionError("a stream is wrapped unchanged; only -o, -f and -q apply")
-        stream = read_bytes(args.input)
-        scene = moving_scene(stream)
-        write_output(args.output, scene, overwrite=args.force)
-        console.note(f"{args.input} -> {args.output}: a sequence, {len(stream)} -> {len(scene)} bytes")
+        _wrap_sequence(args, console)
         return
     with about(args.input):
         document, taken = _document(args.input, console)
@@ -76,6 +69,16 @@ def run(args: argparse.Namespace, console: Console) -> None:
     )
     for note in _notes_on(found, document, taken or document.received, shrinks=rule is not None):
         console.note(f"{args.input}: {note}")
+
+
+def _wrap_sequence(args: argparse.Namespace, console: Console) -> None:
+    changes = (args.fallback, args.images, args.quick is not None, args.attribute, args.one_grid, args.jobs != 1)
+    if any(changes) or args.preset != PRESETS[-1]:
+        raise OptionError("a stream is wrapped unchanged; only -o, -f and -q apply")
+    stream = read_bytes(args.input)
+    scene = moving_scene(stream)
+    write_output(args.output, scene, overwrite=args.force)
+    console.note(f"{args.input} -> {args.output}: a sequence, {len(stream)} -> {len(scene)} bytes")
 
 
 def _notes_on(found: Compressed, document: Document, before: int, *, shrinks: bool) -> Iterator[str]:

@@ -117,22 +117,30 @@ def compared(
     header, _ = peek_header(Input(stream).chunks())
     if bool(header and header.gop_frames) != isinstance(original, Frames):
         raise MeshError(f"{name} and its original must both be sequences, or both meshes")
+    rivals: tuple[Shown, ...] = ()
     if isinstance(original, Frames):
         frames = np.array(list(original.frames))
-        decoder = SequenceStream(Input(stream).chunks(), limits=limits)
-        found, off = _over_time(name, decoder, frames, original.faces)
-        before = before or carried(replace(original, frames=iter(frames)))
-        first = Shown("Original", "" if size else "as plain arrays", size or 12 * frames.size // 3, before)
-        second = Shown("BSM", preset or "", len(stream), stream, off)
-        return Content(name, (first, second), 1, {"preset": preset} | found | _promised(PROMISES, preset))
-    decoded = decode_whole(Input(stream).chunks(), limits)
+        found, off = _over_time(name, SequenceStream(Input(stream).chunks(), limits=limits), frames, original.faces)
+        plain, promised = 12 * frames.size // 3, _promised(PROMISES, preset)
+        original = replace(original, frames=iter(frames))
+    else:
+        found, off, rivals = _at_rest(original, decode_whole(Input(stream).chunks(), limits), len(stream))
+        plain = 12 * (len(original.positions) + len(original.faces))
+        promised = _promised({known: options.contract for known, options in ALL.items()}, preset)
+    first = Shown("Original", "" if size else "as plain arrays", size or plain, before or carried(original))
+    second = Shown("BSM", preset or "", len(stream), stream, off)
+    return Content(name, (first, second, *rivals), 1, {"preset": preset, **found, **promised})
+
+
+def _at_rest(
+    original: TriangleMesh, decoded: TriangleMesh, size: int
+) -> tuple[dict[str, Any], npt.NDArray[np.float32], tuple[Shown, ...]]:
+    """Return what is measured of a mesh, the error of each vertex, and Draco's file beside a stream of some size."""
     used, kept = decoded.without_isolated_vertices()
     source = original.bare.without_isolated_vertices()[0]
-    plain = 12 * (len(original.positions) + len(original.faces))
-    first = Shown("Original", "" if size else "as plain arrays", size or plain, before or carried(original))
     off = np.full(len(decoded.positions), np.nan, np.float32)
-    facts: dict[str, Any] = {"preset": preset, "before": [len(original.positions), len(original.faces)]}
-    facts["diagonal"] = diagonal = source.diagonal or 1.0
+    diagonal, alike = source.diagonal or 1.0, True
+    facts: dict[str, Any] = {"before": [len(original.positions), len(original.faces)], "diagonal": diagonal}
     try:
         paired = pair(source, used)
     except MeshError:
@@ -141,17 +149,16 @@ def compared(
         off[kept] = distances_to_surface(used.positions, source.positions, source.faces)
         alike = False
     else:
-        source, alike = paired.original, True
+        source = paired.original
         off[kept] = np.linalg.norm(in_order_of(used, source) - used.positions, axis=1)
         errors = compare(source.positions, paired.positions, source.faces)
         facts |= {"angle": errors.angle_deg, "farthest": errors.max_error_relative}
-    rival: tuple[Shown, ...] = ()
+    rivals: tuple[Shown, ...] = ()
     with suppress(DependencyError, MeshError):  # faces without area are invisible; Draco refuses some meshes
         facts["look"] = look(source, used).distance
         if alike and not original.attributes:
-            rival, facts["draco"] = _rival(source, len(stream), facts["look"])
-    facts |= _promised({known: options.contract for known, options in ALL.items()}, preset)
-    return Content(name, (first, Shown("BSM", preset or "", len(stream), stream, off), *rival), 1, facts)
+            rivals, facts["draco"] = _rival(source, size, facts["look"])
+    return facts, off, rivals
 
 
 def _promised(contracts: Mapping[str, Contract | None], preset: str | None) -> dict[str, Any]:
