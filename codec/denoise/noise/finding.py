@@ -126,8 +126,8 @@ class Evidence:
     def weakened(self, growth: Floats) -> Self:
         """Evidence of noise without its growth, shape (n,)."""
         here = self.probe.windows.means(growth)
-        levels = {"levels": self.levels / here, "broad": self.broad / here, "finest": self.finest / here}
-        return replace(self, along=self.along / growth, **levels)
+        levels, broad, finest = (values / here for values in (self.levels, self.broad, self.finest))
+        return replace(self, along=self.along / growth, levels=levels, broad=broad, finest=finest)
 
 
 def look(probe: Probe, values: Floats, directions: Floats, edge: float) -> Evidence:

@@ -134,7 +134,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     binds = f"the {encoder.binding} binds, " if other else ""
     summary = f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, written)}, {bpv:.2f} bits per vertex"
     summary += f"{' without images' if images else ''}; {look}{binds}{errors}"
-    facts = {"vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": written, "bytes": size}
+    facts: Facts = {"vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": written, "bytes": size}
     facts |= {"bpv_total": bpv} | ({"input_parts": parts, "output_parts": beside} if parts else {}) | numbers
     return _finish(job, console, notes, summary, seconds, {**facts, "look": encoder.look, "binding": encoder.binding})
 
@@ -221,7 +221,7 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     taken = sum(size_of(name) or 0 for name in job.members) if job.members else size_of(job.input)
     summary = f"{counted(frames=done)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
     summary += f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}KG error {encoder.kg:.3g} %"
-    facts = {"frames": done, "vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": size}
+    facts: Facts = {"frames": done, "vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": size}
     facts |= {"bytes": size, "bpvf_total": bpvf, "kg": finite(encoder.kg)}
     return _finish(job, console, notes, summary, seconds, facts)
 
