@@ -12,22 +12,15 @@ const MOST_NORMAL = 32767;
 const KINDS: Record<string, string> = { uv: "uv", uv1: "uv2", color: "color" };
 
 /** The frames of a stream, played on meshes of a scene: `mesh.metadata.sequence` of each. */
-export interface BabylonSequence {
-    /** Whether all frames are there. */
-    complete: boolean;
-    /** The frame that is shown. */
-    shown: number;
-    readonly frames: { picture: PictureOf<"frame">; shape: Shape }[];
-    /** What it says of time: `playing`, `loop`, `frame`. */
-    readonly playback: Playback;
-    /** Show a frame, or the last of those that are there. */
-    seek(frame: number): this;
-}
+export type BabylonSequence = Pick<Played, "complete" | "shown" | "frames" | "playback" | "seek">;
 
-class Played implements BabylonSequence {
+class Played {
+    /** Whether all frames are there. */
     complete = false;
+    /** The frame that is shown. */
     shown = 0;
     readonly frames: { picture: PictureOf<"frame">; shape: Shape }[] = [];
+    /** What it says of time: `playing`, `loop`, `frame`. */
     readonly playback: Playback;
     private before = 0;
     private readonly worn = new Map<AbstractMesh, Shape>();
@@ -36,7 +29,7 @@ class Played implements BabylonSequence {
         this.playback = new Playback(rate, true);
     }
 
-    /** Show the frames on a mesh, which has the first one, as long as there is the mesh. */
+    /** Show the frames on a mesh, which has the first one, as long as there is the mesh. @internal */
     playOn(mesh: AbstractMesh): void {
         const scene = mesh.getScene();
         const watch = scene.onBeforeRenderObservable.add(() => this.step(performance.now() / 1000));
@@ -50,6 +43,7 @@ class Played implements BabylonSequence {
         });
     }
 
+    /** Show a frame, or the last of those that are there. */
     seek(frame: number): this {
         this.playback.seek(Math.min(Math.max(0, Math.floor(frame)), this.frames.length - 1));
         this.show(this.playback.frame);

@@ -26,7 +26,6 @@ export class Decoder {
     private metadata = 0;
     /** Frames of a run that has the mesh of another follow the attributes that were reported for it. */
     private sameMesh = false;
-    private readonly kept: { attributes: Attribute[]; first?: Mesh; faces: Int32Array } = { attributes: [], faces: new Int32Array(0) };
     /** What helpers have sent before it was its turn; the block that is awaited. */
     private readonly shared = new Map<number, SharedBlock>();
     private awaited?: number;
@@ -72,24 +71,19 @@ export class Decoder {
 
     /** Decode the rest of a complete stream, without helpers; faster than asking for events. */
     finish(): Mesh {
-        const { kept } = this;
+        const attributes: Attribute[] = [];
+        let [faces, first]: [Int32Array, Mesh?] = [new Int32Array(0)];
         this.receiveEof();
         for (let event; (event = this.next(false)) !== END_OF_STREAM; ) {
             if (event === NEED_BLOCK) throw new TypeError("a decoder with helpers gives events; it cannot finish alone");
-            if (typeof event === "string" || kept.first) continue;
-            if (event.type === "connectivity") kept.faces = event.faces;
-            if (event.type === "attribute") {
-                const { type: _, ...attribute } = event;
-                kept.attributes.push(attribute);
-            }
-            if (event.type === "frame") {
-                const { positions, attributes: moved } = event;
-                const attributes = kept.attributes.map((old) => moved.find(({ name }) => name === old.name) ?? old);
-                kept.first = { positions, faces: kept.faces, attributes };
-            }
-            if (event.type === "end") kept.first = { positions: event.positions ?? new Float64Array(0), faces: kept.faces, attributes: kept.attributes };
+            if (typeof event === "string" || first) continue;
+            const { type, ...content } = event;
+            if ("faces" in content) ({ faces } = content);
+            if ("domain" in content) attributes.push(content);
+            if (event.type === "frame") first = { positions: event.positions, faces, attributes: attributes.map((old) => event.attributes.find(({ name }) => name === old.name) ?? old) };
+            if (type === "end") first = { positions: event.positions ?? new Float64Array(0), faces, attributes };
         }
-        return kept.first!;
+        return first!;
     }
 
     private next(growing: boolean): Event | Signal | typeof NEED_BLOCK {

@@ -1,9 +1,8 @@
 /** What is drawn of a stream, made in the thread that decodes: arrays that a page hands to its graphics as they are. */
 import type { Attribute } from "./attributes";
 import type { Event, Loose, EventOf } from "./events";
-import { spread, type DrawnAttribute, type Dress, type Piece } from "./dress";
+import { cornersOf, spread, type DrawnAttribute, type Dress, type Piece } from "./dress";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
-import { inverse } from "./numbers";
 import { dressed, numbersOf } from "./parting";
 
 export type { DrawnAttribute, Piece };
@@ -112,7 +111,7 @@ export class Drawing {
         });
         const [positions, normals] = [this.points, this.normals].map((numbers) => spread(numbers, 3, vertices));
         const origin = vertices.map((vertex) => this.origin[vertex]);
-        const index = this.cornersOf(this.drawable);
+        const index = cornersOf(this.faces, this.drawable);
         this.drawable = [];
         this.shown = performance.now();
         this.show(
@@ -177,12 +176,6 @@ export class Drawing {
         toLength1(normals, 3 * vertex);
     }
 
-    private cornersOf(faces: ArrayLike<number>): Uint32Array {
-        const corners = new Uint32Array(3 * faces.length);
-        for (let i = 0; i < corners.length; i++) corners[i] = this.faces[3 * faces[Math.floor(i / 3)] + (i % 3)];
-        return corners;
-    }
-
     private take(positions: Float64Array): void {
         this.points = new Float32Array(positions);
         this.origin.fill(0);
@@ -226,7 +219,7 @@ export class Drawing {
     }
 
     private bare(faces: Int32Array): Dress {
-        const index = 3 * faces.length === this.faces.length ? new Uint32Array(this.faces) : this.cornersOf(faces);
+        const index = 3 * faces.length === this.faces.length ? new Uint32Array(this.faces) : cornersOf(this.faces, faces);
         return { index, pieces: index.length > 0 ? [{ part: 0, material: 0, start: 0, count: index.length }] : [], attributes: [] };
     }
 }
@@ -270,4 +263,15 @@ function boundsOf(p: Float32Array): Pick<Shape, "center" | "radius" | "low" | "h
     let most = 0;
     for (let i = 0; i < p.length; i += 3) most = Math.max(most, (p[i] - x) ** 2 + (p[i + 1] - y) ** 2 + (p[i + 2] - z) ** 2);
     return { center: [x, y, z], radius: Math.sqrt(most), low, high };
+}
+
+/** Which places of `values` have each number below `count`. */
+function inverse(values: Int32Array, count: number): { starts: Int32Array; members: Int32Array } {
+    const starts = new Int32Array(count + 1);
+    for (const value of values) if (value >= 0) starts[value + 1]++;
+    for (let k = 0; k < count; k++) starts[k + 1] += starts[k];
+    const members = new Int32Array(starts[count]);
+    const filled = starts.slice();
+    values.forEach((value, place) => value >= 0 && (members[filled[value]++] = place));
+    return { starts, members };
 }

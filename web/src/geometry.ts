@@ -94,15 +94,9 @@ export class BSMGeometry extends BufferGeometry {
         if (index === this.shown) return;
         this.shown = index;
         if (shape !== this.worn) this.take(shape);
+        if (!(this.getAttribute("normal").array instanceof Int16Array)) this.setAttribute("normal", new BufferAttribute(normals, 3, true));
         // Arrays change hands; nothing is copied but to the graphics.
-        const position = this.getAttribute("position") as BufferAttribute;
-        position.array = positions;
-        position.needsUpdate = true;
-        let normal = this.getAttribute("normal") as BufferAttribute;
-        if (!(normal.array instanceof Int16Array)) this.setAttribute("normal", (normal = new BufferAttribute(normals, 3, true)));
-        normal.array = normals;
-        normal.needsUpdate = true;
-        for (const { name, values } of attributes) {
+        for (const { name, values } of [{ name: "position", values: positions }, { name: "normal", values: normals }, ...attributes]) {
             const attribute = this.getAttribute(name) as BufferAttribute;
             attribute.array = values;
             attribute.needsUpdate = true;

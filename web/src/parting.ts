@@ -1,6 +1,6 @@
 /** Vertices parted where attributes part them, and faces sorted by parts and materials. */
 import type { Attribute } from "./attributes";
-import { spread, type Dress, type Piece } from "./dress";
+import { cornersOf, spread, type Dress, type Piece } from "./dress";
 
 /** Attributes of faces that say what belongs together, and are not drawn. */
 const [MATERIAL, PART] = ["material", "part"];
@@ -55,21 +55,16 @@ function valuesOf({ domain, values, components, indices }: Attribute, faces: Int
  * have, which vertex each drawn one is, and which value of each attribute it has. Nothing is parted where nothing needs it.
  */
 function parted(faces: Int32Array, chosen: Int32Array, attributes: Attribute[], size: number): { index: Uint32Array; vertices?: Int32Array; rows: (Int32Array | undefined)[] } {
-    const index = new Uint32Array(3 * chosen.length);
+    const index = cornersOf(faces, chosen);
     const parting = attributes.filter(({ domain }) => domain !== "vertex");
-    if (parting.length === 0) {
-        chosen.forEach((face, i) => {
-            for (let k = 0; k < 3; k++) index[3 * i + k] = faces[3 * face + k];
-        });
-        return { index, rows: attributes.map(() => undefined) };
-    }
+    if (parting.length === 0) return { index, rows: attributes.map(() => undefined) };
     const values = parting.map((attribute) => valuesOf(attribute, faces, chosen));
     // The drawn vertices of each vertex are a chain, from the one met last to the first.
     const [heads, next] = [new Int32Array(size).fill(-1), new Int32Array(index.length)];
     const [vertices, corners] = [new Int32Array(index.length), new Int32Array(index.length)];
     let count = 0;
     for (let i = 0; i < index.length; i++) {
-        const vertex = faces[3 * chosen[Math.floor(i / 3)] + (i % 3)];
+        const vertex = index[i];
         let drawn = heads[vertex];
         while (drawn >= 0 && !values.every((numbers) => numbers[corners[drawn]] === numbers[i])) drawn = next[drawn];
         if (drawn < 0) {

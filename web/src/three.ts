@@ -2,7 +2,7 @@
 import { BufferGeometry, Group, Loader, Mesh, type MeshStandardMaterial } from "three";
 import { BsmError, errorLike } from "./errors";
 import { BSMGeometry, type Progress } from "./geometry";
-import type { Limits, Picture } from "./index";
+import type { Limits } from "./index";
 import { materialsOf, turnOf } from "./materials";
 import { placeOf, Pool, type Build, type StreamDecoding } from "./pool";
 import { BSMSequence, type SequenceEvents } from "./sequences";
@@ -130,12 +130,6 @@ export class BSMLoader extends Loader<BSMGeometry> {
         return pool;
     }
 
-    private open(keep: (geometry: BSMGeometry) => void, fail: (error: unknown) => void, progress?: Progress): StreamDecoding {
-        const geometry = new BSMGeometry(progress);
-        const listener = { onPicture: (picture: Picture) => geometry.accept(picture), onEnd: () => keep(geometry), onError: fail };
-        return this.pool.open(listener, { drawing: progress?.onBlock || progress?.onConnectivity ? "growing" : "whole", limits: this.limits });
-    }
-
     private async fetched(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
         try {
             return await this.decoded(progress, (stream, signal) => this.pass(url, stream, onProgress, signal));
@@ -151,7 +145,9 @@ export class BSMLoader extends Loader<BSMGeometry> {
         const signal = AbortSignal.any(stoppers.flatMap((stopper) => stopper?.signal ?? []));
         const found = new Promise<BSMGeometry>((keep, fail) => {
             signal.throwIfAborted();
-            const stream = this.open(keep, fail, progress);
+            const geometry = new BSMGeometry(progress);
+            const drawing = progress?.onBlock || progress?.onConnectivity ? "growing" : "whole";
+            const stream = this.pool.open({ onPicture: (picture) => geometry.accept(picture), onEnd: () => keep(geometry), onError: fail }, { drawing, limits: this.limits });
             const fall = (error: unknown): void => {
                 stream.close();
                 fail(error);

@@ -44,6 +44,12 @@ class Tile {
         this.radius = low.distanceTo(high) / 2;
     }
 
+    /** Drop the geometry of this one and of those below, but of some. */
+    keep(some: Set<Tile>): void {
+        if (!some.has(this) && this.geometry) [this.geometry, this.asked] = [this.geometry.dispose() as undefined, false];
+        this.below.forEach((tile) => tile.keep(some));
+    }
+
     /** The error in pixels, seen from a place, if a unit at distance 1 has `pixels` pixels. */
     off(eye: Vector3, pixels: number): number {
         return this.below.length === 0 ? 0 : (pixels * this.entry.error) / Math.max(eye.distanceTo(this.center) - this.radius, 1e-3 * this.radius);
@@ -124,11 +130,7 @@ export class TileSet {
         this.cut = chosen;
         this.wanted = order;
         const kept = new Set(order);
-        const drop = (tile: Tile): void => {
-            if (!kept.has(tile) && tile.geometry) [tile.geometry, tile.asked] = [tile.geometry.dispose() as undefined, false];
-            tile.below.forEach(drop);
-        };
-        this.tops.forEach(drop);
+        this.tops.forEach((tile) => tile.keep(kept));
         this.load();
     }
 
@@ -149,10 +151,7 @@ export class TileSet {
 
     close(): void {
         this.closed = true;
-        this.tops.forEach(function drop(tile: Tile): void {
-            tile.geometry?.dispose();
-            tile.below.forEach(drop);
-        });
+        this.tops.forEach((tile) => tile.keep(new Set()));
     }
 
     private load(): void {
