@@ -135,7 +135,7 @@ def compared(
 def _at_rest(
     original: TriangleMesh, decoded: TriangleMesh, size: int
 ) -> tuple[dict[str, Any], npt.NDArray[np.float32], tuple[Shown, ...]]:
-    """Return what is measured of a mesh, the error of each vertex, and Draco's file beside a stream of some size."""
+    """Return measurements of a mesh, the error of each vertex, and the file of Draco beside a stream of some size."""
     used, kept = decoded.without_isolated_vertices()
     source = original.bare.without_isolated_vertices()[0]
     off = np.full(len(decoded.positions), np.nan, np.float32)
