@@ -78,7 +78,7 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
                 with suppress(OSError):
                     remove(inside(args.output, MANIFEST))
             raise
-    asked_for = asked(TileJob, args, input="", output="", most=args.triangles, cell=plan.lattice.cell, force=False)
+    asked_for = asked(TileJob, args, input="", output="", most=args.triangles, force=False)
     names = [name for name in plan.nodes() if name in plan.leaves or not args.finest]
     numbers = {name: number for number, name in enumerate(names)}
 

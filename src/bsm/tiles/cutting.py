@@ -2,7 +2,6 @@
 
 import json
 import math
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
@@ -179,15 +178,9 @@ class Plan(Root):
         return code << below, (code + 1) << below
 
     def nodes(self) -> list[str]:
-        """Return the names of all nodes, children before parents, and the fullest eighths first."""
-        faces: Counter[str] = Counter()
-        for leaf, (_, count) in self.leaves.items():
-            faces.update({leaf[:size]: count for size in range(1, 1 + len(leaf))})
-
-        def way(name: str) -> list[tuple[int, str]]:
-            return [*((-faces[name[:size]], name[:size]) for size in range(1, 1 + len(name))), (0, "")]
-
-        return sorted(faces, key=way)
+        """Return the names of all nodes, children before parents."""
+        nodes = {leaf[:size] for leaf in self.leaves for size in range(1, 1 + len(leaf))}
+        return sorted(nodes, key=lambda name: (-len(name), name))
 
     def save(self, path: Path) -> None:
         write_output(path, json.dumps(asdict(self)).encode(), overwrite=True, follow=False)

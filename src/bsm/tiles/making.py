@@ -36,7 +36,6 @@ class TileJob(Task):
     """The input is the plan, or the tiles that a coarser one is made of; the output's name is that of the node."""
 
     most: int = 0
-    cell: float = 0.0
     finest: bool = False
     images: ImageRule = field(default_factory=lambda: ImageRule("webp"))
 

@@ -5,6 +5,7 @@ from codecs import BOM_UTF8
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO, TypeAlias
 
@@ -14,12 +15,12 @@ import numpy.typing as npt
 from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.console import Console
-from bsm.files.formats.metadata import Beside, fetched, images_in, materials_in, names_in, parse_remarks
+from bsm.files.formats.metadata import Beside, Value, fetched, images_in, materials_in, names_in, parse_remarks
 from bsm.files.formats.obj import read_obj
 from bsm.files.formats.ply import MOST_HEADER, Element, parse_header
 from bsm.files.formats.polygons import CROSSING, triangulate
 from bsm.files.formats.stl import HEAD, RECORD, binary_triangles, is_text
-from bsm.files.mesh import format_of_name
+from bsm.files.mesh import format_of_name, read_mesh
 from bsm.files.output import by_its_own_name
 from bsm.files.pipes import Input, is_url, size_of
 from bsm.files.table import format_of_bytes
@@ -50,6 +51,7 @@ class Raw:
     high: tuple[float, ...] = ()
     left_out: dict[str, None] = field(default_factory=dict)  # names of contents that tiles do not have, in order
     about: dict[str, str] = field(default_factory=dict)  # the unit, and the axis that points up
+    metadata: dict[str, Value] = field(default_factory=dict)  # with materials and images, of a file read as a whole
     libraries: dict[str, None] = field(default_factory=dict)
     materials: dict[str, int] = field(default_factory=dict)  # their numbers, by their names
     textures: int = 0  # pictures of materials, in files of the folder
@@ -85,13 +87,11 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     kind = file_format or format_of_name(name) or format_of_bytes(head)
     if not head:
         raise FormatError("the file is empty")
-    if kind not in _READERS:
-        raise FormatError(f"tiles are made of binary PLY, binary STL and OBJ files, not of {kind or 'such files'}")
-    raw = Raw(folder)
+    raw, read = Raw(folder), _READERS.get(kind or "", partial(_read_whole, kind))
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     largest, files = 0, dict[str, BinaryIO]()
     with closing(given), console.progress("reading", until=0.1), ExitStack() as opened:
-        for what, piece in _READERS[kind](given, raw):
+        for what, piece in read(given, raw):
             if not len(piece):
                 continue
             piece = _checked(what, piece, raw.rows.get(what, 0))
@@ -128,12 +128,13 @@ def _textures(raw: Raw, beside: Beside) -> int:
     if raw.rows.get("texcoord", 0) <= 1:
         return 0
     about = {f"material.{number}.name": name for name, number in raw.materials.items()}
-    found, notes = fetched({**about, "mtllib": "\n".join(raw.libraries)}, beside.read)
+    found, notes = fetched({**raw.metadata, **about, "mtllib": "\n".join(raw.libraries)}, beside.read)
     images, materials = images_in(found), materials_in(found)
-    numbers = [materials[number].get("map_Kd") for number in raw.materials.values()]
+    named = [materials[number] for number in raw.materials.values()]
+    numbers = [material.get("map_Kd", material.get("baseColorTexture")) for material in named]
     pictures = [images[int(number)][1] if number in images else b"" for number in numbers]
     if any(pictures):
-        for what in ("material", "mtllib"):
+        for what in ("material", "mtllib", "image"):
             raw.left_out.pop(what, None)
     raw.left_out.update(dict.fromkeys([*([] if any(pictures) else ["texcoord"]), *notes]))
     for number, picture in enumerate(pictures if any(pictures) else ()):
@@ -289,6 +290,27 @@ def _of_obj(text: bytes, raw: Raw) -> Pieces:
     own = columns["material"].values[owner] if "material" in columns else np.zeros(len(places), np.int32)
     rows = np.maximum(np.asarray(columns["texcoord"].indices)[places] + 1, 0)
     yield "faces", np.column_stack([piece.corners[places], rows, np.array(numbers)[own]])
+
+
+def _read_whole(kind: str | None, given: Input, raw: Raw) -> Pieces:
+    """A file of any other format, in memory as a whole."""
+    mesh = (read := read_mesh(given, kind)).mesh
+    raw.metadata.update(mesh.metadata)
+    raw.about.update({name: str(mesh.metadata[name]) for name in ABOUT if name in mesh.metadata})
+    named = {attribute.name: attribute for attribute in mesh.attributes}
+    yield "positions", mesh.positions
+    for what in [what for what in CARRIED if what in named and named[what].domain == "vertex"]:
+        yield what, named.pop(what).values
+    texcoord, material = named.pop("texcoord", None), named.get("material")
+    rows = np.zeros_like(mesh.faces)
+    if texcoord is not None:
+        rows = 1 + (mesh.faces if texcoord.indices is None else texcoord.indices)
+        yield "texcoord", np.pad(texcoord.values[:, :2], ((1, 0), (0, 0)))  # first, that of corners without
+    numbers = np.zeros(len(rows), np.int32) if material is None else material.values[:, 0].astype(np.int32)
+    raw.materials.update({str(number): number for number in range(1 + int(numbers.max(initial=0)))})
+    keys = sorted({key.partition(".")[0] for key in mesh.metadata} - {*ABOUT})
+    raw.left_out.update(dict.fromkeys((*named, *keys, *read.dropped)))
+    yield "faces", np.column_stack([mesh.faces, rows, numbers])
 
 
 _READERS = {"ply": _read_ply, "stl": _read_stl, "obj": _read_obj}
