@@ -350,20 +350,6 @@ def javascript(tests: str, **environment: str) -> None:
     assert run.returncode == 0, run.stdout + run.stderr
 
 
-def test_distances_are_those_of_the_stream_s_vertices(tmp_path):
-    mesh = torus()
-    source, stream, page = tmp_path / "ball.ply", tmp_path / "ball.bsm", tmp_path / "page.html"
-    bsm.save(mesh, source)
-    stream.write_bytes(bsm.encode(mesh))
-    assert main(["view", str(stream), "--original", str(source), "--save", str(page)]) == 0
-    (entry,) = listed(page.read_text("utf-8"))
-    off = np.frombuffer(base64.b64decode(entry["layers"][1]["off"]["data"]), "<f4")
-    there = bsm.compare(mesh, stream)
-    assert (off.max(), np.sqrt(np.mean(off**2))) == pytest.approx((there.max_error, there.rms), rel=1e-3)
-    assert entry["facts"]["angle"] == pytest.approx(there.angle_deg, rel=1e-3)
-    assert "promised" not in entry["facts"], "a stream does not say what it was made with"
-
-
 def test_any_two_inputs_are_compared_as_they_are(tmp_path):
     mesh, other = torus(), torus(60, 40)
     bsm.save(mesh, tmp_path / "a.ply")
@@ -385,6 +371,9 @@ def test_any_two_inputs_are_compared_as_they_are(tmp_path):
     assert base64.b64decode(two["layers"][0]["data"]) == (tmp_path / "a.bsm").read_bytes()
     there = bsm.compare(bsm.decode(tmp_path / "a.bsm"), tmp_path / "b.bsm")
     assert two["facts"]["farthest"] == pytest.approx(there.max_error_relative, rel=1e-3) and "apart" not in two["facts"]
+    assert two["facts"]["angle"] == pytest.approx(there.angle_deg, rel=1e-3) and "promised" not in two["facts"]
+    off = np.frombuffer(base64.b64decode(two["layers"][1]["off"]["data"]), "<f4")
+    assert (off.max(), np.sqrt(np.mean(off**2))) == pytest.approx((there.max_error, there.rms), rel=1e-3)
     apart = shown("b.obj", "a.ply")
     assert [layer["title"] for layer in apart["layers"]] == ["Original", "OBJ"]
     assert [layer["size"] for layer in apart["layers"]] == [
@@ -440,23 +429,10 @@ def test_draco_beside_it_has_as_many_bytes_and_needs_more_for_the_look():
     files = [encode_draco(mesh, good["bits"] - less, DRACO_LEVEL) for less in (0, 1)]
     looks = [bsm.look(mesh, decode_draco(file)).distance for file in files]
     assert good["bytes"] == len(files[0]) and looks[0] <= content.facts["look"] < looks[1]
-
-
-def test_what_draco_does_not_take_is_shown_without_it():
-    pytest.importorskip("DracoPy")
     line = bsm.TriangleMesh(np.eye(3), np.array([[0, 1, 1]], np.int32))
     with pytest.raises(bsm.MeshError, match="Draco does not take"):
         encode_draco(line, 11, DRACO_LEVEL)
     assert len(compared("line", bsm.encode(line), line).layers) == 2
-
-
-def test_an_upload_says_what_was_left_out_and_saves_nothing_by_it():
-    triangles = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"
-    *_, whole = uploaded([("whole.obj", triangles)], "small")
-    *_, lined = uploaded([("lined.obj", triangles + b"l 1 2\n")], "small")
-    assert isinstance(whole, Content) and isinstance(lined, Content)
-    assert whole.facts["notes"] == [] and not whole.facts["less"]
-    assert any("lines" in note for note in lined.facts["notes"]) and lined.facts["less"]
 
 
 def test_notes_are_the_same_in_the_shell_in_python_and_in_the_page(tmp_path, capsys, recwarn):
@@ -518,27 +494,21 @@ def test_files_that_belong_together_are_read_together():
     sides = [("shop/looks/a.mtl", b"newmtl red\nmap_Kd p.png\n"), ("shop/looks/p.png", png), ("shop/notes.txt", b"")]
     *_, whole = uploaded([("shop/a.obj", obj), *sides], "small")
     assert isinstance(whole, Content) and whole.name == "a.obj"
-    assert bsm.decode(whole.layers[1].stream).metadata["image.0.data"] == png
+    assert bsm.decode(whole.layers[1].stream).metadata["image.0.data"] == png and not whole.facts["less"]
+    files = {"used": ["a.obj", "a.mtl", "p.png"], "missing": [], "unused": ["notes.txt"]}
+    assert {what: whole.facts[what] for what in files} == files
+    assert whole.facts["attributes"]["texcoord"]["max_error"] == 0.0
     *_, lone = uploaded([("a.obj", obj), ("../../a.txt", b"")], "small")
     assert isinstance(lone, Content) and "image.0.data" not in bsm.decode(lone.layers[1].stream).metadata
+    assert lone.facts["missing"] == ["looks/a.mtl"]
 
 
 def test_frames_that_are_dropped_are_a_sequence(tmp_path):
-    frames, faces = bending(4)
-    (tmp_path / "run.bsm").write_bytes(bsm.encode_sequence(frames, faces))
-    assert main(["decode", str(tmp_path / "run.bsm"), "-o", str(tmp_path / "run.pc2")]) == 0
-    names = []
-    for number, frame in enumerate(frames):
-        names.append(f"run{number}.ply")
-        bsm.save(bsm.TriangleMesh(frame, faces), tmp_path / names[-1])
-    *_, run = uploaded([(name, (tmp_path / name).read_bytes()) for name in reversed(names)], "small")
-    assert isinstance(run, Content) and run.name == "run*.ply"
-    cache = [("moves.pc2", (tmp_path / "run.pc2").read_bytes()), (names[0], (tmp_path / names[0]).read_bytes())]
-    *_, moves = uploaded(cache, "small")
-    assert isinstance(moves, Content)
-    for content in (run, moves):
-        back, _ = bsm.decode_sequence(content.layers[1].stream)
-        assert np.array(back).shape == np.array(frames).shape
+    for name, count, paths, unused in sequences_to_drop(tmp_path):
+        *_, content = uploaded([(Path(path).name, Path(path).read_bytes()) for path in reversed(paths)], "small")
+        assert isinstance(content, Content) and content.name.partition("_")[0] == name
+        assert len(bsm.decode_sequence(content.layers[1].stream)[0]) == count
+        assert (content.facts["unused"], content.facts["missing"]) == ([unused], [])
 
 
 def test_an_upload_is_encoded_in_a_process_of_its_own(tmp_path):
@@ -623,6 +593,21 @@ def test_an_upload_that_arrives_slowly_keeps_no_other_one_waiting(tmp_path, monk
             page.close()
 
 
+def sequences_to_drop(folder: Path) -> list[list[Any]]:
+    """Files of a sequence, the name that a page gives it, its number of frames, and a file that it does not need."""
+    positions, faces = bending(6)
+    np.savez(source := folder / "sway.npz", positions=positions, faces=faces)
+    (folder / "notes.txt").write_text("unused")
+    assert main(["encode", str(source), "-o", str(folder / "sway.bsm"), "--preset", "fine"]) == 0
+    for name in ("leap.glb", "sway.pc2"):
+        assert main(["decode", str(folder / "sway.bsm"), "-o", str(folder / name), "-q"]) == 0
+    frames = [folder / f"sway_{number}.ply" for number in range(8, 14)]
+    for path, frame in zip(frames, positions, strict=True):
+        bsm.save(bsm.TriangleMesh(frame.astype(float), faces), path)
+    groups = {"sway": frames, "leap.glb": [folder / "leap.glb"], "sway.pc2": [folder / "sway.pc2", folder / "sway.obj"]}
+    return [[name, 6, [*map(str, paths), f"{folder}/notes.txt"], "notes.txt"] for name, paths in groups.items()]
+
+
 def pairs_to_drop(folder: Path, mesh: bsm.TriangleMesh, source: Path) -> list[list[Any]]:
     """Files that a page is to compare, and the row and value of its table: a mesh and its stream, in any order, two
     meshes whose faces are in another order, and two with other faces."""
@@ -668,9 +653,13 @@ def test_a_page_of_files_shows_its_mesh_and_encodes_in_browsers(tmp_path):
             "files": list(map(str, files)),
             "folder": str(folder),
             "pairs": pairs,
+            "moving": sequences_to_drop(tmp_path),
         }
         javascript("static", BSM_STATIC=json.dumps(given))
         server.shutdown()
+    for name, frames, *_ in given["moving"]:
+        facts = compared(name, (folder / f"{name}.bsm").read_bytes(), open_sequence(str(tmp_path / "sway.npz"))).facts
+        assert len(facts["errors"]) == frames and 0.0 < facts["farthest"] < (1e-4 if name == "sway" else 5e-3)
     for path in files:
         decoded = bsm.decode(folder / f"{path.name}.bsm")
         there = bsm.compare(path, decoded)

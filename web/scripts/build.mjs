@@ -114,7 +114,7 @@ async function products() {
         "gltf-transform.js": await open("transform.ts", beside("encode", "errors", "index", "pool")),
         "babylon.js": await open("babylon.ts", beside("errors", "index", "pool")),
         "encode.js": await open("encode.ts", beside("content", "encoding", "errors")),
-        "reading.js": await open("reading.ts", beside("content", "encode", "encoding", "errors")),
+        "reading.js": await open("together.ts", beside("content", "encode", "encoding", "errors")),
         "content.js": await open("content.ts", beside("encoding")),
         "encoding.js": await plain("encoding.ts", []),
         "encode-worker.js": thread("encoding.js"),

@@ -1,19 +1,22 @@
 /** Mesh files, read with the loaders of three.js: for the page without a server, and for `bsm-encode`. */
-import { BufferAttribute, BufferGeometry, Color, Group, type InstancedMesh, type Material, Mesh, MeshBasicMaterial, type Object3D, type SkinnedMesh } from "three";
+import { type AnimationClip, BufferAttribute, BufferGeometry, Color, Group, type InstancedMesh, LoadingManager, type Material, Mesh, MeshBasicMaterial, type Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
 import { meshOf } from "./content";
-import { EncodeError, type EncodeOptions, type MeshInput } from "./encoding";
+import type { MeshInput } from "./encoding";
+import { isPosed, posesOf } from "./poses";
 
-export { encodeHere } from "./encode";
+/** A file by its name or its path in a folder. */
+export type Given = Pick<File, "name" | "size" | "arrayBuffer">;
 
-/** A mesh, what is to be said of it, and whether something of the file is left out. */
+/** A mesh or sequence, what is to be said of it, whether something of the file is left out, and names of files that were read with it. */
 export interface Reading {
     mesh: MeshInput & { positions: Float32Array | Float64Array };
     notes: string[];
     less: boolean;
+    used: string[];
 }
 
 const NAMES: Record<string, string> = { normal: "normal", uv: "texcoord", color: "color" };
@@ -22,44 +25,66 @@ const VERTEX = /^(\s*v(?:ertex)?)\s+(\S+)\s+(\S+)\s+(\S+)/gm;
 const FAR = 64; // diagonals from the origin, where single precision begins to count
 
 const text = (bytes: ArrayBuffer): string => new TextDecoder().decode(bytes);
+export const suffixOf = ({ name }: Given): string => /\.(\w+)$/.exec(name)?.[1].toLowerCase() ?? "";
 
-/** The text of a file whose vertices have lines of their own, with these around the origin if single precision, to which loaders round, is too coarse; and where they were. */
-function nearOrigin(content: string): { content: string; middle?: number[] } {
+/** Whether vertices are so far from the origin that single precision may round them visibly. */
+function isFar(positions: ArrayLike<number>): boolean {
     const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-    for (const [, , ...row] of content.matchAll(VERTEX)) row.map(Number).forEach((x, d) => ([low[d], high[d]] = [Math.min(low[d], x), Math.max(high[d], x)]));
+    for (let i = 0; i < positions.length; i++) [low[i % 3], high[i % 3]] = [Math.min(low[i % 3], positions[i]), Math.max(high[i % 3], positions[i])];
     const far = Math.max(...[...low, ...high].map(Math.abs));
-    if (!(far > FAR * Math.hypot(...low.map((x, d) => high[d] - x)) && far < Infinity)) return { content };
-    const middle = low.map((x, d) => Math.round((x + high[d]) / 2));
-    return { middle, content: content.replace(VERTEX, (_, name: string, ...row: string[]) => [name, ...middle.map((x, d) => Number(row[d]) - x)].join(" ")) };
+    return far > FAR * Math.hypot(...low.map((x, d) => high[d] - x)) && far < Infinity;
 }
 
-/** The meshes of a file, and where their origin is; `lost` gets the names of what is left out. */
-async function read(suffix: string, bytes: ArrayBuffer, lost: Set<string>): Promise<{ root: Object3D | BufferGeometry; middle?: number[] }> {
+/** The text of a file whose loader rounds to single precision and parts vertices, with their numbers as x, and where they are. */
+function numbered(bytes: ArrayBuffer): { content: string; places: number[] } {
+    const places: number[] = [];
+    const content = text(bytes).replace(VERTEX, (_, name: string, ...place: string[]) => `${name} ${places.push(...place.slice(0, 3).map(Number)) / 3 - 1} 0 0`);
+    return { content, places };
+}
+
+interface Scene {
+    root: Object3D | BufferGeometry;
+    /** Coordinates of the file's vertices, whose numbers the meshes have in place of x. */
+    places?: number[];
+    clip?: AnimationClip;
+}
+
+/** The meshes of a file; `lost` gets the names of what is left out, `used` those of files beside it that it names. */
+async function read(suffix: string, bytes: ArrayBuffer, lost: Set<string>, beside: Given[], used: string[]): Promise<Scene> {
     if (suffix === "stl") {
         const isText = /^\s*solid[^]*?\bvertex\b/.test(text(bytes.slice(0, 1024)));
-        const { content = bytes, middle } = isText ? nearOrigin(text(bytes)) : {};
-        return { root: new STLLoader().parse(content as string).deleteAttribute("normal"), middle };
+        const { content = bytes, places } = isText ? numbered(bytes) : {};
+        return { root: new STLLoader().parse(content as string).deleteAttribute("normal"), places };
     }
     if (suffix === "obj") {
-        const { content, middle } = nearOrigin(text(bytes));
+        const { content, places } = numbered(bytes);
         const root = new OBJLoader().parse(content);
         if (/^(mtllib|usemtl) /m.test(content)) lost.add("colors and textures of materials");
         const isLit = /^vn /m.test(content);
         root.traverse((each) => isLit || (each as Mesh).geometry?.deleteAttribute("normal")); // of faces, as the loader made them
-        return { root, middle };
+        return { root, places };
     }
     if (suffix === "ply") return { root: readPly(bytes, lost) };
-    if (suffix !== "glb") throw new Error("Only PLY, OBJ, STL and GLB files are read here.");
-    const loader = new GLTFLoader().register(({ json }) => ({
+    if (!/^gl(b|tf)$/.test(suffix)) throw new Error("Only PLY, OBJ, STL, GLB and glTF files are read here, PC2 and MDD with their mesh.");
+    const manager = new LoadingManager().setURLModifier((url) => {
+        if (/^(data|blob):/.test(url)) return url;
+        const path = decodeURIComponent(url).replace(/^(\.\/)+/, "");
+        const file = beside.find(({ name }) => `/${name}`.endsWith(`/${path}`));
+        if (!file) throw new Error(`Missing: ${path}. Drop it, too.`);
+        used.push(file.name);
+        return URL.createObjectURL(file as File);
+    });
+    const loader = new GLTFLoader(manager).register(({ json }) => ({
         name: "plain",
         loadMaterial: (index: number) => Promise.resolve(new MeshBasicMaterial({ name: String((json as { materials: { name?: string }[] }).materials[index].name ?? "") })),
     }));
-    const { scene, scenes, parser: { json } } = await loader.parseAsync(bytes, "");
+    const { animations, scene, scenes, parser: { json } } = await loader.parseAsync(bytes, "");
     if (!(scene ?? scenes[0])) throw new Error("It has no scene.");
     if (scenes.length > 1) lost.add("other scenes");
     if (/color|texture/i.test(JSON.stringify(json.materials ?? []))) lost.add("colors and textures of materials");
-    for (const part of ["animations", "skins", "cameras"]) if (json[part]?.length) lost.add(part);
-    return { root: scene ?? scenes[0] };
+    if (animations.length > 1) lost.add("other animations");
+    if (json.cameras?.length) lost.add("cameras");
+    return { root: scene ?? scenes[0], clip: animations[0] };
 }
 
 function readPly(bytes: ArrayBuffer, lost: Set<string>): BufferGeometry {
@@ -92,7 +117,7 @@ function plainOf(geometry: BufferGeometry, flipped: boolean, lost: Set<string>):
     return plain;
 }
 
-/** What a file draws in its first pose. */
+/** What a file draws. */
 function drawnOf(root: Object3D | BufferGeometry, isScene: boolean, lost: Set<string>): Group {
     const drawn = new Group();
     const add = (geometry: BufferGeometry, material?: Material | Material[], from?: Object3D): void => {
@@ -109,7 +134,6 @@ function drawnOf(root: Object3D | BufferGeometry, isScene: boolean, lost: Set<st
             const { geometry, isMesh, material } = each as Mesh;
             if (geometry && !isMesh) return void lost.add("points and lines");
             if (!geometry) return;
-            if ((each as SkinnedMesh).isSkinnedMesh || geometry.morphAttributes.position) lost.add("poses");
             if ((each as InstancedMesh).isInstancedMesh) lost.add("copies of parts");
             add(geometry, material, each);
         });
@@ -117,25 +141,32 @@ function drawnOf(root: Object3D | BufferGeometry, isScene: boolean, lost: Set<st
     return drawn;
 }
 
-/** Read a file by the suffix of its name. */
-export async function readMesh(name: string, bytes: ArrayBuffer): Promise<Reading> {
-    const suffix = /\.(\w+)$/.exec(name)?.[1].toLowerCase() ?? "";
-    const lost = new Set<string>();
-    const { root, middle } = await read(suffix, bytes, lost);
-    const said: string[] = [];
-    const mesh = meshOf(drawnOf(root, suffix === "glb", lost), (note) => said.push(note));
-    if (middle) mesh.positions = Float64Array.from(mesh.positions, (x, i) => x + middle[i % 3]);
-    if (suffix === "glb") Object.assign(mesh.metadata!, { up: "y", unit: "meters" });
-    if (lost.size > 0) said.push(`Left out: ${[...lost].join(", ")}. bsm encode keeps more.`);
-    return { mesh, less: said.length > 0, notes: said };
+/** A mesh whose vertices have their numbers as x, with the vertices that these are. */
+function indexed({ positions, faces, attributes = [], metadata }: Reading["mesh"], places: number[]): Reading["mesh"] {
+    const all = isFar(places) ? Float64Array.from(places) : Float32Array.from(places);
+    const parted = attributes.map((attribute) => (attribute.domain === "face" ? attribute : { ...attribute, domain: "corner" as const, indices: faces }));
+    return { positions: all, faces: Uint32Array.from(faces, (corner) => positions[3 * corner]), attributes: parted, metadata };
 }
 
-/** Encode a mesh to the bit or, where single precision is coarser, on the finest grid. */
-export async function carried(encode: (options: EncodeOptions) => Promise<Uint8Array<ArrayBuffer>>): Promise<Uint8Array<ArrayBuffer>> {
-    try {
-        return await encode({ lossless: true });
-    } catch (error) {
-        if (error instanceof EncodeError && error.status === 10) return encode({ bits: 20 });
-        throw error;
+/** Read a file by the suffix of its name, and files beside it that it names. */
+export async function readMesh(given: Given, beside: Given[] = []): Promise<Reading> {
+    const [lost, said, used, suffix] = [new Set<string>(), [] as string[], [given.name], suffixOf(given)];
+    const { root, places, clip } = await read(suffix, await given.arrayBuffer(), lost, beside, used);
+    let mesh = meshOf(drawnOf(root, /^gl/.test(suffix), lost), (note) => said.push(note)) as Reading["mesh"];
+    if (places) mesh = indexed(mesh, places);
+    if (/^gl/.test(suffix)) Object.assign(mesh.metadata!, { up: "y", unit: "meters" });
+    if (clip || isPosed(root)) {
+        const { positions, frames, rate } = posesOf(root as Object3D, clip);
+        mesh = frames > 1 ? moving(mesh, positions, frames, rate) : { ...mesh, positions, attributes: still(mesh) };
     }
+    if (lost.size > 0) said.push(`Left out: ${[...lost].join(", ")}. bsm encode keeps more.`);
+    return { mesh, used, less: said.length > 0, notes: said };
+}
+
+/** Attributes that stay while vertices move. */
+const still = ({ attributes }: MeshInput): MeshInput["attributes"] => attributes?.filter(({ semantic }) => semantic !== "normal");
+
+/** A mesh that moves. */
+export function moving(mesh: MeshInput, positions: Reading["mesh"]["positions"], frames: number, rate: number): Reading["mesh"] {
+    return { ...mesh, positions, frames, attributes: still(mesh), metadata: { ...mesh.metadata, frame_rate: rate } };
 }

@@ -9,7 +9,7 @@ import { base64, CHROMIUM, chromiumFor, drop, FIREFOX, PATIENCE, silhouette, tab
 const given = process.env.BSM_STATIC;
 
 describe("a page of files", { skip: !given && "bsm view has written none" }, () => {
-    const { address, name, files, folder, pairs } = JSON.parse(given ?? "{}") as { address: string; name: string; files: string[]; folder: string; pairs: [paths: string[], row: string, percent: number][] };
+    const { address, name, files, folder, pairs, moving } = JSON.parse(given ?? "{}") as { address: string; name: string; files: string[]; folder: string; pairs: [paths: string[], row: string, percent: number][]; moving: [name: string, frames: number, paths: string[], unused: string][] };
 
     test("shows its mesh in Chromium, and encodes", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}` }, async (context) => {
         const browser = await chromiumFor(context);
@@ -25,15 +25,18 @@ describe("a page of files", { skip: !given && "bsm view has written none" }, () 
         assert.ok(silhouette(await page.locator("canvas").screenshot()).share > 0.05);
         assert.ok(await page.locator("[name=keep]").isHidden(), "there is a file of this stream");
         const bytes = (path: string): [string, Buffer] => [basename(path), readFileSync(path)];
+        const save = async (name: string): Promise<void> => {
+            const saved = page.waitForEvent("download");
+            await page.locator("[name=keep]").evaluate((button: HTMLElement) => button.click());
+            await (await saved).saveAs(join(folder, `${name}.bsm`));
+        };
         for (const path of files) {
             await drop(page, Object.fromEntries([bytes(path)]));
             await page.waitForFunction((name) => document.querySelector("h1")!.textContent === name && document.body.dataset.layers === "2", basename(path));
             assert.equal(await page.locator("[role=alert]").textContent(), "");
             await page.waitForFunction(() => /Largest vertex error0\.0\d+/.test(document.querySelector("[data-part=facts]")!.textContent!));
             assert.match(await page.locator("[data-part=claim]").innerText(), /^Close: differences up to 0\.0\d+.% of the diagonal, [\d.]+ times smaller$|^Close: differences up to [\d.]+.meters, [\d.]+ times smaller$/);
-            const saved = page.waitForEvent("download");
-            await page.locator("[name=keep]").evaluate((button: HTMLElement) => button.click());
-            await (await saved).saveAs(join(folder, `${basename(path)}.bsm`));
+            await save(basename(path));
         }
         for (const [paths, row, percent] of pairs) {
             await drop(page, Object.fromEntries(paths.map(bytes)));
@@ -44,6 +47,14 @@ describe("a page of files", { skip: !given && "bsm view has written none" }, () 
             assert.ok(await page.locator("[name=keep]").isHidden());
             await page.locator("canvas").press("e");
             await page.getByText(row.includes("surface") ? "Distance from the original's surface" : "Distance from the original", { exact: true }).waitFor();
+        }
+        for (const [name, frames, paths, unused] of moving) {
+            await drop(page, Object.fromEntries(paths.map(bytes)));
+            await page.waitForFunction(([name, there]) => document.querySelector("h1")!.textContent === name && document.body.dataset.layers === "2" && document.body.dataset.there === there, [name, String(frames)]);
+            await page.waitForFunction(() => Number(document.body.dataset.frame) > 2);
+            const { "Files used": used, "Files not used": left } = await tableOf(page);
+            assert.deepEqual([used, left], [paths.map((path) => basename(path)).filter((path) => path !== unused).join(", "), unused]);
+            await save(name);
         }
         writeFileSync(join(folder, "corners.ply"), "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n");
         await drop(page, Object.fromEntries([bytes(join(folder, "corners.ply"))]));
@@ -60,8 +71,8 @@ describe("a page of files", { skip: !given && "bsm view has written none" }, () 
             const stream = await page.evaluate((name, data) => new Promise<number[]>((resolve, reject) => {
                 const worker = new Worker("encoder.js", { type: "module" });
                 worker.onerror = ({ message }) => reject(new Error(message));
-                worker.onmessage = ({ data }) => ("stream" in data ? resolve([...data.stream]) : "error" in data && reject(new Error(data.error)));
-                worker.postMessage({ file: new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name), preset: "14 bits" });
+                worker.onmessage = ({ data }) => ("content" in data ? resolve([...data.content.layers[1].bytes]) : "error" in data && reject(new Error(data.error)));
+                worker.postMessage({ files: [new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name)], preset: "14 bits" });
             }), basename(path), base64(readFileSync(path)));
             const theirs = join(folder, `${basename(path)}.bsm`);
             if (existsSync(theirs)) assert.ok(readFileSync(theirs).equals(Buffer.from(stream)), path);

@@ -177,17 +177,25 @@ def unknown_suffix(path: str | os.PathLike[str], *more: str, kind: str | None = 
     return OptionError(f"{path}: {fault}; use one of .{', .'.join((*more, *WRITTEN_FORMATS))}")
 
 
-def size_with_parts(path: str, metadata: Metadata) -> tuple[int | None, dict[str, int]]:
-    """The bytes of a file with those beside it that it names: materials, images, buffers; and the sizes of these."""
-    size = pipes.size_of(path)
-    if size is None or is_url(path) or path == "-":
-        return size, {}
-    names = {*str(metadata.get("mtllib", "")).split("\n"), *(name for name, _ in images_in(metadata).values())}
+def parts_of(path: str, metadata: Metadata) -> dict[str, Path | None]:
+    """Where the files are that a mesh file names, materials, images and buffers; None: it is missing."""
+    libraries = str(metadata.get("mtllib", "")).split("\n")
+    names = {*libraries, *(name for name, _ in images_in(metadata).values())}
     if Path(path).suffix.lower() == ".gltf":
         with suppress(BsmError):
             names = {*by_name("bsm.gltf.document", "read_document")(path).files}
-    found = set(map(Beside(Path(path).resolve().parent, Limits()).find, filter(None, names)))
-    parts = {str(part): part.stat().st_size for part in found if isinstance(part, Path)}
+    beside = Beside(Path(path).resolve().parent, Limits())
+    folders = ["", *(f"{folder}/" for line in libraries if (folder := line.replace("\\", "/").rpartition("/")[0]))]
+    found = {name: [beside.find(folder + name) for folder in folders] for name in filter(None, names)}
+    return {name: next((part for part in parts if isinstance(part, Path)), None) for name, parts in found.items()}
+
+
+def size_with_parts(path: str, metadata: Metadata) -> tuple[int | None, dict[str, int]]:
+    """The bytes of a file with those beside it that it names; and the sizes of these."""
+    size = pipes.size_of(path)
+    if size is None or is_url(path) or path == "-":
+        return size, {}
+    parts = {str(part): part.stat().st_size for part in parts_of(path, metadata).values() if part}
     return size + sum(parts.values()), parts
 
 

@@ -2,6 +2,7 @@
 
 import math
 import multiprocessing
+import os
 import shutil
 import signal
 import tempfile
@@ -9,7 +10,7 @@ import time
 from bisect import bisect_left
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cache
 from multiprocessing.connection import Connection
 from pathlib import Path, PurePath, PurePosixPath
@@ -24,7 +25,7 @@ from bsm.bitstream.errors import BsmError, DependencyError, FormatError, MeshErr
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
-from bsm.codec.geometry.metrics import compare, distances_to_surface, farthest_from_surface, surface_distance
+from bsm.codec.geometry.metrics import distances_to_surface, farthest_from_surface, surface_distance
 from bsm.codec.look.measure import look
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import PROMISES
@@ -33,17 +34,18 @@ from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS as ALL
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import Contract
-from bsm.comparison import in_order_of, pair, paired_frames
+from bsm.comparison import compare_meshes, in_order_of, pair, paired_frames
 from bsm.console import Progress
 from bsm.exits import worded
 from bsm.files.formats.polygons import MeshFile
-from bsm.files.mesh import format_of_name, read_mesh, size_with_parts
+from bsm.files.mesh import by_name, format_of_name, parts_of, read_mesh, size_with_parts
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name
 from bsm.files.motion.frames import Frames, Wanted
-from bsm.files.pipes import Input, read_chunks, size_of
+from bsm.files.pipes import Input, is_url, read_chunks, size_of
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
+from bsm.files.table import GLTF
 from bsm.libraries import with_texels, without_provenance
 from bsm.options import encode_options, sequence_options
 from bsm.simplification import encode_source
@@ -137,12 +139,13 @@ def _at_rest(
 ) -> tuple[dict[str, Any], npt.NDArray[np.float32], tuple[Shown, ...]]:
     """Return measurements of a mesh, the error of each vertex, and the file of Draco beside a stream of some size."""
     used, kept = decoded.without_isolated_vertices()
-    source = original.bare.without_isolated_vertices()[0]
+    whole = original.without_isolated_vertices()[0]
+    source = whole.bare
     off = np.full(len(decoded.positions), np.nan, np.float32)
     diagonal, alike = source.diagonal or 1.0, True
     facts: dict[str, Any] = {"before": [len(original.positions), len(original.faces)], "diagonal": diagonal}
     try:
-        paired = pair(source, used)
+        paired = pair(whole, used)
     except MeshError:
         apart = surface_distance(source.positions, source.faces, used.positions, used.faces)
         facts |= {"apart": apart.mean / diagonal, "farthest": apart.hausdorff / diagonal}
@@ -151,8 +154,9 @@ def _at_rest(
     else:
         source = paired.original
         off[kept] = np.linalg.norm(in_order_of(used, source) - used.positions, axis=1)
-        errors = compare(source.positions, paired.positions, source.faces)
+        errors = compare_meshes(whole, used, paired)
         facts |= {"angle": errors.angle_deg, "farthest": errors.max_error_relative}
+        facts["attributes"] = {name: found and asdict(found) for name, found in errors.attributes.items()}
     rivals: tuple[Shown, ...] = ()
     with suppress(DependencyError, MeshError):  # faces without area are invisible; Draco refuses some meshes
         facts["look"] = look(source, used).distance
@@ -253,11 +257,13 @@ def made(
 
 @dataclass(frozen=True, eq=False)
 class Given:
-    """A sequence, a mesh file or the bytes of a stream, from a file of some size."""
+    """A sequence, a mesh file or the bytes of a stream, from a file of some size; files that were used and missed."""
 
     name: str
     source: Frames | MeshFile | bytes
     size: int | None
+    used: tuple[str, ...] = ()
+    missing: tuple[str, ...] = ()
 
     def decoded(self, limits: Limits) -> tuple[bytes | None, TriangleMesh | Frames]:
         """Return the stream, if it is one, and the mesh or sequence."""
@@ -270,19 +276,23 @@ class Given:
         return self.source, Frames(faces, len(positions), iter(positions))
 
 
-def given_at(path: str, limits: Limits = DEFAULT_LIMITS, mesh: str | None = None) -> Given:
-    """Open a sequence, of which `mesh` may have the faces, a stream or a mesh file."""
-    if frames := open_sequence(path, None, Wanted(mesh=mesh) if mesh else None, limits):
-        return Given(path, frames, None if PurePath(path).suffix == "" else size_of(path))
+def given_at(path: str, limits: Limits = DEFAULT_LIMITS, wanted: Wanted | None = None) -> Given:
+    """Open a sequence, a stream or a mesh file."""
+    if frames := open_sequence(path, None, wanted, limits):
+        used = (path, str(wanted.mesh)) if wanted and wanted.mesh else (path,)
+        return Given(path, frames, None if PurePath(path).suffix == "" else size_of(path), used)
     data = b"".join(read_chunks(path))
     if MAGIC.startswith(data[: len(MAGIC)]):
-        return Given(path, data, len(data))
+        return Given(path, data, len(data), (path,))
     if path == "-":
         raise FormatError(NO_STREAM)
     if PurePath(path).suffix.lower() == ".bsm":
         decode_whole(iter([data]))  # says what is wrong with it
     found = read_mesh(path, limits=limits)
-    return Given(path, found, size_with_parts(path, found.mesh.metadata)[0])
+    parts = {} if is_url(path) else parts_of(path, found.mesh.metadata)
+    missing = tuple(name for name, part in parts.items() if part is None)
+    size, there = size_with_parts(path, found.mesh.metadata)
+    return Given(path, found, size, (path, *there), missing)
 
 
 def given_among(paths: Sequence[str], folder: str) -> list[Given]:
@@ -292,9 +302,15 @@ def given_among(paths: Sequence[str], folder: str) -> list[Given]:
     shown = caches or [path for path in paths if path.lower().endswith((".bsm", ".npz")) or format_of_name(path)]
     if len(shown) > 2:
         frames = replace(given_at(folder, limits), name=PurePath(common_name(shown)).name)
-        return [replace(frames, size=sum(size_of(path) or 0 for path in shown))]
+        return [replace(frames, size=sum(size_of(path) or 0 for path in shown), used=tuple(shown))]
     meshes = [path for path in paths if format_of_name(path)] if caches else []
-    return [given_at(path, limits, meshes[0] if meshes else None) for path in shown or paths[:1]]
+    return [given_at(path, limits, Wanted(mesh=meshes[0]) if meshes else _moving(path)) for path in shown or paths[:1]]
+
+
+def _moving(path: str) -> Wanted | None:
+    """What to ask of a glTF file that has animations: the first one."""
+    is_gltf = PurePath(path).suffix[1:].lower() in GLTF
+    return Wanted() if is_gltf and by_name("bsm.gltf.document", "read_document")(path).items("animations") else None
 
 
 def against(before: Given, given: Given, limits: Limits) -> Content:
@@ -320,15 +336,20 @@ def _work(pipe: Connection, paths: Sequence[str], folder: str, preset: str) -> N
         pipe.send({"stage": stage, "share": share})
 
     try:
-        first, *others = given_among(paths, folder)
+        first, *others = given = given_among(paths, folder)
         report("comparing" if others else "encoding", 0.0)
         name = PurePath(first.name).name
         if others:
-            pipe.send(against(first, others[0], Limits.service()))
+            content = against(first, others[0], Limits.service())
         elif isinstance(first.source, bytes):
             raise FormatError(f"{name} is a stream, which the page opens by itself, or empty")
         else:
-            pipe.send(made(name, first.size, first.source, preset, report))
+            content = made(name, first.size, first.source, preset, report)
+        used = {os.path.realpath(path) for each in given for path in each.used}
+        said = {"missing": [name for each in given for name in each.missing]}
+        for what, is_used in (("used", True), ("unused", False)):
+            said[what] = [PurePath(path).name for path in paths if (os.path.realpath(path) in used) == is_used]
+        pipe.send(replace(content, facts={**content.facts, **said}))
     except (BsmError, MemoryError) as error:
         pipe.send({"error": worded(error).replace(f"{folder}/", "")})
 

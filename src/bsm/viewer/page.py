@@ -203,7 +203,7 @@ def page_with(contents: Sequence[Content]) -> str:
 
 def site_with(contents: Sequence[Content | Tiled]) -> dict[str, bytes | Ranged]:
     """Return the files of a page that encodes by itself, by their names; any web server can send them."""
-    built: dict[str, bytes | Ranged] = {"encode.wasm": _built("encode.wasm")}
+    built: dict[str, bytes | Ranged] = {name: _built(name) for name in ("encode.wasm", "encode-moving.wasm")}
 
     def place(path: str, data: bytes) -> dict[str, str]:
         name = path.removeprefix("/").replace("/", "-")

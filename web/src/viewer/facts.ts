@@ -1,17 +1,20 @@
 /** The numbers of the result card, in the words of the command line. */
 import type { BSMGeometry } from "../geometry";
+import type { Picture } from "../index";
 import type { Inlined } from "./inlined";
 
 const SECOND = 1000;
 const CLOSE = 2; // look distance up to which two meshes are close
+const MOST_NAMES = 6;
 const PIXEL = 1e-3; // of the diagonal: what a pixel is of a mesh that fills a large picture
 
-/** A mesh: its stream, the size of the file, and the error of each vertex, if it is known. */
+/** A mesh: its stream or pictures, the size of the file, and the error of each vertex, if it is known. */
 export interface Layer extends Inlined {
     title: string;
     detail: string;
     size: number;
     off?: Inlined;
+    pictures?: Picture[];
 }
 
 /** What is shown, as `bsm.viewer.page` lists it; `main` is the stream that arrives, the others are there at once. */
@@ -39,6 +42,10 @@ export interface Content {
         /** What reader and encoder say, and whether they left something of the file out. */
         notes?: string[];
         less?: boolean;
+        /** Files that were given together, those that they name and are not there, and those that nothing names. */
+        used?: string[];
+        missing?: string[];
+        unused?: string[];
     };
     /** Whether it is still being written, so that what was before one came is not missed. */
     live?: boolean;
@@ -75,6 +82,13 @@ export function element(tag: string, text: string, ...inside: Node[]): HTMLEleme
     return made;
 }
 
+/** Names of files, or how many there are and which is the first and the last. */
+function filesOf(label: string, paths: string[] = []): Row[] {
+    const names = paths.map((path) => path.replace(/^.*\//, ""));
+    if (names.length > MOST_NAMES) return [[label, `${counted(names.length)} files`, `${names[0]} to ${names.at(-1)}`]];
+    return names.length > 0 ? [[label, names.join(", ")]] : [];
+}
+
 /** What the color of a verdict says. */
 export type Tone = "good" | "fair" | "poor" | "";
 
@@ -93,7 +107,8 @@ export function factsOf({ layers, main, facts }: Content, length: number, { carr
     const plain = main > 0 && !facts.less ? layers[0].size : undefined;
     const ratio = (plain ?? 0) / Math.max(size, 1);
     const { look, drawn, farthest, apart, before, angle, seconds, promised = {}, draco, notes = [] } = facts;
-    const rows: Row[] = notes.map((note) => ["Note", note]);
+    const { used = [], missing, unused } = facts;
+    const rows: Row[] = [...(used.length > 1 || unused?.length ? filesOf("Files used", used) : []), ...filesOf("Files missing", missing), ...filesOf("Files not used", unused), ...notes.map((note): Row => ["Note", note])];
     if (look !== undefined) rows.push(["Look distance", look.toFixed(2), `${promised.look ? `promised ${promised.look}; ` : ""}${drawn ? `worst of ${drawn} frames drawn; ` : ""}at 1, both look the same`]);
     if (farthest !== undefined) rows.push([apart === undefined ? "Largest vertex error" : "Largest surface distance", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
     if (apart !== undefined) rows.push(["Mean surface distance", percent(apart), "the faces differ"]);

@@ -1,6 +1,6 @@
 /** The page of `bsm view`, and the widget of notebooks: one module that is either, by where it finds itself. */
 import { Pool } from "../pool";
-import type { Job, Status, Result } from "./encoder";
+import type { Job, Status } from "./encoder";
 import type { Content } from "./facts";
 import { bytesOf, encoder, fetched, inlined, served } from "./inlined";
 import { bytesIn, contentOf, type Encode, isStream, pathOf } from "./upload";
@@ -46,30 +46,21 @@ const encode: Encode = async (files, preset, report, signal) => {
     throw new Error("The server has stopped.");
 };
 
-/** Encode a file in a thread of the page; it ends when nobody listens. */
-function inThread(job: Job, report: (stage: string, share: number) => void, signal: AbortSignal): Promise<Result> {
+/** Encode files in a thread of the page; it ends when nobody listens. */
+function inThread(job: Job, report: (stage: string, share: number) => void, signal: AbortSignal): Promise<Content> {
     const worker = new Worker(encoder!, { type: "module", name: "BSM encoder" });
-    return new Promise<Result>((resolve, fail) => {
+    return new Promise<Content>((resolve, fail) => {
         signal.addEventListener("abort", () => fail(signal.reason), { once: true });
         worker.onerror = ({ message }) => fail(new Error(message || "The encoder cannot be loaded."));
-        worker.onmessage = ({ data }: MessageEvent<Status>) => ("error" in data ? fail(new Error(data.error)) : "stage" in data ? report(data.stage, data.share) : resolve(data));
+        worker.onmessage = ({ data }: MessageEvent<Status>) => ("error" in data ? fail(new Error(data.error)) : "stage" in data ? report(data.stage, data.share) : resolve(data.content));
         worker.postMessage(job);
     }).finally(() => worker.terminate());
 }
 
-/** Encode a file, or two without loss, which are compared. */
+/** Encode a mesh or a sequence, or compare two. */
 const encodeHere: Encode = async (files, preset, report, signal) => {
-    if (files.length > 2) throw new Error("This page opens one mesh, or two to compare them; bsm view opens sequences and meshes with their files.");
-    const [begin, isPair, found] = [performance.now(), files.length > 1, [] as Result[]];
-    for (const file of files) {
-        const bytes = isStream(file) && (await bytesIn(file));
-        found.push(bytes ? { original: bytes, stream: bytes, notes: [], less: false } : await inThread({ file, preset: isPair ? "lossless" : preset }, report, signal));
-    }
-    const less = found.some(({ less }) => less);
-    if (isPair) return contentOf(files, found.map(({ stream }) => stream), { less, notes: found.flatMap(({ notes }, i) => notes.map((note) => `${files[i].name}: ${note}`)) });
-    const [[{ original, stream, notes }], [{ name, size }]] = [found, files];
-    const layers = [{ title: "Original", detail: "", size, bytes: original }, { title: "BSM", detail: preset, size: stream.length, bytes: stream }];
-    return { name, main: 1, layers, facts: { notes, less, seconds: (performance.now() - begin) / 1000 } };
+    if (files.every(isStream)) return contentOf(files, await Promise.all(files.map(bytesIn)), {});
+    return inThread({ files: files.map((file) => new File([file], pathOf(file))), preset }, report, signal);
 };
 
 async function fillPage(list: HTMLElement): Promise<void> {
