@@ -8,13 +8,9 @@ import { dressed, numbersOf } from "./parting";
 export type { DrawnAttribute, Piece };
 
 /** A whole mesh as it is drawn: `vertices` says which vertex of the stream each drawn one is, if that is not the same. */
-export interface Shape {
-    index: Uint32Array;
+export interface Shape extends Omit<Dress, "own"> {
     positions: Float32Array;
     normals: Float32Array;
-    attributes: DrawnAttribute[];
-    vertices?: Int32Array;
-    pieces: Piece[];
     center: [number, number, number];
     radius: number;
     low: number[];

@@ -1,6 +1,6 @@
 /** A geometry of three.js that is made of pictures, while they come. */
 import { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 } from "three";
-import type { DrawnAttribute, Header, Metadata, Picture, PictureOf, Piece, Shape } from "./index";
+import type { Header, Metadata, Picture, PictureOf, Piece, Shape } from "./index";
 
 /** What happens to a geometry while it is filled. */
 export interface Progress {
@@ -14,14 +14,6 @@ export interface Progress {
     onMetadata?: (metadata: Metadata, geometry: BSMGeometry) => void;
     /** Stops this load alone. */
     signal?: AbortSignal;
-}
-
-/** A frame of a sequence, for the drawn vertices. */
-interface Frame {
-    positions: Float32Array;
-    normals: Int16Array;
-    attributes: DrawnAttribute[];
-    shape: Shape;
 }
 
 /**
@@ -47,7 +39,7 @@ export class BSMGeometry extends BufferGeometry {
     /** Faces of one part and one material each. */
     pieces: Piece[] = [];
     /** Frames of a sequence that are there, for `showFrame`. */
-    readonly frames: Frame[] = [];
+    readonly frames: (Omit<PictureOf<"frame">, "type"> & { shape: Shape })[] = [];
     /** The frame that is shown. */
     shown = -1;
     /** The colors that the stream has, of what is shown. */
@@ -161,8 +153,9 @@ export class BSMGeometry extends BufferGeometry {
         this.boundingSphere = new Sphere(new Vector3(...center), radius);
     }
 
-    private keep({ index, positions, normals, attributes }: PictureOf<"frame">): void {
-        this.frames.push({ positions, normals, attributes, shape: this.coming! });
+    private keep({ type: _, ...frame }: PictureOf<"frame">): void {
+        const { index } = frame;
+        this.frames.push({ ...frame, shape: this.coming! });
         if (index === 0) this.showFrame(0);
         this.progress.onFrame?.(index, this);
     }

@@ -26,13 +26,7 @@ export interface Listener {
 export type StreamWishes = Pick<Start, "tolerant" | "drawing" | "worthwhile"> & { limits?: Partial<Limits> };
 
 /** A stream whose bytes are given as they come; what they say is heard later, in its order. */
-export interface StreamDecoding {
-    /** Take a piece, which nobody may change any more. */
-    receiveData(data: Uint8Array): void;
-    receiveEof(): void;
-    /** Stop at once; nothing more is heard. */
-    close(): void;
-}
+export type StreamDecoding = Pick<PooledStream, "receiveData" | "receiveEof" | "close">;
 
 const LIMIT = 4;
 const MOST_FAILED = 1; // threads that may fail to start before the page does without
@@ -217,7 +211,7 @@ export class Pool {
 }
 
 /** A stream of a pool. All that came is kept until its end, for a build that knows more. */
-class PooledStream implements StreamDecoding {
+class PooledStream {
     closed = false;
     begun = false;
     task = -1;
@@ -238,6 +232,7 @@ class PooledStream implements StreamDecoding {
         private readonly end: () => void,
     ) {}
 
+    /** Take a piece, which nobody may change any more. */
     receiveData(data: Uint8Array): void {
         this.take(data);
     }
@@ -246,6 +241,7 @@ class PooledStream implements StreamDecoding {
         this.take(null);
     }
 
+    /** Stop at once; nothing more is heard. */
     close(): void {
         if (this.closed) return;
         this.closed = true;
@@ -326,12 +322,7 @@ class PooledStream implements StreamDecoding {
 
 function joined(pieces: (Uint8Array | null)[]): Uint8Array {
     const there = pieces.flatMap((piece) => piece ?? []);
-    if (there.length === 1) return there[0];
     const whole = new Uint8Array(there.reduce((sum, { length }) => sum + length, 0));
-    let at = 0;
-    for (const piece of there) {
-        whole.set(piece, at);
-        at += piece.length;
-    }
+    there.reduce((at, piece) => (whole.set(piece, at), at + piece.length), 0);
     return whole;
 }

@@ -1,17 +1,10 @@
 /** What those that share the chains of a stream have in common. */
 import type { Described } from "./errors";
 
-/** A block's own reconstruction, before it is blended with others; positions in BSM units. */
-export interface DecodedBlock {
-    vertices: Int32Array;
-    positions: Float64Array;
-    weights: Float64Array;
-}
-
-/** A block that a helper has decoded, or what is wrong with it. */
+/** A block that a helper has decoded, before it is blended with others, in BSM units; or what is wrong with it. */
 export interface SharedBlock {
     index: number;
-    block?: DecodedBlock;
+    block?: Record<"positions" | "weights", Float64Array> & { vertices: Int32Array };
     problem?: Described;
 }
 

@@ -8,11 +8,6 @@ const MOST = 3;
 /** A team has a line of its own to each thread, with one stream on it. */
 const TASK = 0;
 
-export interface TeamListener {
-    onBlock: (shared: SharedBlock) => void;
-    onOver: (why: string) => void;
-}
-
 /** How many helpers have something to do; none for fewer vertices than are worthwhile. */
 export function helpersFor(header: Header, worthwhile = WORTHWHILE): number {
     if (header.vertices < worthwhile) return 0;
@@ -23,7 +18,7 @@ export function helpersFor(header: Header, worthwhile = WORTHWHILE): number {
 export class Team {
     private busy: number;
 
-    constructor(private readonly members: MessagePort[], start: Omit<Start, "share" | "helpers">, private readonly listener: TeamListener) {
+    constructor(private readonly members: MessagePort[], start: Omit<Start, "share" | "helpers">, private readonly listener: { onBlock: (shared: SharedBlock) => void; onOver: (why: string) => void }) {
         this.busy = members.length;
         members.forEach((member, k) => {
             const share = { number: k + 1, among: 1 + members.length };

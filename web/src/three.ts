@@ -130,12 +130,10 @@ export class BSMLoader extends Loader<BSMGeometry> {
         return pool;
     }
 
-    private async fetched(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
-        try {
-            return await this.decoded(progress, (stream, signal) => this.pass(url, stream, onProgress, signal));
-        } catch (error) {
+    private fetched(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
+        return this.decoded(progress, (stream, signal) => this.pass(url, stream, onProgress, signal)).catch((error: unknown) => {
             throw naming(url, error);
-        }
+        });
     }
 
     /** The geometry of a stream that is given its bytes, until somebody or an error stops it. */
