@@ -100,3 +100,5 @@ extern INSIDE const BankPlan EDGE_BANK;
 void code_edges(
     RangeCoder *coder, const Bank *bank, const Corners *corners, uint8_t *seam, const uint8_t *others, Ints2 ends);
 int64_t join_corners(Corners corners, ConstBytes seams, Ints joined, Ints first);
+int32_t first_joined(int32_t *joined, int32_t k);
+void join_two(int32_t *joined, int32_t a, int32_t b);

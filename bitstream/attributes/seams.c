@@ -67,14 +67,14 @@ void code_edges(
     }
 }
 
-static int32_t root_of(int32_t *joined, int32_t k) {
+int32_t first_joined(int32_t *joined, int32_t k) {
     while (joined[k] != k) k = joined[k] = joined[joined[k]];
     return k;
 }
 
-static void join(int32_t *joined, int32_t a, int32_t b) {
-    a = root_of(joined, a);
-    b = root_of(joined, b);
+void join_two(int32_t *joined, int32_t a, int32_t b) {
+    a = first_joined(joined, a);
+    b = first_joined(joined, b);
     joined[largest(a, b)] = (int32_t)least(a, b);
 }
 
@@ -89,8 +89,8 @@ int64_t join_corners(Corners corners, ConstBytes seams, Ints joined, Ints first)
         if (beyond <= k || seams.data[k] != NO_SEAM) continue;
         int32_t a = next_corner(k), b = previous_corner(k), c = next_corner(beyond), d = previous_corner(beyond);
         bool turned = vertex[a] != vertex[d]; /* the faces run along the edge in one direction */
-        join(joined.data, a, turned ? c : d);
-        join(joined.data, b, turned ? d : c);
+        join_two(joined.data, a, turned ? c : d);
+        join_two(joined.data, b, turned ? d : c);
     }
     int32_t count = 0;
     for (int32_t k = 0; k < size; k++) { /* a corner is joined to one before it, which has its number, or to itself */

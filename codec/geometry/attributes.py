@@ -172,8 +172,7 @@ def at_corners(attribute: Attribute, faces: Faces) -> npt.NDArray[Any]:
     """The value of each corner of each face, shape (m, 3, c)."""
     if attribute.domain == "face":
         return np.repeat(attribute.values[:, None], 3, axis=1)
-    found: npt.NDArray[Any] = attribute.values[faces if attribute.indices is None else attribute.indices]
-    return found
+    return attribute.values[faces if attribute.indices is None else attribute.indices]
 
 
 def compare_values(

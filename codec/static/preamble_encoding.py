@@ -19,7 +19,7 @@ from bsm.bitstream.errors import MeshError, OptionError, TargetError, counted
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions
 from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
-from bsm.codec.geometry.graph import Graph, components, edges_of, graph_of_faces
+from bsm.codec.geometry.graph import Graph, components, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import degenerate, first_of, group_rows, keep_apart, weld
 from bsm.codec.signal.transform import MeasuredSpectrum
@@ -75,21 +75,12 @@ def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool =
         splits = Splits(index[given], (np.cumsum(given) - 1)[mesh.faces].astype(np.int32), np.zeros((0, 3)))
     if merged and not keep:
         notes.append(f"{MERGED} {counted(vertices=merged)} with others at the same position")
-        if (apart := _bodies(mesh.faces[kept])) > _bodies(index[mesh.faces[kept]]):
-            notes.append(f"{MERGED} some of {apart} closed bodies, which touch: the surface is not a manifold")
     if collapsed.any():
         notes.append(f"left out {counted(faces=int(collapsed.sum()))} without area")
     if loose and not (keep and keep_loose):
         notes.append(f"left out {counted(vertices=loose)} that no face uses")
     mesh = TriangleMesh(mesh.positions[first], index[mesh.faces[kept]])
     return JoinedMesh(mesh, index, first, kept, splits, tuple(notes))
-
-
-def _bodies(faces: Faces) -> int:
-    """The number of closed bodies: connected faces, each of whose edges two of them share."""
-    ends, _, counts = edges_of(faces)
-    part = components(graph_of_faces(faces, int(faces.max(initial=0)) + 1))
-    return len(np.setdiff1d(part[faces], part[ends[counts != 2]]))
 
 
 MOST_CELLS = 1 << 20  # along an axis of a grid

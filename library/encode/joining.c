@@ -39,32 +39,52 @@ int64_t number_rows(const int64_t *rows, int64_t count, int width, Arena *scratc
 
 static bool repeats(int32_t a, int32_t b, int32_t c) { return a == b || b == c || c == a; }
 
-/* Number positions anew: closed bodies, one after the other in the faces, share none. */
+/* Connect a corner to the one that waits at its edge (counted from 1), or let it wait there. */
+static void pair_up(const uint32_t *corners, int32_t *waiting, int64_t corner, Ints joined) {
+    if (*waiting > 0) join_two(joined.data, (int32_t)corners[corner], (int32_t)corners[*waiting - 1]);
+    *waiting = *waiting > 0 ? 0 : (int32_t)corner + 1;
+}
+
+/* Number positions anew: closed bodies share none. Vertices connect faces, and so do edges of two faces; at others,
+ * faces that follow each other are connected, unless an even number of them already are. */
 static bool keep_apart(const GivenMesh *given, Arena *scratch, Ints place) {
-    int64_t n = given->vertices, size = 3 * given->faces, begun = 0, waiting = 0;
+    int64_t n = given->vertices, size = 3 * given->faces;
     const uint32_t *corners = given->corners;
-    Ints edge, is_odd, turn, last;
+    Ints edge, count, alike, is_odd, waiting, joined, closed;
     Longs2 rows, ends;
-    if (!take_ints(scratch, size, &edge) || !zero_ints(scratch, size, &is_odd) || !zero_ints(scratch, size, &turn)
-        || !take_ints(scratch, n, &last) || !take_longs2(scratch, n, 2, &rows) || !take_longs2(scratch, size, 2, &ends))
+    if (!take_ints(scratch, size, &edge) || !zero_ints(scratch, size, &count) || !take_ints(scratch, size, &alike)
+        || !zero_ints(scratch, size, &is_odd) || !zero_ints(scratch, size, &waiting) || !take_ints(scratch, n, &joined)
+        || !zero_ints(scratch, n, &closed) || !take_longs2(scratch, n, 2, &rows)
+        || !take_longs2(scratch, size, 2, &ends))
         return false;
-    for (int64_t v = 0; v < n; v++) rows.data[2 * v] = place.data[v], rows.data[2 * v + 1] = -1;
+    for (int64_t v = 0; v < n; v++) joined.data[v] = (int32_t)v;
     for (int64_t i = 0; i < size; i++) {
         int32_t a = place.data[corners[i]], b = place.data[corners[i % 3 == 2 ? i - 2 : i + 1]];
         ends.data[2 * i] = a < b ? a : b;
         ends.data[2 * i + 1] = a < b ? b : a;
-        last.data[corners[i]] = (int32_t)i;
+        join_two(joined.data, (int32_t)corners[i], (int32_t)corners[i / 3 * 3]);
     }
     if (number_rows(ends.data, size, 2, scratch, edge) < 0) return false;
-    for (int64_t i = 0; i < size; i++) is_odd.data[edge.data[i]] ^= 1;
+    for (int64_t i = 0; i < size; i++) count.data[edge.data[i]]++;
+    for (int64_t i = 0; i < size; i++)
+        if (count.data[edge.data[i]] == 2) pair_up(corners, waiting.data + edge.data[i], i, joined);
     for (int64_t i = 0; i < size; i++) {
-        if (!is_odd.data[edge.data[i]]) waiting += (turn.data[edge.data[i]] ^= 1) ? 1 : -1;
-        if (i % 3 < 2 || waiting > 0) continue;
-        bool is_body = i - begun > 9; /* four faces */
-        for (int64_t j = begun; j <= i; j++)
-            is_body &= (!is_odd.data[edge.data[j]] || ends.data[2 * j] == ends.data[2 * j + 1])
-                && last.data[corners[j]] <= i && rows.data[2 * corners[j] + 1] == -1;
-        for (; begun <= i; begun++) rows.data[2 * corners[begun] + 1] = is_body ? i : -2;
+        count.data[i] = ends.data[2 * i] != ends.data[2 * i + 1]; /* from here on: whether the edge has a length */
+        ends.data[2 * i] = edge.data[i];
+        ends.data[2 * i + 1] = first_joined(joined.data, (int32_t)corners[i]);
+    }
+    if (number_rows(ends.data, size, 2, scratch, alike) < 0) return false;
+    for (int64_t i = 0; i < size; i++) is_odd.data[alike.data[i]] ^= 1;
+    for (int64_t i = 0; i < size; i++)
+        if (is_odd.data[alike.data[i]]) pair_up(corners, waiting.data + edge.data[i], i, joined);
+    for (int64_t i = 0; i < size; i++) { /* the corners of each shell; of one that is open less than 0 */
+        int32_t *of_shell = closed.data + first_joined(joined.data, (int32_t)corners[i]);
+        *of_shell = count.data[i] && waiting.data[edge.data[i]] == i + 1 ? INT32_MIN : *of_shell + 1;
+    }
+    for (int64_t v = 0; v < n; v++) {
+        int32_t shell = first_joined(joined.data, (int32_t)v);
+        rows.data[2 * v] = place.data[v];
+        rows.data[2 * v + 1] = closed.data[shell] > 9 ? shell : -1; /* four faces */
     }
     return number_rows(rows.data, n, 2, scratch, place) >= 0;
 }

@@ -23,6 +23,7 @@ from tools.bsmdec import Entry
 from tools.bsmenc import CELLS, LOSSLESS, PROGRESS, STOPPED, UNREACHABLE, Allocator, compiled_whole, encode, library
 
 TOUCHING = soup(together(torus(9, 7), boxes(*np.ndindex(1, 2, 3)), soup(patch(3, 3)), boxes((1, 0, 0))))
+MIXED = TriangleMesh(TOUCHING.positions, np.random.default_rng(2).permutation(TOUCHING.faces))
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +57,7 @@ def filmed(positions, faces, *attributes):
 
 @pytest.mark.parametrize("keep", [False, True])
 @pytest.mark.parametrize("preset", ["grid14", "lossless"])
-@pytest.mark.parametrize("mesh", [tetrahedron(), torus(20, 12), soup(torus(9, 7)), dressed(torus(20, 12)), TOUCHING])
+@pytest.mark.parametrize("mesh", [tetrahedron(), torus(20, 12), MIXED, dressed(torus(20, 12)), TOUCHING])
 def test_c_and_python_write_the_same_bytes(encoder, mesh, preset, keep):
     found = encode(encoder, mesh, positions=LOSSLESS * (preset == "lossless"), keep_order=keep)
     assert (found.status, found.message) == (0, "")

@@ -802,11 +802,9 @@ def test_an_image_beyond_the_limit_of_small_metadata_comes_back(tmp_path):
     (tmp_path / "a.png").write_bytes(data)
     (tmp_path / "a.mtl").write_text("newmtl m\nmap_Kd a.png\n")
     (tmp_path / "a.obj").write_text(f"mtllib a.mtl\nusemtl m\n{THREE}f 1 2 3\n")
-    stream = bsm.encode(str(tmp_path / "a.obj"), preset="lossless")
-    assert bsm.decode(stream).metadata["image.0.data"] == data
-    story = TriangleMesh(SQUARE, [[0, 1, 2]], (), {"story": "x" * DEFAULT_LIMITS.metadata_bytes})
+    assert bsm.decode(bsm.encode(str(tmp_path / "a.obj"), preset="lossless")).metadata["image.0.data"] == data
     with pytest.raises(bsm.OptionError, match="metadata_bytes"):
-        bsm.encode(story)
+        bsm.encode(TriangleMesh(SQUARE, [[0, 1, 2]], (), {"story": "x" * DEFAULT_LIMITS.metadata_bytes}))
 
 
 @pytest.mark.parametrize(
@@ -818,9 +816,8 @@ def test_an_image_beyond_the_limit_of_small_metadata_comes_back(tmp_path):
     ],
 )
 def test_libraries_as_people_write_them(mtl, words, tmp_path):
-    tga = bytes([0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 24, 0, 9, 9, 9])
     (tmp_path / "t x.png").write_bytes(png())
-    (tmp_path / "T.TGA").write_bytes(tga)
+    (tmp_path / "T.TGA").write_bytes(bytes([0, 0, 2, *9 * [0], 1, 0, 1, 0, 24, 0, 9, 9, 9]))
     (tmp_path / "a.mtl").write_text(mtl)
     (tmp_path / "a.obj").write_text(f"mtllib A.MTL\n{THREE}usemtl A\nf 1 2 3\n")
     read = read_mesh(tmp_path / "a.obj")
@@ -854,8 +851,7 @@ def test_the_first_image_of_a_ply_has_the_color(tmp_path):
 def test_bodies_that_touch_stay_bodies_and_are_objects_of_a_3mf(way, tmp_path):
     box = boxes((0, 0, 0), way)
     two = TriangleMesh(box.positions, box.faces, [bsm.Attribute("object", np.repeat([0, 1], 12), "face")])
-    mixed = TriangleMesh(two.positions, two.faces.reshape(2, 12, 3).swapaxes(0, 1).reshape(-1, 3))
-    assert len(bsm.Encoder(two).notes) == 1 and "not a manifold" in bsm.Encoder(mixed).notes[1]
+    assert len(bsm.Encoder(two).notes) == 1
     for kind in ("stl", "obj"):
         write_mesh(tmp_path / f"a.{kind}", two, overwrite=True)
         assert len(bsm.decode(bsm.encode(tmp_path / f"a.{kind}")).positions) == 16
