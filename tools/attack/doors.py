@@ -2,8 +2,9 @@
 
 Each file is read, encoded with `lossless` (or `grid14`, where single precision is too coarse), decoded and compared
 with what trimesh, meshio, PyMeshLab and usd-core read: area, orientation, places, colors, texture coordinates
-and normals as moments, which do not depend on the order of faces; the number of triangles; names of materials; and
-their colors, of glTF (with images) by trimesh and of DAE by pycollada.
+and normals as moments, which do not depend on the order of faces; the number of triangles; names of materials; their
+colors, and whether they have an image, metal, roughness and sides, as far as trimesh, pycollada, lib3mf and usd-core
+know these.
 The polygons of OBJ, OFF and USD are also read here. Their area vectors do not depend on the cut, and if ours are the
 same, another reader's triangles are not a finding. Polygons that are not flat, and quads whose edges cross, have a
 tolerance: what their heights and the milder cut add.
@@ -25,7 +26,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, NoReturn
@@ -48,6 +49,7 @@ Array = npt.NDArray[Any]
 LIST = Path(__file__).parent / "doors.json"
 EXACT, ON_GRID = 1e-5, 1e-3  # by how much moments may differ, relative to what they add up
 OF_LOOKS = 0.02  # by how much linear colors may differ: others round them to bytes
+UNSAID = (102, 102, 102, 255)  # the color that trimesh gives to materials that say none
 UNEVEN = 0.05  # the most that polygons which are not flat, or cross themselves, add to that
 LARGEST = 3_000_000  # bytes of a file
 USD = ("usd", "usda", "usdc", "usdz")
@@ -68,7 +70,8 @@ class Read:
     groups: set[str] = field(default_factory=set)
     normals: Array | None = None
     uneven: float = 0.0
-    looks: list[tuple[float, ...]] = field(default_factory=list)  # linear colors of materials; 1 if it has an image
+    looks: list[tuple[float, ...]] = field(default_factory=list)
+    """Of materials: linear color, 1 if it has an image, metal, roughness, 1 for double sides; NaN is not known."""
 
     def count(self) -> int:
         """The number of triangles with an area."""
@@ -109,7 +112,10 @@ def of_ours(mesh: bsm.TriangleMesh) -> Read:
     groups = {name for what in ("part", "group", "object") for name in names_in(mesh.metadata, what).values()}
     groups |= {str(mesh.metadata.get("name", ""))}
     known = map(appearance, materials_in(mesh.metadata).values())
-    looks = [(*look.color, float(look.color_texture is not None)) for look in known]
+    looks = [
+        (*look.color, look.color_texture is not None, look.metallic, look.roughness, look.double_sided)
+        for look in known
+    ]
     return Read(mesh.positions[mesh.faces], values, names - {""}, groups - {""}, looks=looks)
 
 
@@ -129,10 +135,7 @@ def of_trimesh(path: Path) -> Read:
             if uv is not None and np.shape(uv) == (len(part.vertices), 2):
                 values.setdefault("texcoord", []).append(np.asarray(uv)[faces])
             names.add(str(getattr(part.visual.material, "name", "") or ""))
-            color = getattr(part.visual.material, "baseColorFactor", None)
-            if color is not None and path.suffix.lower() in (".glb", ".gltf"):  # of others, it is not linear
-                has_image = part.visual.material.baseColorTexture is not None
-                looks.append((*(np.asarray(color)[:3] / 255).tolist(), float(has_image)))
+            looks += _looks_of_trimesh(part.visual.material) if path.suffix.lower() in (".glb", ".gltf", ".obj") else []
         elif part.visual.kind == "vertex":
             values.setdefault("color", []).append(part.visual.vertex_colors[faces][..., :3] / 255)
         if "vertex_normals" in part._cache and np.array_equal(matrix, np.eye(4)):
@@ -143,16 +146,58 @@ def of_trimesh(path: Path) -> Read:
     return Read(np.concatenate(triangles), whole, names - {"", "default", "material_0"}, groups, looks=looks)
 
 
+def _looks_of_trimesh(material: Any) -> list[tuple[float, ...]]:
+    """Its material of glTF, or of MTL where that says a color, which is in sRGB."""
+    if hasattr(material, "baseColorFactor"):
+        color = (1.0, 1.0, 1.0) if material.baseColorFactor is None else (material.baseColorFactor[:3] / 255).tolist()
+        factors = (1.0 if f is None else f for f in (material.metallicFactor, material.roughnessFactor))
+        return [(*color, material.baseColorTexture is not None, *factors, bool(material.doubleSided))]
+    color = to_linear(np.asarray(getattr(material, "diffuse", UNSAID))[None, :3] / 255)[0].tolist()
+    said = not np.array_equal(getattr(material, "diffuse", UNSAID), UNSAID)
+    return [(*color, 1.0 if material.image else np.nan, *3 * [np.nan])] if said else []
+
+
+def of_lib3mf(path: Path) -> Read:
+    """The triangles of the objects of a 3MF where its build places them, and the materials that they use."""
+    model = imported("lib3mf", "3MF files are compared with lib3mf", "formats").get_wrapper().CreateModel()
+    model.QueryReader("3mf").ReadFromFile(str(path))
+    items, waiting, triangles, used = model.GetBuildItems(), list[Any](), [np.zeros((0, 3, 3))], set[tuple[int, int]]()
+
+    def placed(transform: Any) -> Array:
+        return np.array([[*row, end] for row, end in zip(transform.Fields, (0, 0, 0, 1), strict=True)])
+
+    while items.MoveNext():
+        waiting.append((items.GetCurrent().GetObjectResource(), placed(items.GetCurrent().GetObjectTransform())))
+    while waiting:
+        found, matrix = waiting.pop()
+        if found.IsComponentsObject():
+            parts = map(found.GetComponent, range(found.GetComponentCount()))
+            waiting += [(part.GetObjectResource(), placed(part.GetTransform()) @ matrix) for part in parts]
+            continue
+        points = np.array([[*vertex.Coordinates, 1.0] for vertex in found.GetVertices()]) @ matrix
+        faces = np.array([triangle.Indices[:] for triangle in found.GetTriangleIndices()])
+        triangles.append(points[faces[:, ::-1] if np.linalg.det(matrix) < 0 else faces][..., :3])
+        usual, of_usual, _ = found.GetObjectLevelProperty()
+        given = [(one.ResourceID, one.PropertyIDs[0]) for one in found.GetAllTriangleProperties()]
+        used |= {one if one[0] else (usual, of_usual) for one in given}
+    plain = [one for one in used if one[0] and model.GetPropertyTypeByID(one[0]).name == "BaseMaterial"]
+    colors = [model.GetBaseMaterialGroupByID(owner).GetDisplayColor(place) for owner, place in plain]
+    linear = [to_linear(np.array([[c.Red, c.Green, c.Blue]]) / 255)[0].tolist() for c in colors]
+    return Read(np.concatenate(triangles), looks=[(*color, 0.0, *3 * [np.nan]) for color in linear])
+
+
 def of_collada(path: Path) -> Read:
     """The colors of the effects that a DAE uses."""
     library = imported("collada", "DAE files are compared with pycollada", "formats")
     document = library.Collada(str(path), ignore=[library.common.DaeError])
     parts = [part for node in document.scene.objects("geometry") for part in node.primitives()]
     drawn = [part for part in parts if part.material and "Line" not in type(part).__name__]
-    plain = [part.material.effect.diffuse for part in drawn if isinstance(part.material.effect.diffuse, tuple)]
-    return Read(
-        np.zeros((min(len(drawn), 1), 3, 3)), looks=[(*to_linear(np.array([c[:3]]))[0].tolist(), 0.0) for c in plain]
-    )
+    looks = []
+    for effect in (part.material.effect for part in drawn):
+        plain = isinstance(effect.diffuse, tuple)
+        color = to_linear(np.array([effect.diffuse[:3]]))[0].tolist() if plain else 3 * [1.0]
+        looks.append((*color, not plain and effect.diffuse is not None, np.nan, np.nan, bool(effect.double_sided)))
+    return Read(np.zeros((min(len(drawn), 1), 3, 3)), looks=looks)
 
 
 def of_meshio(path: Path) -> Read:
@@ -243,7 +288,9 @@ def of_obj(path: Path) -> Read:
 def of_usd(path: Path) -> Read:
     """Read the polygons of a stage at its first time, as its skeletons move them."""
     pxr = imported("pxr", "USD files are compared with usd-core", "usd")
-    usd, geom, skel = (importlib.import_module(f"{pxr.__name__}.{name}") for name in ("Usd", "UsdGeom", "UsdSkel"))
+    names = ("Usd", "UsdGeom", "UsdSkel", "UsdShade")
+    usd, geom, skel, shade = (importlib.import_module(f"{pxr.__name__}.{name}") for name in names)
+    looks, prim_of = set[tuple[float, ...]](), lambda schema: schema.GetPrim()
     stage = usd.Stage.Open(str(path))
     stage.SetEditTarget(stage.GetSessionLayer())
     skel.BakeSkinning(stage.Traverse())
@@ -269,7 +316,25 @@ def of_usd(path: Path) -> Read:
         sizes.append(counts[kept])
         corners.append(rows[np.repeat(kept, counts)] + many)
         many += len(points[-1])
-    return of_polygons(np.concatenate(points), np.concatenate(sizes).tolist(), np.concatenate(corners))
+        sets = geom.Subset.GetAllGeomSubsets(seen)
+        for bound in (shade.MaterialBindingAPI(p).ComputeBoundMaterial()[0] for p in map(prim_of, sets or [mesh])):
+            surface = bound.ComputeSurfaceSource()[0] if bound else None
+            if surface and surface.GetIdAttr().Get() == "UsdPreviewSurface":
+                looks.add((*_inputs_of_usd(surface), bool(mesh.GetDoubleSidedAttr().Get())))
+    found = of_polygons(np.concatenate(points), np.concatenate(sizes).tolist(), np.concatenate(corners))
+    return replace(found, looks=[*looks])
+
+
+def _inputs_of_usd(surface: Any) -> Iterator[float]:
+    """The color, 1 if that is an image, metal and roughness of a surface; NaN where these are images."""
+    for name, usual in (("diffuseColor", [0.18] * 3), ("metallic", [0.0]), ("roughness", [0.5])):
+        given = surface.GetInput(name)
+        sources = given.GetValueProducingAttributes() if given else []
+        painted = bool(sources) and sources[0].GetPrim() != surface.GetPrim() and "rgb" in sources[0].GetName()
+        value = sources[0].Get() if sources else usual
+        yield from [np.nan] * len(usual) if value is None else np.reshape(value, -1).tolist()
+        if name == "diffuseColor":
+            yield float(painted)
 
 
 OTHERS: dict[str, tuple[Callable[[Path], Read], tuple[str, ...]]] = {
@@ -277,6 +342,7 @@ OTHERS: dict[str, tuple[Callable[[Path], Read], tuple[str, ...]]] = {
     "meshio": (of_meshio, ("ply", "obj", "stl", "off", "vtp")),
     "pymeshlab": (of_pymeshlab, ("ply", "obj", "stl", "off", "dae", "3mf")),
     "pycollada": (of_collada, ("dae",)),
+    "lib3mf": (of_lib3mf, ("3mf",)),
     "usd": (of_usd, USD),
     "off polygons": (of_off, ("off",)),
     "obj polygons": (of_obj, ("obj",)),
@@ -316,7 +382,7 @@ class Apart:
             self._pool.shutdown()
 
 
-_WORDS = {"color": "color", "texcoord": "texture", "normal": "normal"}
+_WORDS = {"color": "color", "texcoord": "texture", "normal": "normal", "looks": "image"}
 
 
 def compared(path: Path, readers: Sequence[str], apart: Apart) -> Iterator[tuple[str, str, str]]:
@@ -365,7 +431,7 @@ def differences(name: str, ours: Read, read: Read, most: float, said: str) -> It
         if lost := getattr(read, what) - getattr(ours, what):
             yield what, f"lost: {', '.join(sorted(lost)[:5])}"
     for look in sorted({*read.looks}):
-        if not any(np.abs(np.subtract(look, mine)).max() < OF_LOOKS for mine in ours.looks):
+        if not any(np.nanmax(np.abs(np.subtract(look, mine))) < OF_LOOKS for mine in ours.looks):
             yield "looks", f"lost: {np.round(look, 3).tolist()}"
     fans = read.normals is not None or not has_shape  # corners in line have no area in one cut, and one in another
     if (mine_too := ours.count()) != (count := read.count()) and "without area" not in said and not fans:

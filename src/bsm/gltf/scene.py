@@ -16,7 +16,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files import conventions, table
 from bsm.files.formats import polygons as shapes
-from bsm.files.formats.appearance import Material
+from bsm.files.formats.appearance import Material, appearance
 from bsm.files.formats.metadata import Value, described
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, between, painted_like, rate_of_times
 from bsm.files.room import Doubles, Ints, as_format_error, require_count
@@ -302,8 +302,7 @@ class Scene:
     def _added(self, part: Part, targets: Doubles, time: float) -> Doubles:
         weights = self._weights(part.node, len(targets), time) if len(targets) else np.zeros(0)
         used = np.flatnonzero(weights)
-        found: Doubles = np.tensordot(weights[used], targets[used], 1)
-        return found
+        return np.tensordot(weights[used], targets[used], 1)
 
     def _weights(self, node: int, count: int, time: float) -> Doubles:
         curve = self._curves.get((node, "weights"))
@@ -671,4 +670,6 @@ def _materials(document: Document, used: list[int], transparent: bool) -> tuple[
                 found[name] = int(value) if isinstance(value, bool) else value
             elif isinstance(value, list) and all(isinstance(item, int | float) for item in value):
                 found[name] = " ".join(f"{item * (shine if name == 'emissiveFactor' else 1):.6g}" for item in value)
+        if index >= 0 and not appearance(found).said:  # others take a material that says nothing for matte
+            found["metallicFactor"] = 1.0
     return words, images
