@@ -81,8 +81,7 @@ def linear_colors(colors: Array) -> Array:
         return np.rint(linear * _WORD).astype(np.uint16)
     narrow = np.rint(linear.clip(0.0, 1.0) * 255).astype(np.uint8)
     same = colors.dtype == np.uint16 and np.array_equal(srgb_colors(narrow), colors)
-    found: Array = narrow if same else linear.astype(np.float32)
-    return found
+    return narrow if same else linear.astype(np.float32)
 
 
 def srgb_colors(colors: Array) -> Array:
@@ -101,5 +100,4 @@ def srgb_colors(colors: Array) -> Array:
 
 def shares_of(colors: Array) -> Doubles:
     """Return floats as they are, and whole numbers as shares of their largest one."""
-    found: Doubles = colors / np.float64(1 if colors.dtype.kind == "f" else np.iinfo(colors.dtype).max)
-    return found
+    return colors / np.float64(1 if colors.dtype.kind == "f" else np.iinfo(colors.dtype).max)

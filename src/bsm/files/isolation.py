@@ -175,8 +175,7 @@ class _Server:
             end = here.recv(_END.size, socket.MSG_WAITALL)
             if len(end) < _END.size:
                 raise ConnectionError("the process that reads files has died")
-            found: End = _END.unpack(end)
-            return found
+            return _END.unpack(end)
 
 
 @cache

@@ -15,7 +15,7 @@ from bsm.bitstream.errors import imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Semantic
 from bsm.files.conventions import unit_named
-from bsm.files.formats.appearance import Material
+from bsm.files.formats.appearance import Material, as_text
 from bsm.files.formats.metadata import Beside, Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, cut_holes, joined_parts
 from bsm.files.room import Doubles, Ints, as_library_error, in_words
@@ -42,7 +42,7 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
         document = collada.Collada(io.BytesIO(prepared), ignore=[collada.common.DaeError])
         scene = _Nodes(collada, beside)
         nodes = document.scene.nodes if document.scene is not None else ()
-        surfaces = [one for node, matrix in _placed(collada, nodes) for one in scene.surfaces(node, matrix)]
+        surfaces = [*_placed(collada, nodes)]
         shapes = [scene.shape(primitive) for primitive, _, _ in surfaces]
         counts = [(len(shape.positions), max(len(shape.corners) - 2 * len(shape.sizes), 0)) for shape in shapes]
         found = joined_parts(starmap(scene.part, surfaces), counts, limits, len(data))
@@ -79,13 +79,13 @@ def _tag(element: Any) -> str:
     return str(element.tag).rpartition("}")[2]
 
 
-def _placed(collada: Any, nodes: Any) -> Iterator[tuple[Any, Doubles]]:
-    """The geometries of nodes and of all nodes below them, each with its matrix."""
+def _placed(collada: Any, nodes: Any) -> Iterator[tuple[Any, Any, Doubles]]:
+    """The primitives with polygons of nodes and of all nodes below them, each with its node and matrix."""
     waiting = [(node, np.eye(4)) for node in reversed(nodes)]
     while waiting:
         node, matrix = waiting.pop()
         if isinstance(node, collada.scene.GeometryNode):
-            yield node, matrix
+            yield from ((one, node, matrix) for one in node.geometry.primitives if one.vertex is not None)
         elif isinstance(node, collada.scene.Node):
             moved = matrix @ node.matrix
             waiting += [(child, moved) for child in reversed(node.children)]
@@ -101,10 +101,6 @@ class _Nodes:
         self.absent: dict[str, None] = {}
         self._numbers: dict[str, int] = {}
         self._shapes: dict[int, Part] = {}
-
-    def surfaces(self, node: Any, matrix: Doubles) -> list[tuple[Any, Any, Doubles]]:
-        """The primitives with polygons of a node, each with the node and its matrix."""
-        return [(primitive, node, matrix) for primitive in node.geometry.primitives if primitive.vertex is not None]
 
     def shape(self, primitive: Any) -> Part:
         """The polygons of a primitive, which may stand in several places."""
@@ -137,7 +133,7 @@ class _Nodes:
         for given, word in _NUMBERS.items():
             value = getattr(effect, given)
             if isinstance(value, tuple | list):
-                found[word] = " ".join(f"{number:.6g}" for number in value[:3])
+                found[word] = as_text(value[:3])
             elif isinstance(value, int | float):
                 found[word] = float(value)
         for given, word in _IMAGES.items():

@@ -318,8 +318,7 @@ def turned_corners(sizes: Ints, turned: Array) -> Ints:
     first = np.repeat(np.cumsum(sizes) - sizes, sizes)
     step = np.arange(len(first)) - first
     size = np.repeat(sizes, sizes)
-    found: Ints = first + np.where(np.repeat(turned, sizes), (size - step) % np.maximum(size, 1), step)
-    return found
+    return first + np.where(np.repeat(turned, sizes), (size - step) % np.maximum(size, 1), step)
 
 
 @dataclass(frozen=True, eq=False)
@@ -428,8 +427,7 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, I
     def fans(rows: Ints, turn: int) -> Ints:
         polygon = owner[rows]
         steps: Ints = np.column_stack([np.zeros_like(rows), step[rows] + 1, step[rows] + 2]) + turn
-        fan: Ints = first[polygon][:, None] + steps % sizes[polygon][:, None]
-        return fan
+        return first[polygon][:, None] + steps % sizes[polygon][:, None]
 
     places: Ints = fans(np.arange(len(owner)), 0)
     vectors = _area_vectors(scaled, corners[places])

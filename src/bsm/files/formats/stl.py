@@ -104,12 +104,11 @@ def write_stl(mesh: TriangleMesh, stem: str) -> Written:
     triangles = np.zeros(len(mesh.faces), RECORD)
     triangles["normal"], triangles["corners"] = face_normals(mesh.positions, mesh.faces), mesh.positions[mesh.faces]
     attribute = face_numbers(mesh, _ATTRIBUTE)
-    if attribute is not None and attribute.values.dtype == np.uint16:
-        triangles["attribute"] = attribute.values[:, 0]
-    else:
-        attribute = None
+    held = [attribute] if attribute is not None and attribute.values.dtype == np.uint16 else []
+    for own in held:
+        triangles["attribute"] = own.values[:, 0]
     said = _HEADER if _HEADER in mesh.metadata else "provenance"
     header = str(mesh.metadata.get(said, "")).encode("latin-1", "replace")
     fits = len(header) < HEAD - 3 and not header.startswith(b"solid")  # which would be a text
     data = (header if fits else b"").ljust(HEAD - 4, b"\0") + len(triangles).to_bytes(4, "little") + triangles.tobytes()
-    return Written(data, left_out(mesh, [attribute], [n for n in mesh.metadata if n != said or not fits]))
+    return Written(data, left_out(mesh, held, [n for n in mesh.metadata if n != said or not fits]))

@@ -20,7 +20,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
 from bsm.files.conventions import placement, unit_named
 from bsm.files.formats import metadata as formats
-from bsm.files.formats.appearance import Material, appearance, held_by, lost, one_line, within
+from bsm.files.formats.appearance import Material, appearance, as_text, held_by, lost, one_line, within
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
 from bsm.files.room import NO_DOUBLES, Doubles, Ints, as_format_error, as_library_error, single_suffices
 from bsm.files.unread import Taken, rows_of
@@ -90,14 +90,8 @@ class _Model:
         self.files = set[str]()
 
     def joined(self, size: int) -> Polygons:
-        placed = [
-            (item.GetObjectResource().GetUniqueResourceID(), item) for item in _items(self._model.GetBuildItems())
-        ]
-        shown = [
-            (number, matrix, name)
-            for root, item in placed
-            for number, matrix, name in self._below(root, _matrix(item.GetObjectTransform()))
-        ]
+        placed = [*_items(self._model.GetBuildItems())]
+        shown = [found for item in placed for found in self._below(item)]
         if not placed:
             raise MeshError("this 3MF file places no object: its build has no item")
         counts = [((mesh := self._objects[n]).GetVertexCount(), mesh.GetTriangleCount()) for n, *_ in shown]
@@ -113,9 +107,9 @@ class _Model:
         metadata |= {**(formats.described(self._words) if known else {}), **self._images, **found.metadata}
         return replace(found, dropped=tuple(self._left), metadata=metadata)
 
-    def _below(self, root: int, matrix: Doubles) -> Iterator[tuple[int, Doubles, str]]:
-        """The meshes of an object, each with its place and its name."""
-        waiting = [(root, matrix, "")]
+    def _below(self, item: Any) -> Iterator[tuple[int, Doubles, str]]:
+        """The meshes of an item of the build, each with its place and its name."""
+        waiting = [(item.GetObjectResource().GetUniqueResourceID(), _matrix(item.GetObjectTransform()), "")]
         while waiting:
             number, matrix, above = waiting.pop()
             item = self._objects[number]
@@ -123,8 +117,7 @@ class _Model:
             if item.IsMeshObject():
                 yield number, matrix, name
             elif item.IsComponentsObject():
-                below = [(used, matrix @ _matrix(moved), name) for used, moved in self._uses[number]]
-                waiting += reversed(below)
+                waiting += [(used, matrix @ _matrix(moved), name) for used, moved in reversed(self._uses[number])]
             else:
                 self._left["objects that are not meshes (level sets)"] = None
 
@@ -138,8 +131,7 @@ class _Model:
             columns, materials = self._painted(item, len(corners))
             sizes = np.full(len(corners), 3)
             self._made[number] = Part(points, sizes, corners.reshape(-1), columns, materials, "")
-        made = self._made[number]
-        return Part(made.positions, made.sizes, made.corners, made.columns, made.materials, name)
+        return replace(self._made[number], name=name)
 
     def _painted(self, item: Any, count: int) -> tuple[list[Column], Ints]:
         """The colors and texture coordinates of the corners of an object, and the materials of its triangles."""
@@ -204,9 +196,8 @@ class _Model:
 
 def _material(group: Any, place: int) -> Material:
     color = group.GetDisplayColor(place)
-    shares = [f"{byte / 255:.6g}" for byte in (color.Red, color.Green, color.Blue, color.Alpha)]
-    opaque = color.Alpha == 255
-    return {"name": str(group.GetName(place)), "Kd": " ".join(shares[:3]), **({} if opaque else {"d": shares[3]})}
+    kd, d = (as_text(np.array(numbers) / 255) for numbers in ((color.Red, color.Green, color.Blue), color.Alpha))
+    return {"name": str(group.GetName(place)), "Kd": kd, **({} if d == "1" else {"d": d})}
 
 
 def _matrix(transform: Any) -> Doubles:

@@ -53,9 +53,9 @@ def elements_of(text: bytes) -> list[ElementTree.Element]:
 
 
 class _Document:
-    """The XML of a file: its arrays with the elements that they are in, and other elements of use."""
+    """The arrays of a file with the elements that they are in, whose numbers take a limited memory, and its tags."""
 
-    def __init__(self, text: bytes) -> None:
+    def __init__(self, text: bytes, appended: bytes, raw: bool, limits: Limits, size: int) -> None:
         elements = elements_of(text)
         self.arrays = [(around.tag, element) for around in elements for element in around if element.tag in _ARRAYS]
         self.tags = {element.tag: element.attrib for element in reversed(elements) if element.tag in _TAGS}
@@ -63,13 +63,7 @@ class _Document:
             raise FormatError(f"this VTP file has more than {_MOST_ARRAYS} arrays")
         if sum(element.tag == "Piece" for element in elements) > 1:
             raise MeshError("this VTP file has several pieces; save it as one")
-
-
-class _Numbers:
-    """Makes arrays of a document, and counts their memory."""
-
-    def __init__(self, document: _Document, appended: bytes, raw: bool, limits: Limits, size: int) -> None:
-        file = document.tags.get("VTKFile", {})
+        file = self.tags.get("VTKFile", {})
         self._order = ">" if file.get("byte_order") == "BigEndian" else "<"
         head = _HEADS.get(file.get("header_type", "UInt32"))
         if head is None:
@@ -77,13 +71,13 @@ class _Numbers:
         self._head = np.dtype(self._order + head)
         self._compressor = file.get("compressor")
         self._appended, self._raw = appended, raw
-        offsets = (_COUNT.fullmatch(element.get("offset", "0")) for _, element in document.arrays)
+        offsets = (_COUNT.fullmatch(element.get("offset", "0")) for _, element in self.arrays)
         begins = {int(offset[0]) for offset in offsets if offset}  # others may be of arrays that are not read
         self._ends = dict(pairwise([*sorted(begins), len(appended)]))
         self._limits, self._size, self._made = limits, size, 0
 
-    def of(self, array: ElementTree.Element) -> Array:
-        """The numbers, shape (k, c)."""
+    def numbers(self, array: ElementTree.Element) -> Array:
+        """The numbers of an array, shape (k, c)."""
         kind = "u1" if array.get("type") == "String" else _TYPES.get(array.get("type", ""))
         if kind is None:
             raise MeshError(f"numbers cannot be {array.get('type')}")
@@ -130,14 +124,14 @@ class _Numbers:
         return bytes(found)
 
     def _bytes(self, given: bytes) -> bytes:
-        count = int(self._numbers(given, 1)[0])
+        count = int(self._head_of(given, 1)[0])
         if not self._compressor:
             return self._taken(given, self._head.itemsize, count)
         if self._compressor != "vtkZLibDataCompressor":
             raise FormatError(f"{self._compressor} is not known here; save it with zlib, or uncompressed")
         if count > len(given):
             raise TruncatedError("the blocks of an array are not there")
-        head = self._numbers(given, 3 + count)
+        head = self._head_of(given, 3 + count)
         sizes, size = head[3:].tolist(), int(head[1])
         self._require(count * size)
         packed = self._taken(given, head.nbytes, sum(sizes))
@@ -153,7 +147,7 @@ class _Numbers:
             at += length
         return b"".join(blocks)
 
-    def _numbers(self, given: bytes, count: int) -> Array:
+    def _head_of(self, given: bytes, count: int) -> Array:
         return np.frombuffer(self._taken(given, 0, count * self._head.itemsize), self._head)
 
     def _taken(self, given: bytes, begin: int, size: int) -> bytes:
@@ -182,7 +176,7 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     found = _UNDERSCORE.match(data, end + 1) if end >= 0 else None
     text, appended = (data, b"") if found is None else (data[:at] + b"</VTKFile>", data[found.end() :])
     require_inflated(8 * len(text) + 2 * TAG * text.count(b"<"), len(data), limits)
-    document = _Document(text)
+    document = _Document(text, appended, b"raw" in data[at : end + 1], limits, len(data))
     piece = document.tags.get("Piece")
     if document.tags.get("VTKFile", {}).get("type") != "PolyData" or piece is None:
         raise FormatError("this VTK file holds no surface; extract one (ParaView's filter Extract Surface)")
@@ -191,7 +185,6 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     points, polygons = _count(piece, "NumberOfPoints", 0), _count(piece, "NumberOfPolys", 0)
     require_count("vertices", points, limits)
     require_count("faces", polygons, limits)
-    numbers = _Numbers(document, appended, b"raw" in data[at : end + 1], limits, len(data))
     shape = {
         (around, array.get("Name", "") if around == "Polys" else ""): array
         for around, array in document.arrays
@@ -199,7 +192,7 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     }
     try:
         needed = (("Points", ""), ("Polys", "connectivity"), ("Polys", "offsets"))
-        coordinates, corners, ends = (numbers.of(shape[key]) for key in needed)
+        coordinates, corners, ends = (document.numbers(shape[key]) for key in needed)
     except KeyError:
         raise NoFacesError("this VTP file has no faces; point clouds are not supported") from None
     if coordinates.shape != (points, 3) or len(ends) != polygons or {corners.dtype.kind, ends.dtype.kind} - {*"iu"}:
@@ -208,9 +201,9 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     sizes: Ints = stops - np.concatenate([[0], stops[:-1]])
     if (sizes < 0).any() or (sizes > corners.size).any() or sizes.sum() != corners.size:
         raise CorruptError("the polygons of this VTP file do not begin where others end")
-    columns, dropped = _columns(document, numbers, piece)
+    columns, dropped = _columns(document, piece)
     fields = {array.get("Name", ""): array for around, array in document.arrays if around == "FieldData"}
-    metadata, omitted = plain_fields({name: _field(numbers.of(array), array) for name, array in fields.items()})
+    metadata, omitted = plain_fields({name: _field(document.numbers(array), array) for name, array in fields.items()})
     others = [word for name, word in _OTHERS.items() if _count(piece, name, 0)]
     flat: Ints = corners.reshape(-1).astype(np.int64)
     with np.errstate(invalid="ignore"):  # as above
@@ -218,7 +211,7 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     return Polygons(positions, sizes, flat, (), (*dropped, *omitted, *others), columns, metadata)
 
 
-def _columns(document: _Document, numbers: _Numbers, piece: dict[str, str]) -> tuple[tuple[Column, ...], list[str]]:
+def _columns(document: _Document, piece: dict[str, str]) -> tuple[tuple[Column, ...], list[str]]:
     """Values of points and polygons, and the names of those that are none of these."""
     before = _count(piece, "NumberOfVerts", 0) + _count(piece, "NumberOfLines", 0)
     domains: dict[str, Domain] = {"PointData": "vertex", "CellData": "face"}
@@ -228,7 +221,7 @@ def _columns(document: _Document, numbers: _Numbers, piece: dict[str, str]) -> t
         if domain and array.get("type") not in _TYPES:
             dropped.append(name)
         elif domain:
-            values = numbers.of(array)[before if domain == "face" else 0 :]
+            values = document.numbers(array)[before if domain == "face" else 0 :]
             active = document.tags.get(around, {})
             shown: dict[str | None, Semantic] = {active.get("TCoords"): "texcoord", active.get("Normals"): "normal"}
             found.append(named_column(name, values, domain, shown.get(name)))

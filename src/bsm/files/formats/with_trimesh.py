@@ -10,7 +10,7 @@ import numpy as np
 
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Domain
-from bsm.files.formats.appearance import Material
+from bsm.files.formats.appearance import Material, as_text
 from bsm.files.formats.metadata import Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, joined_parts, meaning_of
 from bsm.files.room import Doubles
@@ -154,7 +154,6 @@ def _words_of(material: Any, images: list[bytes]) -> Material:
             numbers = np.asarray(value).reshape(-1)
             if numbers.dtype == np.uint8:
                 numbers = numbers / 255
-            kept = numbers[:3] if name.startswith("K") else numbers
-            found[name] = " ".join(f"{number:.6g}" for number in kept)
+            found[name] = as_text(numbers[:3] if name.startswith("K") else numbers)
     finite = {name: value for name, value in found.items() if not isinstance(value, float) or np.isfinite(value)}
     return {} if finite == {"doubleSided": 0} else finite  # the default

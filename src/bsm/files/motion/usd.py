@@ -447,8 +447,7 @@ class _Part:
             return found
         instancer, number, root = self.instance
         base = np.array(cache.GetLocalToWorldTransform(root), np.float64)
-        placed: Doubles = found @ np.linalg.pinv(base) @ instancer.place(number, time, cache)
-        return placed
+        return found @ np.linalg.pinv(base) @ instancer.place(number, time, cache)
 
     def at(self, time: Any, cache: Any) -> Doubles:
         shape, when = self.shape, f"at time {time.GetValue():g}"
