@@ -8,7 +8,7 @@ extern "C" {
 #include "bitstream/attributes/attributes.h"
 #include "bitstream/coefficients/coefficients.h"
 #include "bitstream/connectivity/connectivity.h"
-#include "bitstream/container/container.h"
+#include "bitstream/container/numbers.h"
 #include "bitstream/entropy/entropy.h"
 #include "bitstream/fields/twins.h"
 }

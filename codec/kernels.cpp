@@ -33,7 +33,7 @@ void bind_codec(nb::module_ &m) {
     KERNEL(filter_normals) KERNEL(describe_faces) KERNEL(reach) KERNEL(face_patches)
     KERNEL(face_geometry) KERNEL(pair_distances) KERNEL(follow_normals)
     KERNEL(cosines) KERNEL(project) KERNEL(reconstruct) CHECKED(show_frames) CHECKED(turn_columns)
-    CHECKED(back_into_unit) KERNEL(apply_powers) KERNEL(combine_powers) CHECKED(smooth_all)
+    CHECKED(back_into_unit) CHECKED(smooth_all)
     // What both sides of a sequence have.
     for (const auto &[name, number] : {NUMBER(BENDING), NUMBER(BATCH), NUMBER(LEAST_KEPT), NUMBER(MOST_KEPT),
              NUMBER(POSITIONS_KEPT), NUMBER(TRACK_MEMORY), NUMBER(SPARE_MEMORY)})

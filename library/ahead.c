@@ -2,7 +2,7 @@
 #include "library/ahead.h"
 
 #include "library/arithmetic.h"
-#include "bitstream/payloads/corners.h"
+#include "bitstream/payloads/payloads.h"
 
 enum { MOST_LANES = 64, CHAINS_OF_LANE = 4, MOST_ROWS = 1 << 20, AT_ONCE = 1024 };
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "bitstream/attributes/attributes.h"
-#include "bitstream/container/header.h"
-#include "bitstream/payloads/order.h"
+#include "bitstream/container/container.h"
+#include "bitstream/payloads/payloads.h"
 
 /* Corners that share a value, where attributes have seams: the seams, and how many values there are. */
 typedef struct {

@@ -2,7 +2,7 @@
 #include "library/attribute_set.h"
 
 #include "bitstream/costs.h"
-#include "bitstream/payloads/corners.h"
+#include "bitstream/payloads/payloads.h"
 
 enum { GUESSES_PLAIN = MOST_COMPONENTS * BASES * VALENCES, GUESSES_OTHERS = 2 * BASES * VALENCES, FACE_MEMORY = 257,
     DIRECTIONS = 12 };

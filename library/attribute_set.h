@@ -2,7 +2,7 @@
 #pragma once
 
 #include "library/attribute.h"
-#include "bitstream/container/packet.h"
+#include "bitstream/container/container.h"
 
 /* Those of one mesh, by number; NULL for those that were not declared. */
 typedef struct {

@@ -3,7 +3,7 @@
 
 #include "library/ahead.h"
 #include "bitstream/costs.h"
-#include "bitstream/payloads/topology.h"
+#include "bitstream/payloads/payloads.h"
 
 /* Whether a frame belongs before stages that have begun: after a loss the grammar does not know what came before. */
 static bool is_too_late(const Mesh *mesh, FrameType type) {

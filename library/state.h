@@ -4,11 +4,11 @@
 #include "codec/signal/assembly.h"
 #include "library/attribute_set.h"
 #include "codec/signal/chain.h"
-#include "codec/sequence/frames.h"
-#include "bitstream/payloads/grid.h"
+#include "codec/sequence/gops.h"
+#include "bitstream/payloads/payloads.h"
 #include "codec/signal/layer.h"
 #include "bitstream/pool.h"
-#include "bitstream/container/reader.h"
+#include "bitstream/container/container.h"
 
 typedef struct Ahead Ahead;
 

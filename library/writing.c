@@ -2,7 +2,7 @@
 #include "library/writing.h"
 
 #include "library/arithmetic.h"
-#include "bitstream/payloads/topology.h"
+#include "bitstream/payloads/payloads.h"
 
 #ifdef BSMDEC_WRITES
 

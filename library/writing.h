@@ -2,9 +2,9 @@
 #pragma once
 
 #include "library/attribute_set.h"
-#include "bitstream/payloads/grid.h"
-#include "codec/signal/layer.h"
 #include "bitstream/payloads/payloads.h"
+#include "codec/signal/layer.h"
+#include "bitstream/payloads/written.h"
 #include "bitstream/pool.h"
 
 /* What a writer works with: its memory, and the first thing wrong. It must not be moved. */

@@ -1,5 +1,5 @@
 /* What an ATTRIBUTE frame declares: fields, and how they agree (specification, D 1). */
-#include "bitstream/container/header.h"
+#include "bitstream/container/container.h"
 
 enum {
     NAME = 1, DOMAIN_KEY, ORIGIN, SEMANTIC, KIND, COMPONENTS, CODING, ROWS, LARGEST, OFFSET, STEP, LEANS, MOVES,

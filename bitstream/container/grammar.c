@@ -1,6 +1,6 @@
 /* Which packet may follow which, and what a packet must have to agree with the header (specification, F 3.5 to F
  * 3.14). */
-#include "bitstream/container/grammar.h"
+#include "bitstream/container/container.h"
 
 #define BIT(type) (1u << (type))
 static const uint32_t BODY = BIT(BLOCK_FRAME) | BIT(GOP_FRAME) | BIT(GRID_FRAME) | BIT(REFINEMENT_FRAME)

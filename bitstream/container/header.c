@@ -1,5 +1,5 @@
 /* The header: fields, legal values, contradictions (specification, F 4, F 10). */
-#include "bitstream/container/header.h"
+#include "bitstream/container/container.h"
 
 enum {
     VERTICES = 1, FACES, BLOCKS, BLOCK_SIZE, COEFFICIENTS, KEY_INTERVAL, STEP, CENTER, SCALE, SMOOTHING, REFINEMENT,

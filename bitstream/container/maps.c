@@ -1,5 +1,5 @@
 /* Canonical maps: one map has one encoding, and nothing else is accepted (specification, F 1.5). */
-#include "bitstream/container/maps.h"
+#include "bitstream/container/container.h"
 
 #include <float.h>
 

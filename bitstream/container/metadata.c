@@ -1,5 +1,5 @@
 /* What authors say of their meshes, each name once. */
-#include "bitstream/container/metadata.h"
+#include "bitstream/container/container.h"
 
 struct Branch {
     int64_t bit;       /* the first in which the names on both sides differ; after its end a name is a 0, then a 1 */

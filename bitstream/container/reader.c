@@ -1,5 +1,5 @@
 /* Bytes to packets (specification, F 2, F 3, F 5). */
-#include "bitstream/container/reader.h"
+#include "bitstream/container/container.h"
 
 enum { MAGIC = 4, PREAMBLE = 5 };
 static const uint8_t BEGINNING[MAGIC] = {0x89, 'B', 'S', 'M'};

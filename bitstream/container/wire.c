@@ -1,5 +1,5 @@
 /* Varints, checksums (specification, F 1). */
-#include "bitstream/container/wire.h"
+#include "bitstream/container/container.h"
 
 enum { MOST_VARINT = 5 };
 

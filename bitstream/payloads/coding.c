@@ -1,4 +1,4 @@
-#include "bitstream/payloads/coding.h"
+#include "bitstream/payloads/payloads.h"
 
 #ifdef BSMDEC_WRITES
 static void begin_writing(Coding *writing) {

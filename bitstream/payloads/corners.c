@@ -1,5 +1,5 @@
 /* What all fields of integers begin with: corners, orders, models (specification, V 1 to V 6). */
-#include "bitstream/payloads/corners.h"
+#include "bitstream/payloads/payloads.h"
 
 enum { CONTEXT_ROWS = CONTEXTS * CONTEXT_SIZE, UNLEARNED_HIT = 1 << 28, SLOT_WEIGHT = 6000 };
 

@@ -1,8 +1,7 @@
 /* Positions on a grid (specification, V 7 to V 10, V 12, V 15 to V 18). */
-#include "bitstream/payloads/grid.h"
+#include "bitstream/payloads/payloads.h"
 
 #include "bitstream/costs.h"
-#include "bitstream/payloads/corners.h"
 
 enum { AXES = 3, SUM_LEARNERS = 48, SIZE_LEARNERS = 12, FLOAT_SLOTS = 27 };
 

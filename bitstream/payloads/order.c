@@ -1,10 +1,9 @@
 /* ORDER: vertices and faces as they were given (specification, F 9, C 9). */
-#include "bitstream/payloads/order.h"
+#include "bitstream/payloads/payloads.h"
 
 #include "bitstream/coefficients/coefficients.h"
 #include "bitstream/connectivity/connectivity.h"
 #include "bitstream/costs.h"
-#include "bitstream/payloads/coding.h"
 
 enum { FIRST, COPY, LOOSE };
 

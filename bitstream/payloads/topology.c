@@ -1,8 +1,7 @@
 /* CONNECTIVITY to faces (specification, C 4 to C 8), and the labels of PARTITION (C 10). */
-#include "bitstream/payloads/topology.h"
+#include "bitstream/payloads/payloads.h"
 
 #include "bitstream/connectivity/connectivity.h"
-#include "bitstream/payloads/coding.h"
 
 enum { FIRST_NODES_ROOM = 16, EVENT_TRUST = 30,
     FAN_BYTES = 32 /* more than the vertex of a fan, or a corner of a face that repeats one, can take */ };

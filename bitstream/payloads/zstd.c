@@ -1,5 +1,5 @@
 /* One zstd frame without its magic number, of a content whose size is known (specification, F 6.2; RFC 8878). */
-#include "bitstream/payloads/zstd.h"
+#include "bitstream/payloads/payloads.h"
 
 enum { MOST_WINDOW = 1 << 23, MOST_BLOCK = 1 << 17, MOST_BITS = 11, MOST_LOG = 9, MOST_SYMBOLS = 256 };
 enum { RAW, RLE, PACKED, REPEAT };

@@ -1,6 +1,6 @@
 /* Dictionaries of blocks (specification, M 8): orthogonal iterations. */
 #include "codec/geometry/geometry.h"
-#include "codec/basis/dictionaries.h"
+#include "codec/basis/patches.h"
 
 static const double EXACT_SHIFT = 0x1p-5;
 /* The share of hash columns in a start that might lack something, of cosines and of a predecessor's columns (M 8.3). */

@@ -1,5 +1,5 @@
 /* Graph, parts and blocks of a mesh, all integers (specification, M 2 to M 6). */
-#include "codec/basis/structure.h"
+#include "codec/basis/patches.h"
 
 #include "codec/blocks/blocks.h"
 #include "codec/geometry/geometry.h"

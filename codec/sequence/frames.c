@@ -1,5 +1,5 @@
 /* GOPs to frames, and back to GOPs (specification, S 3.7 to S 7, S 10). */
-#include "codec/sequence/frames.h"
+#include "codec/sequence/gops.h"
 
 #include "bitstream/coefficients/coefficients.h"
 #include "codec/signal/signal.h"
@@ -487,7 +487,7 @@ static int64_t coded_rows(const Gops *gops) {
 }
 
 /* The levels of all parts in a field, whose references are the parts before (no `before`) or the same parts there. */
-static bool code_levels(Gops *gops, const Bank *bank, const GopField *field, const int32_t *before, int64_t columns,
+static bool code_levels_of(Gops *gops, const Bank *bank, const GopField *field, const int32_t *before, int64_t columns,
     Arena *scratch, Ints levels) {
     Mark mark = mark_of(scratch);
     Matrix *matrices;
@@ -541,13 +541,13 @@ static bool code_learned(Gops *gops, const Gop *gop, Arena *scratch) {
         Mark mark = mark_of(scratch);
         if (!make_bank(scratch, MATRIX_BANK, &bank)
             || (field->step > 0 && !choosing
-                && !code_levels(gops, &bank, field, NULL, field->components, scratch, decoding.levels[k])))
+                && !code_levels_of(gops, &bank, field, NULL, field->components, scratch, decoding.levels[k])))
             return false;
         if (!choosing) release_to(scratch, mark);
     }
     if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)
         || (choosing
-            && !code_levels(gops, &bank, gop->field, NULL, gop->field->components, scratch, *decoding.levels)))
+            && !code_levels_of(gops, &bank, gop->field, NULL, gop->field->components, scratch, *decoding.levels)))
         return false;
     release_all(&gops->history);
     for (int k = 0; k < gops->tracks; k++) {
@@ -637,13 +637,13 @@ static bool code_next(Gops *gops, const Gop *gop, Arena *scratch) {
             || !hold_cosines(track->width, const_doubles2(decoding.time), &gops->frames, gops->basis + k))
             return false;
         if (field->components > 0 && !choosing
-            && !code_levels(gops, &track->bank, field, track->levels.data, columns, scratch, decoding.levels[k]))
+            && !code_levels_of(gops, &track->bank, field, track->levels.data, columns, scratch, decoding.levels[k]))
             return false;
     }
     gops->together = gop->frames;
     if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)
         || (choosing
-            && !code_levels(gops, &gops->track->bank, gop->field, gops->track->levels.data, gops->basis->columns,
+            && !code_levels_of(gops, &gops->track->bank, gop->field, gops->track->levels.data, gops->basis->columns,
                 scratch, *decoding.levels)))
         return false;
     for (int k = 0; k < gops->tracks; k++) {

@@ -1,5 +1,5 @@
 /* What a GOP says (specification, S 2), and what it costs (S 8). */
-#include "codec/sequence/gop.h"
+#include "codec/sequence/gops.h"
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
 /* Parts of a moving mesh: the weights of their edges, what they hang on, their dictionaries (S 3, S 8.2). */
-#include "codec/sequence/parts.h"
+#include "codec/sequence/gops.h"
 
 #include "codec/signal/signal.h"
-#include "codec/basis/dictionary_costs.h"
+#include "codec/basis/patches.h"
 #include "codec/geometry/geometry.h"
 #include "codec/sequence/temporal.h"
 

@@ -3,7 +3,7 @@
 
 #include "codec/blocks/blocks.h"
 #include "codec/signal/signal.h"
-#include "bitstream/payloads/zstd.h"
+#include "bitstream/payloads/payloads.h"
 
 static const double STIFFNESS = 8; /* half of it costs 1.0 %, twice 1.6 % */
 enum { LEVEL_BYTES = 64 }; /* more than a level can take */
@@ -110,24 +110,24 @@ static bool code_coefficients(Chains *chains, Span payload, Ints2 levels) {
 }
 
 /* Springs at each row, the factor of L + S + shift, and what continues what they hang on (M 7.3, M 7.4). */
-bool suspend_block(Chains *chains, Arena *scratch, Suspended *block) {
+static bool suspend_block(Chains *chains, Arena *scratch, Suspended *block) {
     const Patch *patch = &block->patch;
     int64_t n = patch->size;
     Singles room;
-    Doubles sums;
-    Words column;
     if (!zero_doubles(scratch, n, &block->springs) || !zero_doubles2(scratch, n, 3, &block->pulls)
-        || !take_doubles2(scratch, n, 3, &block->continued) || !take_singles(scratch, solving_space(n, 3), &room)
-        || !take_doubles(scratch, n, &sums) || !take_words(scratch, n + 1, &column)
-        || !take_factor(scratch, patch, &block->factor))
+        || !take_doubles2(scratch, n, 3, &block->continued) || !take_doubles(scratch, n, &block->weights)
+        || !take_singles(scratch, solving_space(n, 3), &room))
         return false;
     if (chains->knows)
         look_around(chains->graph->offsets, chains->graph->neighbors, patch->vertices, chains->inside,
             const_doubles2(chains->known.sums), const_doubles(chains->known.weights), STIFFNESS, block->springs,
             block->pulls);
-    suspend(patch->offsets, patch->neighbors, patch->weights, const_doubles(patch->diagonal), patch->fronts,
-        const_doubles(block->springs), const_doubles2(block->pulls), chains->header->paper.shift, sums, column, room,
-        block->factor.values, block->factor.inverse, block->continued);
+    if (!factorize_patch(patch, const_doubles(block->springs), chains->header->paper.shift, scratch, &block->factor))
+        return false;
+    continue_known(patch->fronts, block->factor.values, const_singles(block->factor.inverse),
+        const_doubles(block->springs), const_doubles2(block->pulls), room, block->continued);
+    for (int64_t r = 0; r < n; r++)
+        block->weights.data[r] = patch->diagonal.data[r] > 1.0 ? patch->diagonal.data[r] : 1.0;
     return true;
 }
 
@@ -149,12 +149,13 @@ void commit_block(Chains *chains, Singles2 dictionary, const DecodedBlock *decod
         add_copies(chains->known.sums, chains->known.weights, decoded->vertices, decoded->positions, decoded->weights);
 }
 
-void weigh_rows(const Patch *patch, Doubles weights) {
-    for (int64_t r = 0; r < patch->size; r++)
-        weights.data[r] = patch->diagonal.data[r] > 1.0 ? patch->diagonal.data[r] : 1.0;
+#ifdef BSMDEC_WRITES
+bool hang_block(Chains *chains, int64_t index, Arena *scratch, Suspended *block) {
+    ConstInts members = members_of(chains->blocks, index, size_of_block(chains->blocks, index));
+    return order_patch(chains->graph, members, scratch, &block->patch)
+        && find_patch_fronts(chains->context, scratch, &block->patch) && suspend_block(chains, scratch, block);
 }
 
-#ifdef BSMDEC_WRITES
 Singles2 first_columns(Singles2 dictionary, int64_t width) {
     Singles2 first = {dictionary.data, dictionary.rows, width};
     for (int64_t r = 1; width < dictionary.columns && r < first.rows; r++)
@@ -203,10 +204,10 @@ static bool place(Chains *chains, Suspended *block, int64_t index, int64_t width
     Context *context = chains->context;
     const Patch *patch = &block->patch;
     int64_t n = patch->size;
-    Doubles weights, room;
+    Doubles room;
     Doubles2 positions;
     Singles2 dictionary;
-    if (!take_doubles(scratch, n, &weights) || !take_doubles(scratch, 3 * width, &room)
+    if (!take_doubles(scratch, 3 * width, &room)
         || !take_doubles2(scratch, n, 3, &positions) || !suspend_block(chains, scratch, block))
         return false;
     if (!make_dictionary(chains, block, width, scratch, &dictionary)
@@ -220,8 +221,7 @@ static bool place(Chains *chains, Suspended *block, int64_t index, int64_t width
         place_block(continued, const_singles2(dictionary), const_ints2(levels), chains->header->step / 2, room,
             positions);
     }
-    weigh_rows(patch, weights);
-    *decoded = (DecodedBlock){index, patch->vertices, const_doubles2(positions), const_doubles(weights)};
+    *decoded = (DecodedBlock){index, patch->vertices, const_doubles2(positions), const_doubles(block->weights)};
     commit_block(chains, dictionary, decoded);
     double spoiled = 0.0;
     for (int64_t i = 0; i < 3 * n; i++) spoiled += positions.data[i] * 0.0;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "bitstream/coefficients/coefficients.h"
-#include "bitstream/payloads/coding.h"
-#include "codec/basis/dictionaries.h"
+#include "bitstream/payloads/payloads.h"
+#include "codec/basis/patches.h"
 
 /* Sums of weight times position, and weights. */
 typedef struct {
@@ -30,11 +30,11 @@ typedef struct {
     Ints expectations;
 } Chains;
 
-/* A block whose levels have not been read yet: its patch, the springs to known positions around it, and the smooth
- * continuation of these positions. */
+/* A block whose levels have not been read yet: its patch, its weights in a blend, the springs to known positions around
+ * it, and the smooth continuation of these positions. */
 typedef struct {
     Patch patch;
-    Doubles springs;
+    Doubles weights, springs;
     Doubles2 pulls, continued;
     Factor factor;
 } Suspended;
@@ -63,14 +63,13 @@ bool begin_chains(Chains *chains, Context *context, const Header *header, const 
 void end_chains(Chains *chains);
 bool decode_block(Chains *chains, int64_t index, int64_t coefficients, Span payload, Arena *scratch,
     DecodedBlock *decoded);
-/* The steps of decoding a block, which encoders take, too: its patch, what it hangs on, U in memory of the chain, its
- * weights in a blend, and what the next block knows of it. */
+/* The steps of decoding a block, which encoders also take: its surroundings, U in memory of the chain, and what the
+ * next block knows of it. */
 bool begin_chain(Chains *chains, int64_t number);
-bool suspend_block(Chains *chains, Arena *scratch, Suspended *block);
 bool make_dictionary(Chains *chains, const Suspended *block, int64_t width, Arena *scratch, Singles2 *dictionary);
-void weigh_rows(const Patch *patch, Doubles weights);
 void commit_block(Chains *chains, Singles2 dictionary, const DecodedBlock *decoded);
 #ifdef BSMDEC_WRITES
+bool hang_block(Chains *chains, int64_t index, Arena *scratch, Suspended *block);
 /* Leave the first columns of a dictionary. */
 Singles2 first_columns(Singles2 dictionary, int64_t width);
 /* Write the levels nearest to coefficients, in steps of the header: all `rows`, or those up to the last that is not 0;

@@ -3,7 +3,7 @@
 
 #include "codec/signal/signal.h"
 #include "bitstream/costs.h"
-#include "bitstream/payloads/corners.h"
+#include "bitstream/payloads/payloads.h"
 
 enum { AXES = 3, LEARNERS = 12, LEVEL_SLOTS_ALL = 2 * 5 * 512 * 32, LEVEL_SELECTORS = 2 * 32, LEVEL_INPUTS = 5,
     LEVEL_RATE = 16, BENT_BY = 2 };

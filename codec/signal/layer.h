@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bitstream/fields/fields.h"
-#include "bitstream/container/header.h"
+#include "bitstream/container/container.h"
 
 /* What levels refine. */
 typedef struct {

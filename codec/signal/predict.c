@@ -55,19 +55,6 @@ void continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDo
     }
 }
 
-/* A block on springs (M 7.3): the factor of L + S + delta I as `factorize_fronts` leaves it, and what continues the
- * known. `sums` has room for a number a row, `column` for one more, and `scratch` is what `continue_known` asks for. */
-void suspend(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
-    ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch,
-    Singles values, Singles inverse, Doubles2 continued) {
-    int64_t n = springs.size;
-    ConstSingles pivots = {inverse.data, inverse.size};
-    for (int64_t r = 0; r < n; r++) sums.data[r] = diagonal.data[r] + (springs.data[r] + shift);
-    factorize_fronts(offsets, neighbors, weights, (ConstDoubles){sums.data, n}, fronts, column, scratch, values,
-        inverse);
-    continue_known(fronts, values, pivots, springs, pulls, scratch, continued);
-}
-
 /* Positions of a block from its levels (specification, M 10.2): what is expected, and U times the coefficients. */
 
 /* `levels` are those of M 9.11, a row for each of the first columns of U; `scratch` has room for a number for each. */

@@ -13,13 +13,8 @@ void look_around(ConstInts offsets, ConstInts neighbors, ConstInts vertices, Byt
                  ConstDoubles weights, double stiffness, Doubles springs, Doubles2 pulls);
 void continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles springs, ConstDoubles2 pulls,
     Singles scratch, Doubles2 continued);
-void suspend(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
-    ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch,
-    Singles values, Singles inverse, Doubles2 continued);
 void place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step,
     Doubles scratch, Doubles2 positions);
-void apply_powers(ConstInts offsets, ConstInts neighbors, Doubles terms, int64_t degree);
-void combine_powers(ConstDoubles2 positions, ConstDoubles terms, double amount, Doubles2 smoothed);
 int64_t smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2 positions, double amount, Doubles scratch,
     Doubles2 smoothed);
 /* What the filter sums (M 12.3): p_2 to p_5. */

@@ -15,18 +15,6 @@ INLINE Four apply(ConstInts offsets, ConstInts neighbors, const double *values, 
     return last == first ? (Four){0.0, 0.0, 0.0, 0.0} : moved;
 }
 
-/* K^1 V to K^degree V behind V, each of 3 n numbers, in `terms`, which has room for one number more: the fourth number
- * of a vertex is overwritten by the next one. */
-KERNEL void apply_powers(ConstInts offsets, ConstInts neighbors, Doubles terms, int64_t degree) {
-    int64_t n = offsets.size - 1;
-    for (int64_t k = 0; k < degree; k++) {
-        const double *values = terms.data + 3 * n * k;
-        double *result = terms.data + 3 * n * (k + 1);
-        for (int64_t v = 0; v < n; v++)
-            *(UnalignedFour *)(result + 3 * v) = apply(offsets, neighbors, values, v);
-    }
-}
-
 /* By divided differences. */
 void filter_polynomial(double amount, double *powers) {
     static const double NODES_OF[POWERS] = {0.4, 0.9, 1.4, 1.8};
@@ -47,18 +35,6 @@ void filter_polynomial(double amount, double *powers) {
     }
 }
 
-/* V + the sum of powers[k] times term k, the terms one after the other. */
-KERNEL void combine_powers(ConstDoubles2 positions, ConstDoubles terms, double amount, Doubles2 smoothed) {
-    int64_t size = 3 * positions.rows;
-    double powers[POWERS];
-    filter_polynomial(amount, powers);
-    for (int64_t i = 0; i < size; i++) {
-        double value = positions.data[i];
-        for (int64_t k = 0; k < POWERS; k++) value += powers[k] * terms.data[k * size + i];
-        smoothed.data[i] = value;
-    }
-}
-
 /* K V, and its weight in what is smoothed, if it is to have one. */
 KERNEL OFTEN static void apply_once(ConstInts offsets, ConstInts neighbors, const double *values, double *result,
     bool counts, double weight, double *smoothed) {
@@ -70,7 +46,8 @@ KERNEL OFTEN static void apply_once(ConstInts offsets, ConstInts neighbors, cons
     }
 }
 
-/* The same for one amount. `scratch` has room for 6 n + 2 numbers. */
+/* V + the sum of powers[k] times K^(k + 2) V. `scratch` has room for 6 n + 2 numbers: the fourth of a vertex is
+ * overwritten by the next one. */
 KERNEL int64_t smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2 positions, double amount,
     Doubles scratch, Doubles2 smoothed) {
     int64_t n = offsets.size - 1;

@@ -9,15 +9,11 @@ Frames are smooth functions of the positions, and so of the surface: values code
 can be predicted from each other, and rounding of positions only rounds frames.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph
-
-DEGREE = 5
 
 
 def smooth(graph: Graph, positions: Matrix, amount: float) -> Matrix:
@@ -28,30 +24,6 @@ def smooth(graph: Graph, positions: Matrix, amount: float) -> Matrix:
     smoothed, scratch = np.empty(positions.shape), np.empty(2 * positions.size + 2)
     _kernels.smooth_all(graph.offsets, graph.neighbors, positions, amount, scratch, smoothed)
     return smoothed
-
-
-@dataclass(frozen=True, eq=False)
-class Spectrum:
-    """The terms whose weighted sum is positions V filtered by any amount."""
-
-    positions: Matrix
-    terms: Matrix
-
-    def smoothed(self, amount: float) -> Matrix:
-        """`smooth` of the positions by `amount`, shape (n, 3)."""
-        smoothed = np.empty(self.positions.shape)
-        _kernels.combine_powers(self.positions, self.terms.reshape(-1), amount, smoothed)
-        return smoothed
-
-
-def smoothing_spectrum(graph: Graph, positions: Matrix) -> Spectrum:
-    """Spectrum of `positions`, shape (n, 3)."""
-    if positions.shape != (graph.size, 3):
-        raise ValueError(f"positions of shape {positions.shape} for {graph.size} vertices")
-    powers = np.empty((DEGREE + 1) * positions.size + 1)
-    powers[: positions.size] = positions.reshape(-1)
-    _kernels.apply_powers(graph.offsets, graph.neighbors, powers, DEGREE)
-    return Spectrum(np.ascontiguousarray(positions), powers[2 * positions.size : -1].reshape(DEGREE - 1, -1, 3))
 
 
 def local_frames(positions: Positions, faces: Faces) -> Matrix:

@@ -1,7 +1,7 @@
 /* Attributes of a given mesh in the order of coding (encoder only; specification, D). */
-#include "library/encode/carrying.h"
+#include "library/encode/encoding.h"
 
-#include "bitstream/payloads/corners.h"
+#include "bitstream/payloads/payloads.h"
 
 #ifdef BSMDEC_WRITES
 

@@ -1,5 +1,5 @@
 /* What is given to the encoder, and whether its streams keep what they promise. */
-#include "library/encode/checking.h"
+#include "library/encode/encoding.h"
 
 #ifdef BSMDEC_WRITES
 

@@ -1,8 +1,8 @@
 /* The functions of bsmenc.h. */
-#include "library/encode/checking.h"
+#include "library/encode/encoding.h"
 
 #include "library/arithmetic.h"
-#include "bitstream/payloads/corners.h"
+#include "bitstream/payloads/payloads.h"
 
 #ifdef BSMDEC_WRITES
 

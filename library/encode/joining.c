@@ -1,5 +1,5 @@
 /* A given mesh as it is coded: one vertex at each position (encoder only). */
-#include "library/encode/joining.h"
+#include "library/encode/encoding.h"
 
 #ifdef BSMDEC_WRITES
 

@@ -1,9 +1,9 @@
 /* Frames that share their faces, as a sequence (encoder only; specification, S): GOPs of a few frames each, which are
  * predicted from those before. */
-#include "library/encode/moving.h"
+#include "library/encode/encoding.h"
 
-#include "bitstream/payloads/topology.h"
-#include "codec/sequence/frames.h"
+#include "bitstream/payloads/payloads.h"
+#include "codec/sequence/gops.h"
 #include "codec/signal/assembly.h"
 #include "codec/signal/signal.h"
 
@@ -79,24 +79,19 @@ static void keep_section(Encoding *encoding) {
 
 /* Code a block of the first frame, as decoders will see it. */
 static bool code_block_at(Encoding *encoding, int64_t index) {
-    Context *context = &encoding->writer->context;
     Arena *scratch = &encoding->writer->scratch;
     Chains *chains = &encoding->chains;
     const Header *header = chains->header;
     int64_t n = size_of_block(&encoding->blocks, index);
     Suspended block;
-    Patch *patch = &block.patch;
     Singles2 dictionary;
     Doubles2 coefficients, positions;
-    Doubles weights;
     int64_t rows;
-    if (!order_patch(&encoding->graph, members_of(&encoding->blocks, index, n), scratch, patch)
-        || !find_patch_fronts(context, scratch, patch) || !suspend_block(chains, scratch, &block)
-        || !make_dictionary(chains, &block, n, scratch, &dictionary) || !take_doubles2(scratch, n, 3, &coefficients)
-        || !take_doubles2(scratch, n, 3, &positions) || !take_doubles(scratch, n, &weights))
+    if (!hang_block(chains, index, scratch, &block) || !make_dictionary(chains, &block, n, scratch, &dictionary)
+        || !take_doubles2(scratch, n, 3, &coefficients) || !take_doubles2(scratch, n, 3, &positions))
         return false;
     for (int64_t i = 0; i < 3 * n; i++) {
-        double place = encoding->frames.data[3 * patch->vertices.data[i / 3] + i % 3] - header->center[i % 3];
+        double place = encoding->frames.data[3 * block.patch.vertices.data[i / 3] + i % 3] - header->center[i % 3];
         positions.data[i] = place / header->scale - block.continued.data[i];
     }
     project(const_singles2(dictionary), const_doubles2(positions), coefficients);
@@ -107,8 +102,7 @@ static bool code_block_at(Encoding *encoding, int64_t index) {
     put_varint(&encoding->motion->bytes, index);
     put_varint(&encoding->motion->bytes, rows);
     keep_section(encoding);
-    weigh_rows(patch, weights);
-    DecodedBlock decoded = {index, patch->vertices, const_doubles2(positions), const_doubles(weights)};
+    DecodedBlock decoded = {index, block.patch.vertices, const_doubles2(positions), const_doubles(block.weights)};
     commit_block(chains, first_columns(dictionary, rows), &decoded);
     add_block(&encoding->assembly, &decoded);
     chains->next++;

@@ -1,7 +1,6 @@
 /* Values of attributes as whole numbers that keep a quality (encoder only; specification, A). */
-#include "library/encode/quantizing.h"
+#include "library/encode/encoding.h"
 
-#include "library/encode/rounding.h"
 
 #ifdef BSMDEC_WRITES
 

@@ -1,5 +1,5 @@
 /* Which grid positions are coded on, and where on it they are (encoder only). */
-#include "library/encode/rounding.h"
+#include "library/encode/encoding.h"
 
 #ifdef BSMDEC_WRITES
 

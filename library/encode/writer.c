@@ -1,5 +1,5 @@
 /* Packets to bytes: what bitstream/container/reader.c reads (specification, F 1 to F 5). */
-#include "library/encode/writer.h"
+#include "library/encode/encoding.h"
 
 #ifdef BSMDEC_WRITES
 

@@ -1,9 +1,9 @@
 #include "library/python/chaining.h"
 
-#include "bitstream/payloads/topology.h"
+#include "bitstream/payloads/payloads.h"
 #include "codec/signal/signal.h"
 #include "codec/signal/chain.h"
-#include "codec/sequence/frames.h"
+#include "codec/sequence/gops.h"
 #include "library/writing.h"
 
 struct CodedChain {
@@ -137,21 +137,6 @@ bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts offsets, C
     return begin_chains(&chain->chains, context, &chain->header, &chain->graph, &chain->blocks, &chain->writer->arena);
 }
 
-/* Patches of encoders, whose weights are all 1. */
-static bool hang_block(CodedChain *chain) {
-    Context *context = &chain->writer->context;
-    const Patch *patch = &chain->block.patch;
-    Doubles weights;
-    if (!find_patch_fronts(context, &chain->writer->scratch, &chain->block.patch)
-        || !suspend_block(&chain->chains, &chain->writer->scratch, &chain->block)
-        || !take_doubles(&chain->writer->scratch, patch->size, &weights))
-        return false;
-    weigh_rows(patch, weights);
-    chain->shown = (CodedBlock){patch->vertices, patch->offsets, patch->neighbors, const_doubles(chain->block.springs),
-        const_doubles(weights), const_doubles2(chain->block.pulls), const_doubles2(chain->block.continued)};
-    return true;
-}
-
 bool begin_coded_block(CodedChain *chain, int64_t index) {
     Context *context = &chain->writer->context;
     Chains *chains = &chain->chains;
@@ -164,9 +149,12 @@ bool begin_coded_block(CodedChain *chain, int64_t index) {
     chain->dictionary = (Singles2){NULL, 0, 0};
     chain->shown = (CodedBlock){.vertices = {NULL, 0}};
     chain->index = index;
-    return order_patch(&chain->graph, members_of(&chain->blocks, index, size_of_block(&chain->blocks, index)),
-               &chain->writer->scratch, &chain->block.patch)
-        && hang_block(chain);
+    const Suspended *block = &chain->block;
+    if (!hang_block(chains, index, &chain->writer->scratch, &chain->block)) return false;
+    chain->shown = (CodedBlock){block->patch.vertices, block->patch.offsets, block->patch.neighbors,
+        const_doubles(block->springs), const_doubles(block->weights), const_doubles2(block->pulls),
+        const_doubles2(block->continued)};
+    return true;
 }
 
 double dictionary_work_of(const CodedChain *chain, int64_t width) {

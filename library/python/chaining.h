@@ -69,7 +69,7 @@ bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame, 
     double *facts);
 /* Positions, or an attribute that moves, of a chain that stays, before the first GOP; or as another one is now. */
 bool begin_track(CodedChain *track, const CodedChain *from, int64_t k);
-/* Write a basis, of what is free in it, or the levels of a field (codec/sequence/frames.h); without rows it is not
+/* Write a basis, of what is free in it, or the levels of a field (codec/sequence/gops.h); without rows it is not
  * coded. What is decoded lasts until the next call. */
 bool write_track_basis(CodedChain *track, ConstInts exponents, ConstDoubles2 spectrum, struct Writing *writing,
     ConstDoubles2 *basis);

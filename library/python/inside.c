@@ -4,9 +4,8 @@
 #include <stdlib.h>
 
 #include "library/decoder.h"
-#include "bitstream/payloads/corners.h"
-#include "library/encode/carrying.h"
-#include "library/encode/rounding.h"
+#include "bitstream/payloads/payloads.h"
+#include "library/encode/encoding.h"
 #include "library/writing.h"
 
 DecoderState decoder_state(const bsmdec *decoder) {

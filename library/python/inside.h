@@ -5,7 +5,7 @@
 
 #include "library/bsmenc.h"
 #include "library/python/chaining.h"
-#include "bitstream/payloads/payloads.h"
+#include "bitstream/payloads/written.h"
 
 /* Bytes read, work charged and vertices of all faces so far; then what limits on work and memory count: vertices that
  * are present and of frames shown, vertices in memory, bytes received, and bytes of memory that are kept. */
@@ -53,7 +53,7 @@ bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, co
  * joined one, the joined one of each coded one, and its corner that is the first. Arrays must outlive this. */
 bool encode_place(Encoding *encoding, ConstInts2 given, ConstInts index, ConstInts kept, ConstInts face_order,
     ConstBytes turns, ConstInts2 faces, int64_t vertices, bool keeps);
-/* The outcome of an attribute in such a place (library/encode/carrying.h), and arrays of the encoding: coded numbers,
+/* The outcome of an attribute in such a place (library/encode/encoding.h), and arrays of the encoding: coded numbers,
  * the coded value of each corner (NULL: its vertex), the vertex of each. */
 typedef struct {
     bsmenc_outcome outcome;
@@ -75,7 +75,7 @@ bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declarat
 /* Write the payloads of rows, or read that of one kind of values. */
 bool encode_chunk(Encoding *encoding, int64_t first, int64_t count);
 bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size);
-/* Round positions to a grid (library/encode/rounding.h). If `bits` is 0, the grid has cells of this size from this
+/* Round positions to a grid (library/encode/encoding.h). If `bits` is 0, the grid has cells of this size from this
  * origin; if `cell` is 0 as well, it is the grid for exact floats. `grid` gets the origin, the step and the largest
  * place of each axis. */
 bool encode_rounded(Encoding *encoding, const double *positions, int64_t rows, int bits, double cell,

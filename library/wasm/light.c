@@ -2,8 +2,7 @@
 #include "library/wasm/page.h"
 
 #include "bitstream/costs.h"
-#include "bitstream/payloads/grid.h"
-#include "bitstream/payloads/topology.h"
+#include "bitstream/payloads/payloads.h"
 
 static Context context;
 static Arena arena, scratch;

@@ -14,7 +14,7 @@ from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
-from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
+from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, tangent_steps
 from bsm.codec.signal.transform import packed_range, smallest_step
 from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Trial, turned
 from bsm.codec.static.choice.settling import RATIO, Settler
@@ -166,8 +166,8 @@ class InBlocks:
 
     def _smoothing(self, blended: Matrix) -> float:
         """The amount of smoothing that lowers the error of the options most."""
-        spectrum = smoothing_spectrum(self._prepared.graph, blended)
-        badness = lru_cache(None)(lambda place: self._badness(spectrum.smoothed(SMOOTHING_STEPS[place])))
+        graph = self._prepared.graph
+        badness = lru_cache(None)(lambda place: self._badness(smooth(graph, blended, SMOOTHING_STEPS[place])))
         place = len(SMOOTHING_STEPS) // 2
         for aside in (1, -1):
             while 0 <= place + aside < len(SMOOTHING_STEPS) and badness(place + aside) < badness(place):
