@@ -113,7 +113,7 @@ function decodeInPage(address) {
         await page.goto(`${address}empty`);
         return page.evaluate(async ([rounds]) => {
             const { decode, Kernels, Pool } = await import("/main.js");
-            const kernels = await Kernels.compile(await (await fetch("/kernels.wasm")).arrayBuffer());
+            const kernels = new Kernels(await WebAssembly.compile(await (await fetch("/kernels.wasm")).arrayBuffer()));
             const stream = new Uint8Array(await (await fetch("/bunny-balanced.bsm")).arrayBuffer());
             const pool = new Pool();
             const inPool = () => new Promise((onEnd, onError) => {
@@ -141,7 +141,7 @@ function beginInPage(address, name) {
         await page.goto(`${address}empty`);
         return page.evaluate(async ([name]) => {
             const { Decoder, Kernels, NEED_DATA } = await import("/bsm.js");
-            const kernels = await Kernels.compile(await (await fetch("/kernels.wasm")).arrayBuffer());
+            const kernels = new Kernels(await WebAssembly.compile(await (await fetch("/kernels.wasm")).arrayBuffer()));
             const stream = new Uint8Array(await (await fetch(`/${name}`)).arrayBuffer());
             const firstOf = (size) => {
                 const decoder = new Decoder(kernels);
@@ -165,7 +165,7 @@ function framesInPage(address, name, rate) {
         await session.send("Emulation.setCPUThrottlingRate", { rate });
         return page.evaluate(async ([name]) => {
             const { Decoder, END_OF_STREAM, Kernels } = await import("/bsm.js");
-            const kernels = await Kernels.compile(await (await fetch("/kernels.wasm")).arrayBuffer());
+            const kernels = new Kernels(await WebAssembly.compile(await (await fetch("/kernels.wasm")).arrayBuffer()));
             const stream = new Uint8Array(await (await fetch(`/${name}`)).arrayBuffer());
             const begin = performance.now();
             const decoder = new Decoder(kernels);

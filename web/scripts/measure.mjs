@@ -6,7 +6,7 @@ import { fileURLToPath, pathToFileURL } from "node:url";
 
 const built = join(dirname(fileURLToPath(import.meta.url)), "../built");
 const { BsmError, Decoder, END_OF_STREAM, Kernels } = await import(pathToFileURL(join(built, "bsm.js")).href);
-const kernels = await Kernels.compile(readFileSync(join(built, "kernels.wasm")));
+const kernels = new Kernels(await WebAssembly.compile(readFileSync(join(built, "kernels.wasm"))));
 const seconds = () => process.cpuUsage().user / 1e6 + process.cpuUsage().system / 1e6;
 const [given] = process.argv.slice(2);
 const paths = given.endsWith(".bsm") ? [given] : readdirSync(given).map((_, number) => join(given, `${number}.bsm`));

@@ -102,8 +102,7 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
 
     private async decoded(context: string, coded: Coded, byteLength: number, index: number): Promise<ArrayBufferView> {
         const from = this.viewOf(context, coded.stream);
-        const shape = await this.streams.shape(from, () => this.decode(context, from));
-        return new Uint8Array(this.streams.bytes(shape, from, coded, byteLength, index));
+        return new Uint8Array(await this.streams.made(from, coded, byteLength, index, () => this.decode(context, from)));
     }
 
     private viewOf(context: string, stream: number): IBufferView {

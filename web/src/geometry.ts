@@ -10,8 +10,6 @@ export interface Progress {
     onBlock?: (geometry: BSMGeometry) => void;
     /** A frame of a sequence is there to be shown. */
     onFrame?: (index: number, geometry: BSMGeometry) => void;
-    /** What the author says of the mesh is there; it may come in several maps. */
-    onMetadata?: (metadata: Metadata, geometry: BSMGeometry) => void;
     /** Stops this load alone. */
     signal?: AbortSignal;
 }
@@ -67,8 +65,7 @@ export class BSMGeometry extends BufferGeometry {
                 this.header = picture.header;
                 return;
             case "metadata":
-                picture.entries.forEach((value, name) => this.metadata.set(name, value));
-                return this.progress.onMetadata?.(picture.entries, this);
+                return picture.entries.forEach((value, name) => this.metadata.set(name, value));
             case "begun": return this.begin(picture);
             case "grown": return this.grow(picture);
             case "whole":

@@ -24,7 +24,7 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
     loadBufferView(index: number): Promise<ArrayBuffer> | null {
         const { extensions, byteLength } = this.parser.json.bufferViews[index];
         const coded = extensions?.[EXTENSION] as Coded | undefined;
-        return coded ? this.decoded(coded, byteLength, index) : null;
+        return coded ? this.streams.made(this.parser.json.bufferViews[coded.stream], coded, byteLength, index, () => this.decode(coded.stream)) : null;
     }
 
     /** Meshes that say so show the frames of their stream. */
@@ -32,23 +32,13 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
         for (const [object, place] of this.parser.associations) {
             const meshes = (place as typeof place | undefined)?.meshes; // of a texture that was not found there is none
             const moving = meshes === undefined ? undefined : (this.parser.json.meshes[meshes].extensions?.[EXTENSION] as { stream: number } | undefined);
-            const sequence = moving && this.sequences.get(this.placeOf(moving.stream));
+            const sequence = moving && this.sequences.get(placeOf(this.parser.json.bufferViews[moving.stream]));
             if (!sequence || !(object instanceof Mesh)) continue;
             object.geometry = sequence.geometry;
             object.frustumCulled = false; // the bounds are those of the first frame
         }
         gltf.userData.sequences = [...this.sequences.values()];
         return null;
-    }
-
-    private placeOf(stream: number): string {
-        return placeOf(this.parser.json.bufferViews[stream]);
-    }
-
-    private async decoded(coded: Coded, byteLength: number, index: number): Promise<ArrayBuffer> {
-        const from = this.parser.json.bufferViews[coded.stream];
-        const shape = await this.streams.shape(from, () => this.decode(coded.stream));
-        return this.streams.bytes(shape, from, coded, byteLength, index);
     }
 
     private async decode(stream: number): Promise<Shape> {
@@ -58,7 +48,7 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
         const take = (picture: Picture, decoding: StreamDecoding): void => {
             geometry.accept(picture);
             if (picture.type !== "frame" || sequence) return;
-            this.sequences.set(this.placeOf(stream), (sequence = new BSMSequence(geometry)));
+            this.sequences.set(placeOf(this.parser.json.bufferViews[stream]), (sequence = new BSMSequence(geometry)));
             sequence.addEventListener("dispose", () => decoding.close());
         };
         return this.streams.decode(this.pool, data, `bufferView ${stream}`, take, (error) => (error ? sequence?.fail(error) : sequence && (sequence.complete = true)));

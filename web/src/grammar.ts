@@ -22,31 +22,26 @@ export class Grammar {
         return this.last === "end";
     }
 
-    /** Throw what is wrong with a packet that comes here. */
-    check(packet: Packet): void {
-        const { header, nextVertex } = this;
+    /** Take note of a packet, or throw what is wrong with it here. */
+    accept(packet: Packet): void {
+        const { header, nextVertex, entryNames } = this;
         const may = packet.type === "metadata" ? header : FOLLOWERS[this.last]?.includes(packet.type);
         if (!may) throw new CorruptError(`unexpected section ${packet.type}`);
         if (packet.type === "metadata") {
-            for (const name of packet.entries.keys()) if (this.entryNames.has(name)) throw new CorruptError(`duplicate metadata name "${name}"`);
+            for (const name of packet.entries.keys()) {
+                if (entryNames.has(name)) throw new CorruptError(`duplicate metadata name "${name}"`);
+                entryNames.add(name);
+            }
+            return;
         }
-        if (!header) return;
+        this.last = packet.type;
+        if (packet.type === "header") this.header = packet.header;
         if (packet.type === "grid") {
             const { first, count } = packet;
             if (first !== nextVertex) throw new CorruptError(`vertices begin at ${first}, expected ${nextVertex}`);
-            if (count === 0 || count > header.vertices - first) throw new CorruptError(`${count} vertices from ${first} on`);
+            if (count === 0 || count > header!.vertices - first) throw new CorruptError(`${count} vertices from ${first} on`);
+            this.nextVertex = first + count;
         }
-        if (packet.type === "end" && nextVertex < header.vertices) throw new CorruptError(`the positions end at vertex ${nextVertex} of ${header.vertices}`);
-    }
-
-    /** Take note of a packet that nothing is wrong with. */
-    advance(packet: Packet): void {
-        if (packet.type === "metadata") {
-            for (const name of packet.entries.keys()) this.entryNames.add(name);
-            return;
-        }
-        if (packet.type === "header") this.header = packet.header;
-        if (packet.type === "grid") this.nextVertex = packet.first + packet.count;
-        this.last = packet.type;
+        if (packet.type === "end" && nextVertex < header!.vertices) throw new CorruptError(`the positions end at vertex ${nextVertex} of ${header!.vertices}`);
     }
 }

@@ -11,11 +11,6 @@ export class Kernels {
     /** Of a module that is compiled already; it may be sent to other threads. */
     constructor(readonly module: WebAssembly.Module) {}
 
-    /** Compile the bytes of a build. */
-    static async compile(bytes: BufferSource): Promise<Kernels> {
-        return new Kernels(await WebAssembly.compile(bytes));
-    }
-
     /** What one decoder calls, and its memory. */
     borrow(): Exports {
         const exports = this.waiting ?? (new WebAssembly.Instance(this.module).exports as Exports);

@@ -31,12 +31,8 @@ export function parseMap(payload: Uint8Array): [Key, Value][] {
 function compareKeys(a: Key, b: Key): number {
     if (a.type === "int" && b.type === "int") return a.value < b.value ? -1 : a.value > b.value ? 1 : 0;
     if (a.type === "int" || b.type === "int") throw new CorruptError("the keys of a map must be all of one type");
-    const left = a.bytes;
-    const right = b.bytes;
-    for (let i = 0; i < Math.min(left.length, right.length); i++) {
-        if (left[i] !== right[i]) return left[i] - right[i];
-    }
-    return left.length - right.length;
+    const at = a.bytes.findIndex((byte, i) => byte !== b.bytes[i]); // undefined behind the shorter one
+    return at < 0 ? a.bytes.length - b.bytes.length : a.bytes[at] - (b.bytes[at] ?? -1);
 }
 
 /** Values, or lengths, of one, two or four bytes: the tag of the first, and the least value without a shorter form. */

@@ -96,10 +96,9 @@ export class Reader {
             this.charge(FRAME + BYTE * frame.size, frame.size);
             const packet = this.parse(frame.type, frame.payload);
             if (packet?.type === "metadata") this.charge(METADATA + ENTRY * packet.entries.size, 0);
-            if (packet) this.grammar.advance(packet);
-            if (packet?.type === "metadata") this.metadataRead += frame.payload.length;
             this.crc = crc32(this.buffer.subarray(this.begin, this.begin + frame.size), this.crc);
-            this.skip(frame.size);
+            this.frames++;
+            this.drop(frame.size);
             if (packet) return packet;
         }
         if (this.end > this.begin) throw new CorruptError("data after END");
@@ -156,19 +155,13 @@ export class Reader {
         const parse = PARSERS[kind];
         if (!parse) throw new UnsupportedError(`frame type ${type} is unknown to this decoder`);
         const packet = parse(new Cursor(payload), this.limits);
-        this.grammar.check(packet);
-        if (kind === "metadata") checkLimit(this.limits, "metadataBytes", this.metadataRead + payload.length);
+        this.grammar.accept(packet);
+        if (kind === "metadata") checkLimit(this.limits, "metadataBytes", (this.metadataRead += payload.length));
         if (packet.type === "end") {
             if (packet.frames !== this.frames) throw new CorruptError(`END counts ${packet.frames} frames before it`);
             if (packet.crc !== this.crc) throw new CorruptError("the CRC-32 of the whole stream is wrong");
         }
         return packet;
-    }
-
-    /** Leave one frame, or bytes that cannot be read, behind. */
-    private skip(count: number): void {
-        this.frames++;
-        this.drop(count);
     }
 
     private drop(count: number): void {

@@ -111,14 +111,8 @@ export class BSMLoader extends Loader<BSMGeometry> {
                 keep((sequence = new BSMSequence(geometry)));
                 sequence.addEventListener("dispose", () => stop.abort());
             };
-            const onLoad = (): void => {
-                if (sequence) sequence.complete = true;
-                else fail(new Error(`${url}: this stream is no sequence`));
-            };
-            const onError = (error: unknown): void => {
-                if (sequence) sequence.fail(error);
-                else fail(error);
-            };
+            const onLoad = (): unknown => (sequence ? (sequence.complete = true) : fail(new Error(`${url}: this stream is no sequence`)));
+            const onError = (error: unknown): void => (sequence ? sequence.fail(error) : fail(error));
             const either = AbortSignal.any(signal ? [stop.signal, signal] : [stop.signal]);
             this.load(url, onLoad, onProgress, onError, { onFrame, signal: either });
         });

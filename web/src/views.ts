@@ -32,6 +32,11 @@ export class CodedViews<T> {
         return shape;
     }
 
+    /** The bytes of a bufferView, of what `decode` makes of the stream of `from`. */
+    async made(this: CodedViews<Promise<Shape>>, from: BufferView, coded: Coded, byteLength: number, index: number, decode: () => Promise<Shape>): Promise<ArrayBuffer> {
+        return this.bytes(await this.shape(from, decode), from, coded, byteLength, index);
+    }
+
     /** The bytes of a bufferView, of what is drawn of the stream of `from`. */
     bytes(shape: Shape, from: BufferView, coded: Coded, byteLength: number, index: number): ArrayBuffer {
         const key = [placeOf(from), byteLength, coded.componentType, coded.attribute].join(" ");
@@ -99,8 +104,6 @@ function bytesOf(shape: Shape, { attribute, componentType }: Coded, byteLength: 
 
 /** The numbers that the extension calls so. */
 function valuesOf({ index, positions, normals, attributes }: Shape, name: string): ArrayLike<number> | undefined {
-    if (name === "indices") return index;
-    if (name === "POSITION") return positions;
-    if (name === "NORMAL") return normals;
-    return attributes.find((attribute) => attribute.name === (SETS[name] ?? name))?.values;
+    const own = new Map<string, ArrayLike<number>>([["indices", index], ["POSITION", positions], ["NORMAL", normals]]);
+    return own.get(name) ?? attributes.find((attribute) => attribute.name === (SETS[name] ?? name))?.values;
 }

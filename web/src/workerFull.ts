@@ -42,17 +42,9 @@ class DecodingWorker implements Taking {
         const found = helpers.slice(0, helpersFor(header, worthwhile));
         this.pieces = undefined;
         if (found.length === 0) return 0;
-        const onBlock = (shared: SharedBlock): void =>
-            this.guarded(() => {
-                this.decoder.receiveBlock(shared);
-                this.report();
-            });
-        const onOver = (why: string): void =>
-            this.guarded(() => {
-                this.over = why;
-                this.report();
-            });
-        this.team = new Team(found, { kernels, limits, tolerant }, { onBlock, onOver });
+        const heard = (act: () => void): void => this.guarded(() => (act(), this.report()));
+        const onBlock = (shared: SharedBlock): void => heard(() => this.decoder.receiveBlock(shared));
+        this.team = new Team(found, { kernels, limits, tolerant }, { onBlock, onOver: (why) => heard(() => (this.over = why)) });
         for (const piece of pieces) this.team.take(piece);
         return found.length;
     }

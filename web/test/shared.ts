@@ -36,13 +36,13 @@ export async function chromiumFor(context: TestContext, ...flags: string[]): Pro
 /** A build of less than all, as the decoder that tests of the sources take. */
 export async function lesserDecode(build: "small" | "quick" | "moving"): Promise<(data: Uint8Array) => Mesh> {
     const lesser = (await import(pathToFileURL(join(WEB, `built/${build}.js`)).href)) as { decode: typeof decode; Decoder: typeof Decoder; Kernels: typeof Kernels };
-    const kernels = await lesser.Kernels.compile(readFileSync(join(WEB, `built/${build}.wasm`)));
+    const kernels = new lesser.Kernels(await WebAssembly.compile(readFileSync(join(WEB, `built/${build}.wasm`))));
     if (build === "moving") return (data) => meshOfEvents(eventsOf(kernels, data, data.length, {}, {}, lesser.Decoder));
     return (data) => lesser.decode(kernels, data);
 }
 
 /** Those of everything. */
-export const kernels = await Kernels.compile(readFileSync(join(WEB, "built/kernels.wasm")));
+export const kernels = new Kernels(await WebAssembly.compile(readFileSync(join(WEB, "built/kernels.wasm"))));
 
 /** All events of a stream that comes in pieces of `size` bytes; the error is thrown behind them. */
 export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limits: Partial<Limits> = {}, wishes: Wishes = {}, Type = Decoder): Generator<Event> {
