@@ -21,7 +21,7 @@ from bsm.codec.static.preamble_encoding import join, joined
 from bsm.files.conventions import shares_of
 from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output
-from bsm.files.pipes import read_bytes
+from bsm.files.pipes import as_input
 
 
 def write_permutation(path: str | os.PathLike[str], order: npt.NDArray[np.integer], *, overwrite: bool) -> None:
@@ -31,7 +31,7 @@ def write_permutation(path: str | os.PathLike[str], order: npt.NDArray[np.intege
 
 def read_permutation(path: str | os.PathLike[str]) -> Order:
     try:
-        order = np.lib.format.read_array(io.BytesIO(read_bytes(path)), allow_pickle=False)
+        order = np.lib.format.read_array(io.BytesIO(as_input(path).read_all()), allow_pickle=False)
     except (ValueError, EOFError, MemoryError) as error:
         raise FormatError(f"{path} is not an npy file: {error}") from error
     if order.ndim != 1 or order.dtype.kind not in "iu" or len(np.unique(order)) != len(order):

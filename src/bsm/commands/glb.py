@@ -11,7 +11,7 @@ from bsm.console import Console
 from bsm.files.images import ImageRule, with_linked_images
 from bsm.files.mesh import read_mesh, size_with_parts, written_mesh
 from bsm.files.output import refuse_collisions, write_output
-from bsm.files.pipes import about, read_bytes, read_chunks
+from bsm.files.pipes import about, as_input, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import decode_whole, is_stream, peek_header
 from bsm.files.table import GLTF
@@ -75,7 +75,7 @@ def _wrap_sequence(args: argparse.Namespace, console: Console) -> None:
     changes = (args.fallback, args.images, args.quick is not None, args.attribute, args.one_grid, args.jobs != 1)
     if any(changes) or args.preset != PRESETS[-1]:
         raise OptionError("a stream is wrapped unchanged; only -o, -f and -q apply")
-    stream = read_bytes(args.input)
+    stream = as_input(args.input).read_all()
     scene = moving_scene(stream)
     write_output(args.output, scene, overwrite=args.force)
     console.note(f"{args.input} -> {args.output}: a sequence, {len(stream)} -> {len(scene)} bytes")

@@ -335,10 +335,6 @@ def is_pipe(source: Source) -> bool:
     return os.fspath(source) == "-" or (os.path.exists(source) and not reopens)
 
 
-def read_bytes(source: Source) -> bytes:
-    return as_input(source).read_all()
-
-
 def read_chunks(source: Source) -> Iterator[bytes]:
     return as_input(source).chunks()
 

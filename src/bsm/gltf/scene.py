@@ -300,17 +300,14 @@ class Scene:
         return found
 
     def _added(self, part: Part, targets: Doubles, time: float) -> Doubles:
-        weights = self._weights(part.node, len(targets), time) if len(targets) else np.zeros(0)
+        if not len(targets):
+            return np.zeros(targets.shape[1:])
+        node = self._nodes[part.node]
+        given = node.get("weights", self._document.item("meshes", node["mesh"]).get("weights", [0.0] * len(targets)))
+        curve = self._curves.get((part.node, "weights"))
+        weights = np.asarray(given, np.float64).reshape(len(targets)) if curve is None else curve.at(time)
         used = np.flatnonzero(weights)
         return np.tensordot(weights[used], targets[used], 1)
-
-    def _weights(self, node: int, count: int, time: float) -> Doubles:
-        curve = self._curves.get((node, "weights"))
-        if curve is not None:
-            return curve.at(time)
-        mesh = self._document.item("meshes", self._nodes[node]["mesh"])
-        given = self._nodes[node].get("weights", mesh.get("weights", [0.0] * count))
-        return np.asarray(given, np.float64).reshape(count)
 
     def _animated(self, animation: Tree) -> dict[tuple[int, str], Curve]:
         document, found, numbers = self._document, {}, 0

@@ -72,7 +72,7 @@ NOTHING = Earlier({}, {})
 def read_report(path: str, command: str, options: Facts) -> Earlier:
     """Read an earlier report; return `NOTHING` if there is none."""
     try:
-        report = json.loads(pipes.read_bytes(path))
+        report = json.loads(pipes.as_input(path).read_all())
         files = {entry["output"]: entry for entry in map(_entry, report["files"])}
         same = (report["command"], report["options"]) == (command, options)
         json.dumps({**report, "totals": totals(list(files.values()))}, allow_nan=False)

@@ -13,7 +13,7 @@ from bsm import LimitError
 from bsm.evaluation.sample import knot
 from bsm.files import pipes
 from bsm.files.mesh import read_mesh, write_mesh
-from bsm.files.pipes import Input, as_input, is_pipe, read_bytes
+from bsm.files.pipes import Input, as_input, is_pipe
 
 ROOT = Path(__file__).parents[3]
 DATA = bytes(range(256)) * 5
@@ -71,16 +71,16 @@ def test_reading_in_parts(source):
 
 def test_too_much_is_refused(monkeypatch):
     monkeypatch.setattr(pipes, "_MAX_BYTES", 1000)
-    assert len(read_bytes(DATA[:1000])) == 1000
+    assert len(as_input(DATA[:1000]).read_all()) == 1000
     with pytest.raises(LimitError, match="larger than 1000"):
-        read_bytes(DATA)
+        as_input(DATA).read_all()
 
 
 def test_a_file_that_does_not_wait_is_not_at_its_end():
     reading, writing = os.pipe()
     os.set_blocking(reading, False)
     with open(writing, "wb"), open(reading, "rb", buffering=0) as file, pytest.raises(BlockingIOError):
-        read_bytes(file)
+        as_input(file).read_all()
 
 
 def test_what_is_a_pipe(tmp_path):
