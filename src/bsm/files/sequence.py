@@ -13,7 +13,6 @@ from dataclasses import replace
 from functools import partial
 from itertools import count as count_from
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -32,6 +31,7 @@ from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import Input, Source, as_input, is_pipe, is_url
 from bsm.files.table import FORMATS, GLTF, RATE, TIMES, USD_FORMATS, WRITTEN_FORMATS, XDMF
 
+_ISOLATED = ("bsm.files.isolation", "frames_isolated")  # it loads this module
 ZIP = b"PK\x03\x04"
 ONE_FILE = ("npz", "npy", *CACHES, "glb", *USD_FORMATS)  # forms of a whole sequence in one file
 SEQUENCE_FORMATS = (*ONE_FILE, *(name for name in WRITTEN_FORMATS if name not in ONE_FILE))
@@ -71,8 +71,8 @@ def open_sequence(
     ):
         return None
     if is_apart((kind if moves else "npz",), limits, isolated):
-        apart: Frames | None = _apart(given, file_format, limits, kind, wanted)
-        return apart
+        frames: Frames | None = by_name(*_ISOLATED)(given, file_format, limits, kind, wanted)
+        return frames
     if kind in CACHES:
         return read_cache(given.name, kind, asked, limits)
     if moves:
@@ -95,14 +95,11 @@ def open_frames(
     ordered = list(names) if asked.times else folder.in_order(names)
     kinds = [kind_of(Input(name), file_format) for name in ordered]
     if is_apart(kinds, limits, isolated):
-        apart: Frames = _apart(list(map(os.path.abspath, ordered)), file_format, limits, kinds[0], asked)
-        return apart
+        paths = [os.path.abspath(name) for name in ordered]
+        frames: Frames = by_name(*_ISOLATED)(paths, file_format, limits, kinds[0], asked)
+        return frames
     read = partial(read_cut, file_format=file_format, limits=limits, cut=CutAlike(), isolated=False)
     return folder.read_files(ordered, read, asked)
-
-
-def _apart(*given: Any) -> Any:
-    return by_name("bsm.files.isolation", "frames_isolated")(*given)
 
 
 @contextmanager
