@@ -150,23 +150,26 @@ def choose(
         winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, BEGUN + ROUND * (1.0 + done)))
     expected, untreated, reason = winner.error, rehearsal.untreated, finding.reason
     forecast = rehearsal.forecast(winner) if goal == "shading" or not finding.clear else None
-    doubts = {
-        "any filter would cost more than it gains": WORTH * untreated,
-        # Noise reads 0.15 to 1.01 of it, clean meshes that were taken for noisy 1.1, 1.2 and 2.1.
-        "the expected error is as large as the change": AS_LARGE * (np.inf if steadied else rehearsal.changed(winner)),
-        "the triangles are so uneven that any filter would turn their normals farther": (
-            UNPROMISED * forecast.untreated if forecast else np.inf
-        ),
-    }
-    steps = winner.steps
-    for doubt, most in doubts.items():
-        if steps and winner.error > most:
-            steps, expected, reason = (), untreated, f"{reason}, but {doubt}"
+    changed, steps = np.inf if steadied else rehearsal.changed(winner), winner.steps
+    doubt = _doubt(winner.error, untreated, changed, forecast.untreated if forecast else np.inf)
+    if steps and doubt:
+        steps, expected, reason = (), untreated, f"{reason}, but {doubt}"
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
     detailed = finding.kind == "white" and rehearsal.lost(winner) > DETAIL_LOST[goal]
     return AutomaticChoice(
         steps, finding.kind, reason, noise, untreated, expected, winner.finish, detailed, forecast=forecast
     )
+
+
+def _doubt(error: float, untreated: float, changed: float, forecast: float) -> str:
+    """Return why a rehearsed error speaks against a filter, or "" if it does not."""
+    doubts = {
+        "any filter would cost more than it gains": WORTH * untreated,
+        # Noise reads 0.15 to 1.01 of it, clean meshes that were taken for noisy 1.1, 1.2 and 2.1.
+        "the expected error is as large as the change": AS_LARGE * changed,
+        "the triangles are so uneven that any filter would turn their normals farther": UNPROMISED * forecast,
+    }
+    return next((doubt for doubt, most in doubts.items() if error > most), "")
 
 
 def _by_cause(finding: Finding) -> AutomaticChoice:

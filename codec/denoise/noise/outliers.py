@@ -104,8 +104,7 @@ def _peeled(positions: Positions, probe: Probe) -> Positions:
     energy = np.maximum(np.asarray(operator.multiply(operator).sum(axis=0)).ravel(), 1e-12)
     support = (operator != 0).astype(np.float64).T.tocsr()
     transposed = operator.T.tocsr()
-    rest, amounts = seen.copy(), np.zeros(len(positions))
-    most = np.inf
+    rest, amounts, most = seen.copy(), np.zeros(len(positions)), np.inf
     for share in (CLEAR, *LESS_CLEAR):
         calm = np.zeros(len(positions))
         if share < CLEAR:

@@ -21,6 +21,7 @@ from bsm.files.table import GLTF, MESH_FORMATS, WRITTEN_FORMATS
 from bsm.jobs.encode import EncodeJob, encode_one
 from bsm.jobs.plan import plan, plan_trees
 from bsm.jobs.run import Batch, run_jobs
+from bsm.jobs.task import Job
 
 _OTHERS = (*SEQUENCE_FORMATS, "gltf", "drc", "3mf", "dae", "fbx", "abc", "json", "zip")
 """Suffixes that are not names of streams."""
@@ -44,31 +45,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.format in GLTF and format_of_name(args.inputs[0]) not in (None, "glb"):
         given = shlex.quote(args.inputs[0])
         raise OptionError(f"--format is the format of the input; for a scene, run: bsm glb {given} -o OUT.glb")
-    members: tuple[str, ...] = ()
-    one_stream = (args.output or "").lower().endswith(".bsm") and not Path(args.output).is_dir()
     if args.piped_frames and args.format not in (None, "npy"):
         raise OptionError(f"--frames takes npy arrays; it cannot be combined with --format {args.format}")
-    if len(args.inputs) > 1 and one_stream and not args.recursive:
-        members, args.inputs = tuple(args.inputs), [common_name(args.inputs)]
-    elif args.output is None and len(args.inputs) > 1 and look_like_frames(args.inputs):
-        console.note(
-            f"{len(args.inputs)} inputs are numbered like the frames of one animation; to write one stream, add "
-            "-o NAME.bsm"
-        )
-    if args.dry_run:
-        if args.permutation or args.report:
-            raise OptionError("--dry-run writes no file; leave out --permutation and --report")
-        args.output = None
-    if args.recursive:
-        jobs = plan_trees(args.inputs, args.output, ".bsm")
-    else:
-        jobs = plan(args.inputs, args.output, lambda _: ".bsm")
-    if args.dry_run:
-        jobs = [replace(job, output=os.devnull, follow=True) for job in jobs]
-    if args.permutation:
-        if len(jobs) > 1:
-            raise OptionError("--permutation is for one input")
-        refuse_collisions(args.inputs, [jobs[0].output, args.permutation, args.report or ""])
+    jobs, members = _planned(args, console)
     refuse_two_on_one_pipe(args, jobs[0].output)
     many, options = asked(Batch, args), keywords_of(args)
     threads = options.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
@@ -91,6 +70,34 @@ def run(args: argparse.Namespace, console: Console) -> int:
     more["format"] = "npy" if args.piped_frames else args.format
     job = asked(EncodeJob, args, **more)
     return run_jobs(many, job, console, encode_one, jobs)
+
+
+def _planned(args: argparse.Namespace, console: Console) -> tuple[list[Job], tuple[str, ...]]:
+    """Return the jobs; for several meshes in one stream, one job and the names of these meshes."""
+    members: tuple[str, ...] = ()
+    one_stream = (args.output or "").lower().endswith(".bsm") and not Path(args.output).is_dir()
+    if len(args.inputs) > 1 and one_stream and not args.recursive:
+        members, args.inputs = tuple(args.inputs), [common_name(args.inputs)]
+    elif args.output is None and len(args.inputs) > 1 and look_like_frames(args.inputs):
+        console.note(
+            f"{len(args.inputs)} inputs are numbered like the frames of one animation; to write one stream, add "
+            "-o NAME.bsm"
+        )
+    if args.dry_run:
+        if args.permutation or args.report:
+            raise OptionError("--dry-run writes no file; leave out --permutation and --report")
+        args.output = None
+    if args.recursive:
+        jobs = plan_trees(args.inputs, args.output, ".bsm")
+    else:
+        jobs = plan(args.inputs, args.output, lambda _: ".bsm")
+    if args.dry_run:
+        jobs = [replace(job, output=os.devnull, follow=True) for job in jobs]
+    if args.permutation:
+        if len(jobs) > 1:
+            raise OptionError("--permutation is for one input")
+        refuse_collisions(args.inputs, [jobs[0].output, args.permutation, args.report or ""])
+    return jobs, members
 
 
 def _refuse_other_formats(inputs: Sequence[str], output: str | None) -> None:

@@ -4,7 +4,8 @@ import math
 import os
 import re
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from itertools import count
 from pathlib import Path
@@ -16,7 +17,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.comparison import write_permutation
-from bsm.console import Console, finite
+from bsm.console import Console, Progress, finite
 from bsm.files.formats.metadata import images_in
 from bsm.files.images import ImageRule, is_link, largest_side, with_links, with_smaller_images
 from bsm.files.mesh import read_mesh, size_with_parts
@@ -97,10 +98,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     mesh = replace(mesh, metadata=known)
     if job.simplify and job.permutation:
         raise OptionError("--permutation orders all vertices, and --simplify leaves some out")
-    with (
-        open_output(job.output, overwrite=job.may_replace(job.output), follow=job.follow) as file,
-        console.progress("encoding") as progress,
-    ):
+    with _written(job, console) as (file, progress):
         found = encode_source(mesh, chosen, progress, simplify=job.simplify)
         encoder, result = found.encoder, found.attempt
         file.writelines(result.frames)
@@ -197,11 +195,7 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     metadata, generations = with_provenance(entries, job.provenance, job.input, job.options, chosen)
     encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
     numbers, size = count(), 0
-    overwrite = job.may_replace(job.output)
-    with (
-        open_output(job.output, overwrite=overwrite, follow=job.follow) as file,
-        console.progress("encoding") as progress,
-    ):
+    with _written(job, console) as (file, progress):
         frames: Any = source.meshes or source.frames
         for chunk in encoder.chunks((frame for frame, _ in zip(frames, numbers)), progress):
             size += file.write(chunk)
@@ -224,6 +218,14 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     facts: Facts = {"frames": done, "vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": size}
     facts |= {"bytes": size, "bpvf_total": bpvf, "kg": finite(encoder.kg)}
     return _finish(job, console, notes, summary, seconds, facts)
+
+
+@contextmanager
+def _written(job: EncodeJob, console: Console) -> Iterator[tuple[Any, Progress]]:
+    """Open the output, and report the progress of what is written to it."""
+    output = open_output(job.output, overwrite=job.may_replace(job.output), follow=job.follow)
+    with output as file, console.progress("encoding") as progress:
+        yield file, progress
 
 
 def _finish(job: EncodeJob, console: Console, notes: list[str], summary: str, seconds: float, facts: Facts) -> Facts:
