@@ -169,6 +169,7 @@ def test_efforts_are_named() -> None:
 
 def test_quick_sequences_search_for_nothing() -> None:
     assert sequence_options().promise is not None and sequence_options(effort="best").promise is not None
+    assert sequence_options(look=None, max_error=None) == sequence_options()
     assert (
         sequence_options(effort="quick").promise is None
         and sequence_options(effort="quick", preset="fine").step < 0.002

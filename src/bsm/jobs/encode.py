@@ -222,7 +222,7 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
 
 @contextmanager
 def _written(job: EncodeJob, console: Console) -> Iterator[tuple[Any, Progress]]:
-    """Open the output, and report the progress of what is written to it."""
+    """Open the output, and report progress while it is written."""
     output = open_output(job.output, overwrite=job.may_replace(job.output), follow=job.follow)
     with output as file, console.progress("encoding") as progress:
         yield file, progress
