@@ -1,7 +1,5 @@
 """Filters for any mesh: a hand-over from the coarse step, iterations of a normal filter, and a finish."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
@@ -145,7 +143,7 @@ class Filters:
         assert self._coarse is not None
         return self._coarse(positions, filter_.keep)
 
-    def filtered(self, positions: Positions, finding: Finding) -> Filtered:
+    def filtered(self, positions: Positions, finding: Finding) -> "Filtered":
         """Return the filtered `positions`, shape (n, 3), and keep them until others are asked for; thread-safe."""
         last = self._last
         if last is None or last.given is not positions:

@@ -243,13 +243,11 @@ def encode_sequence(
         The faces of all frames.
     options : SequenceOptions, optional
         Instead of keywords.
-    metadata : mapping from str to str, int, float or bytes, optional
-        Metadata of the whole sequence.
+    metadata, progress
+        As in `encode`, for the whole sequence.
     mesh_attributes : sequence of Attribute
         Attributes that do not change; `SequenceDecoder.attributes` returns them. The option `attributes` sets their
         quality, as for a mesh.
-    progress : callable, optional
-        As in `encode`.
     **keywords
         As on the command line: `preset` ("small", "balanced", "fine", "near-lossless": promises for every frame),
         `low_delay`, bounds (`look`, `max_error`), one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of

@@ -1,7 +1,5 @@
 """The command line `bsm`: its commands and its errors of usage."""
 
-from __future__ import annotations
-
 import argparse
 import importlib
 import os
@@ -61,7 +59,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return exit_of(error).code
 
 
-def named_files(command: str, parser: Parser, args: argparse.Namespace) -> tuple[list[str], list[str]]:
+def named_files(command: str, parser: "Parser", args: argparse.Namespace) -> tuple[list[str], list[str]]:
     """Return the files that a command line reads, and those that it writes."""
     named: tuple[list[str], list[str]] = [], []
     written = _WRITTEN | ({"permutation"} if command == "encode" else set())
@@ -73,11 +71,11 @@ def named_files(command: str, parser: Parser, args: argparse.Namespace) -> tuple
     return reads, [name for name in named[1] if not name.endswith("/") and not os.path.isdir(name)]
 
 
-def command_parser(name: str) -> Parser:
+def command_parser(name: str) -> "Parser":
     return _complete(Parser(prog=f"bsm {name}", parents=[_common(name)], description=_sentence(name)), name)
 
 
-def program_parser(*, complete: bool = True) -> Parser:
+def program_parser(*, complete: bool = True) -> "Parser":
     """The parser of the program, for shtab, too; with `complete` it also knows what each command takes."""
     codes = "\n".join(f"  {row.code:>3}  {row.meaning}" for row in sorted(EXITS, key=lambda row: row.code))
     parser = Parser(
@@ -107,7 +105,7 @@ def _no_command(words: list[str]) -> int:
     return USAGE.code
 
 
-def _common(name: str) -> Parser:
+def _common(name: str) -> "Parser":
     common = Parser(add_help=False)
     harm = _WITH_FORCE.get(name, "")
     does = argparse.SUPPRESS if name in _WITHOUT_FILES else f"overwrite files{harm}"
@@ -120,7 +118,7 @@ def _sentence(name: str) -> str:
     return f"{COMMANDS[name][0].upper()}{COMMANDS[name][1:]}."
 
 
-def _complete(parser: Parser, name: str) -> Parser:
+def _complete(parser: "Parser", name: str) -> "Parser":
     """Add the arguments of a command; import only its own module, since imports take most of the start."""
     module = importlib.import_module(f"bsm.commands.{name}")
     module.add_arguments(parser)

@@ -1,7 +1,5 @@
 """Output of the commands: results to standard output, everything else to standard error."""
 
-from __future__ import annotations
-
 import json
 import math
 import os
@@ -30,7 +28,7 @@ class Console:
     kept: list[str] | None = None
     json: bool = False
     heard: Callable[[int, int], None] | None = None
-    _running: list[Progress] = field(default_factory=list, compare=False)
+    _running: "list[Progress]" = field(default_factory=list, compare=False)
 
     def note(self, text: str) -> None:
         text = printable(text)
@@ -40,7 +38,7 @@ class Console:
             say(text, "note" if self.json else None)
 
     @contextmanager
-    def progress(self, what: str = "", until: float = 1.0) -> Iterator[Progress]:
+    def progress(self, what: str = "", until: float = 1.0) -> "Iterator[Progress]":
         """Report a job; within another job, report its part `until` a share of all time."""
         if self._running:
             with self._running[0].part(what, until) as progress:
@@ -79,7 +77,7 @@ class Progress:
         self._over = threading.Event()
         self._clock: threading.Thread | None = None
 
-    def __enter__(self) -> Progress:
+    def __enter__(self) -> "Progress":
         if self._shown or self._lines:
             self._clock = threading.Thread(target=self._tick, daemon=True)
             self._clock.start()
@@ -95,7 +93,7 @@ class Progress:
             self._tell_listener(1.0)
 
     @contextmanager
-    def part(self, what: str, until: float = 1.0) -> Iterator[Progress]:
+    def part(self, what: str, until: float = 1.0) -> "Iterator[Progress]":
         """Report a part of the innermost part, up to a share of its time."""
         _, low, high = self._parts[-1]
         end = max(low + until * (high - low), self._share)

@@ -1,7 +1,5 @@
 """What other libraries call a mesh, as ours."""
 
-from __future__ import annotations
-
 import math
 import os
 import sys
@@ -91,7 +89,7 @@ def without_provenance(mesh: TriangleMesh) -> TriangleMesh:
     return replace(mesh, metadata={name: value for name, value in mesh.metadata.items() if name != PROVENANCE})
 
 
-def with_metadata(mesh: TriangleMesh, options: EncodeOptions | None, metadata: Metadata) -> TriangleMesh:
+def with_metadata(mesh: TriangleMesh, options: "EncodeOptions | None", metadata: Metadata) -> TriangleMesh:
     """The mesh with more metadata; without names of attributes that are left out, and materials if all are."""
     qualities = dict(options.attributes) if options else {}
     left = {a.name for a in mesh.attributes if qualities.get(a.name, qualities.get("*")) == "none"} - {"material"}
@@ -101,7 +99,7 @@ def with_metadata(mesh: TriangleMesh, options: EncodeOptions | None, metadata: M
     return replace(mesh, metadata={**precision, **known, **metadata})
 
 
-def with_texels(options: EncodeOptions, mesh: TriangleMesh) -> EncodeOptions:
+def with_texels(options: "EncodeOptions", mesh: TriangleMesh) -> "EncodeOptions":
     """Let texture coordinates be off by a quarter of a texel of the largest image, where looks choose their quality."""
     side, promise = largest_side(mesh.metadata), options.promise
     asked = dict(options.attributes)

@@ -151,12 +151,5 @@ def _load(file_obj: IO[bytes], file_type: str | None = None, **keywords: Any) ->
     return arguments_of(decode(file_obj.read())) | {name: keywords[name] for name in ("process",) if name in keywords}
 
 
-def register() -> None:
-    """Register .bsm with trimesh; importing this module does it."""
-    from trimesh.exchange import export, load
-
-    load.mesh_loaders["bsm"] = _load
-    export._mesh_exporters["bsm"] = lambda mesh, **keywords: encode(from_trimesh(mesh), **keywords)
-
-
-register()
+_library.exchange.load.mesh_loaders["bsm"] = _load
+_library.exchange.export._mesh_exporters["bsm"] = lambda mesh, **keywords: encode(from_trimesh(mesh), **keywords)

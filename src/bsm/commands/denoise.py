@@ -1,7 +1,5 @@
 """bsm denoise: remove noise from a mesh, or from every frame of a sequence."""
 
-from __future__ import annotations
-
 import argparse
 import time
 from collections import Counter
@@ -101,7 +99,7 @@ def _suffix(name: str) -> str:
     return f".{meshes.format_of_name(name) or ('npz' if Path(name).is_dir() else 'ply')}"
 
 
-def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | None) -> dict[str, Any]:
+def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions | None") -> dict[str, Any]:
     kind = _kind_of_output(args)
     from bsm.api import encode, look
     from bsm.codec.denoise import FrameDenoiser
@@ -165,7 +163,7 @@ def _kind_of_output(args: DenoiseJob) -> str:
 
 
 def _denoise_sequence(
-    args: DenoiseJob, console: Console, source: Frames, options: DenoiseOptions | None
+    args: DenoiseJob, console: Console, source: Frames, options: "DenoiseOptions | None"
 ) -> dict[str, Any]:
     kind = sequence_kind(args.output, args.format if args.output == "-" else None)
 
@@ -197,13 +195,13 @@ def _denoise_sequence(
 
 
 def _result(
-    shape: tuple[int, int, int], seconds: float, choice: AutomaticChoice | None, options: DenoiseOptions | None
+    shape: tuple[int, int, int], seconds: float, choice: "AutomaticChoice | None", options: "DenoiseOptions | None"
 ) -> dict[str, Any]:
     chosen = {"automatic": choice and asdict(choice), "options": options and asdict(options)}
     return {**dict(zip(("vertices", "faces", "frames"), shape, strict=True)), "seconds": seconds, **chosen}
 
 
-def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "") -> Iterator[str]:
+def _found(choice: "AutomaticChoice | None", goal: str, edge: float, unit: str = "") -> Iterator[str]:
     """Yield lines about the noise and the chosen method; none if the options chose the method."""
     if choice is None:
         return

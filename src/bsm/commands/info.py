@@ -172,17 +172,9 @@ def _sequence_lines(summary: dict[str, Any]) -> list[str]:
 
 
 def _run_lines(runs: list[dict[str, Any]]) -> list[str]:
-    if len(runs) == 1:
-        return []
-    shared = {
-        number: f", the mesh of run {run['mesh']} again" for number, run in enumerate(runs) if run["mesh"] != number
-    }
-    return [
-        describe_runs([run["first"] for run in runs[1:]]),
-        *(
-            f"run {number}: {run['frames']} frames from {run['first']} on, "
-            + counted(vertices=run["vertices"], faces=run["faces"])
-            + shared.get(number, "")
-            for number, run in enumerate(runs[:MOST_LISTED])
-        ),
-    ]
+    lines = [describe_runs([run["first"] for run in runs[1:]])] if len(runs) > 1 else []
+    for number, run in enumerate(runs[:MOST_LISTED] if lines else ()):
+        counts = counted(vertices=run["vertices"], faces=run["faces"])
+        again = "" if run["mesh"] == number else f", the mesh of run {run['mesh']} again"
+        lines.append(f"run {number}: {run['frames']} frames from {run['first']} on, {counts}{again}")
+    return lines

@@ -1,7 +1,5 @@
 """Tiles in few files: shards with an index at their end, and a manifest; written once, read by ranges."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
@@ -114,7 +112,7 @@ def is_tiles(path: str) -> bool:
     return path.endswith("/") if is_url(path) else Path(path, MANIFEST).is_file()
 
 
-def open_tiles(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> Tiles:
+def open_tiles(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> "Tiles":
     """Open a folder of tiles that `bsm tile` wrote. Only its manifest is read.
 
     Parameters

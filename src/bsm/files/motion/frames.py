@@ -1,7 +1,5 @@
 """The interface between readers and writers of sequences: frames, requests and shared metadata."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -57,7 +55,7 @@ class Frames:
         if not vertices:
             raise MeshError("a sequence needs at least one frame")
 
-    def on_sorted_faces(self) -> Frames:
+    def on_sorted_faces(self) -> "Frames":
         """These frames where the order of faces costs nothing, and each vertex in no face has one without area."""
         loose = np.setdiff1d(np.arange(self.rigged), self.faces)
         faces = np.concatenate([self.faces, np.repeat(loose[:, None], 3, axis=1)]).astype(np.int32)
