@@ -103,7 +103,7 @@ class Encoder:
             raise OptionError("preset none needs a target or a bound, such as size or max_error")
         packets.Metadata(mesh.metadata).require_readable()
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
-        self._input = Sent(mesh, self.options, self.options)
+        self._input = Sent(mesh, self.options)
         self.look: float | None = None
         self.binding = ""
         self._unseen = ""
@@ -325,7 +325,7 @@ class Encoder:
 
     @cached_property
     def _spectral(self) -> InBlocks:
-        return InBlocks(self._input.prepared, self._input.coded)
+        return InBlocks(self._input.prepared, self.options)
 
     @cached_property
     def _reference(self) -> tuple[Reference, float]:

@@ -60,7 +60,7 @@ def encode_source(mesh: TriangleMesh, options: EncodeOptions, progress: Progress
         encoder = Encoder(mesh, options)
         best = Chosen(encoder, encoder.result(progress), source.whole)
     found = source.stand_ins(progress)
-    whole = Sent(source.whole, options, options).prepared.connectivity.data
+    whole = Sent(source.whole, options).prepared.connectivity.data
     shape, power, work = best.attempt.size - len(whole), POWER, 0.0
     while found:
         # As many bytes for the faces as there are, for the places a share of all; more of them where less look is left.
@@ -111,7 +111,7 @@ class Source:
         if options.target or promise.angle < ANY_ANGLE or promise.visual < math.inf:
             raise OptionError("simplify keeps the look and the largest error; it excludes targets and other bounds")
         self.options, self.promise, self._given = options, promise, mesh
-        self._input = Sent(mesh, options, options)
+        self._input = Sent(mesh, options)
         joined, prepared = self._input.joined, self._input.prepared
         sent = (attribute for attribute, _ in self._input.wanted)
         found = (_of_vertices(attribute, mesh, joined.mesh.faces, joined.kept) for attribute in sent)
@@ -187,7 +187,7 @@ class Source:
                 left = 1.0 - (self.look(mesh) if self._looks else self._moved(mesh, reach))
             if left <= 1.0 - AIM or len(mesh.faces) > ENOUGH * share * len(self.whole.faces):
                 break
-            faces = Sent(mesh, self.options, self.options).prepared.connectivity.data
+            faces = Sent(mesh, self.options).prepared.connectivity.data
             found.append(StandIn(mesh, reach, len(mesh.faces) / len(self.whole.faces), len(faces), min(left, AIM)))
         return found
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Sequence
-from contextlib import nullcontext, suppress
+from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, replace
-from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -27,9 +26,9 @@ from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, cheap
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality, qualities
 from bsm.codec.static.choice.bounds import Bounds, Measures, Trial
 from bsm.codec.static.choice.search import Search
-from bsm.codec.static.options import LARGE_BLOCKS, PRESETS, EncodeOptions
+from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
-from bsm.codec.static.targets import SLACK, TRIES, Contract
+from bsm.codec.static.targets import SLACK, Contract
 
 ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
 
@@ -40,7 +39,6 @@ class Sent:
 
     given: TriangleMesh
     options: EncodeOptions
-    coded: EncodeOptions  # how the shape is coded, which the best effort chooses
     looks: tuple[tuple[int, AttributeLook], ...] = ()  # attributes whose quality the look decides
     shown: LookMetric | None = None  # pictures of another mesh, for which this one stands
 
@@ -56,7 +54,7 @@ class Sent:
 
     @cached_property
     def prepared(self) -> Prepared:
-        options = self.coded
+        options = self.options
         parts = Parts(options.block_size, options.growth, options.paper.partition == "metis")
         return prepare(
             self.joined.mesh,
@@ -123,11 +121,15 @@ class Sent:
 
     @property
     def search(self) -> Search:
-        return Search(self.measures, self.coded, lambda draft: self.dressed(draft).size, self.saved)
+        return Search(self.measures, self.options, lambda draft: self.dressed(draft).size, self.saved)
 
     def saved(self, candidate: Trial) -> int:
         """Return how many bytes the attributes save if positions are on a grid."""
         return sum(sum(map(len, a.plain)) - sum(map(len, cheaper(a, candidate.draft.places)[1])) for a in self.carried)
+
+    def painted(self, decoded: Positions) -> float:
+        """The largest distance of colors and texture coordinates whose quality the look decides."""
+        return max(look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks)
 
     @cached_property
     def shown_normals(self) -> int | None:
@@ -148,7 +150,7 @@ class Sent:
     def measured(self, draft: Draft, contract: Contract) -> tuple[str, float | None, str]:
         """Return the bounds that a draft with its attributes breaks, its look distance, and the bound that binds."""
         bounds, decoded = Bounds(self.measures, contract), draft.decoded
-        made = Trial(0.0, self.prepared.units.into(decoded), lambda: draft, decoded=decoded)
+        made = Trial(0.0, self.prepared.units.into(decoded), lambda: draft, 0, decoded=decoded)
         metric = bounds.metric
         if metric is None:
             return "" if bounds.keeps(made) else bounds.had, None, bounds.binding(made)
@@ -171,49 +173,10 @@ class Sent:
 
 def smallest(given: Sent, contract: Contract, near: Nearing | None) -> tuple[Sent, Draft]:
     """The smallest stream that keeps a contract, in colors and under a checker, too; and the input as it is sent."""
-    given, asked = _choose_blocks(given, contract) if given.options.effort == "best" else (given, contract)
     given = given.measuring(near, alike=contract.alike)
     if given.measures.look is not None and contract.look < math.inf:
         given = _roughened(given, contract.look)
-    for _ in range(TRIES):
-        sent, kept = _shaded(given, asked)
-        seen = max((look.distance(kept.decoded, sent.carried[at].at_corners) for at, look in sent.looks), default=0.0)
-        if seen <= contract.look:
-            return sent, kept
-        asked = replace(asked, look=asked.look * contract.look / seen * (1.0 - SLACK))
-    raise TargetError(
-        f"{contract} cannot be kept on this mesh; with its colors or under a checker, the best look is {seen:.3g}"
-    )
-
-
-def _choose_blocks(given: Sent, contract: Contract) -> tuple[Sent, Contract]:
-    """Choose the blocks, effort and promise, asked or stricter, that give the shape fewest bytes."""
-    found = list[tuple[Draft, Sent, Contract]]()
-    large = given.options.block_size >= LARGE_BLOCKS["block_size"]
-    others = {name: getattr(EncodeOptions, name) if large else size for name, size in LARGE_BLOCKS.items()}
-    usual = [({"effort": "normal"}, promise) for promise in (contract, *_stricter(contract))]
-    for changes, promise in (*usual, ({}, contract), (others, contract)):
-        if changes is others and found[-1][0].places is not None and not found[-1][0].header.congruence:
-            break  # a grid has no blocks; attributes may need some where it is smaller by congruent parts
-        tried = replace(given, coded=replace(given.options, **changes)).but(joined=given.joined, carried=())
-        tried = tried.measuring(None, alike=promise.alike)
-        with suppress(TargetError) if promise is not contract else nullcontext():
-            found.append((tried.search.smallest(promise), tried, promise))
-    _, chosen, promise = min(found, key=lambda made: made[0].size)
-    return chosen.but(carried=chosen.carry(chosen.wanted)), promise
-
-
-def _stricter(contract: Contract) -> list[Contract]:
-    """Promises, of nearby looks and of presets, that bound all that a contract bounds, and as tightly."""
-    bounds = attrgetter("farthest", "angle", "look", "by_part", "visual")
-    nearby = [replace(contract, look=contract.look * share) for share in (0.999, 0.98, 0.95)]  # bytes jump by chance
-    promises = [*nearby, *(options.promise for options in PRESETS.values())]
-    return [
-        promise
-        for promise in promises
-        if promise and promise != contract and not contract.absolute
-        if all(own <= asked for own, asked in zip(bounds(promise), bounds(contract), strict=True))
-    ]
+    return _shaded(given, contract)
 
 
 def _roughened(given: Sent, look: float) -> Sent:
@@ -223,7 +186,10 @@ def _roughened(given: Sent, look: float) -> Sent:
         asked = {"*", attribute.name} & {*dict(given.options.attributes)}
         if not asked and quality.way in ("bits", "exact") and has_look(attribute):
             rough = _roughen(rough, at, attribute, ATTRIBUTE_SHARE[attribute.semantic] * look)
-    return rough.but(carried=rough.carry(rough.wanted)) if rough.looks else given
+    if not rough.looks:
+        return given
+    rough = rough.but(carried=rough.carry(rough.wanted))
+    return rough.but(measures=given.measures.painting(rough.painted))
 
 
 def _roughen(given: Sent, at: int, attribute: Attribute, most: float) -> Sent:
@@ -264,26 +230,19 @@ def _shaded(given: Sent, contract: Contract) -> tuple[Sent, Draft]:
     def enough(at: int) -> bool:
         return seen(given.carry_with(free, finer[at]), decoded) <= 1.0
 
-    recomputed = given.but(carried=given.carry_with(free, Quality("recompute")))
     sent = given.but(carried=given.carry_with(free, finer[bisect_left(range(len(finer) - 1), True, key=enough)]))
     kept = sent, sent.dressed(bare)
-    before = seen(recomputed.carried, given.prepared.mesh.positions)
-    if metric.against_faces or before > 1.0 - SLACK:
+    recomputed = given.but(carried=given.carry_with(free, Quality("recompute")))
+    if metric.against_faces or seen(recomputed.carried, given.prepared.mesh.positions) > 1.0 - SLACK:
         return kept
+
+    def shown(positions: Positions) -> float:
+        return max(given.measures.painted(positions), asked * seen(recomputed.carried, positions))
+
+    recomputed = recomputed.but(measures=given.measures.painting(shown))
     with suppress(TargetError):
-        for attempt in range(TRIES):  # of none, and positions that are as much nearer as they need to be then
-            other = recomputed.dressed(bare)
-            if other.size >= kept[1].size:
-                break
-            share = seen(recomputed.carried, bare.decoded)
-            if share <= 1.0:
-                kept = recomputed, other
-            if attempt or bare.places is None:  # else the first choice again, now that no normals lean on places
-                if share <= 1.0:
-                    break
-                nearer = math.sqrt((1.0 - before**2) / (share**2 - before**2))
-                contract = replace(contract, look=contract.look * nearer * (1.0 - SLACK))
-            bare = recomputed.search.smallest(contract)
+        other = recomputed.dressed(recomputed.search.smallest(contract))
+        return (recomputed, other) if other.size < kept[1].size else kept
     return kept
 
 

@@ -263,14 +263,14 @@ class Plain:
 
     def at(self, step: float) -> Trial:
         base = self._spectral.base(step, self._bounds.measures.near.within())
-        reaches = self._bounds.reaches
+        reaches, fixed = self._bounds.reaches, len(base.prepared.connectivity.data)
         out = squares_of(base.positions - base.prepared.positions) > reaches**2
         if not out.any():
-            return Trial(step, base.positions, lambda: base.draft)
+            return Trial(step, base.positions, lambda: base.draft, fixed)
         layer = Layer(single(max(float(reaches[out].min()), FINEST_LAYER)), 1.0)
         levels = np.where(out[:, None], np.rint(base.offsets / layer.step), 0.0).astype(np.int32)
         moved = base.moved(layer, levels, base.known_steps(layer, levels))
-        return Trial(step, moved, partial(base.refined, layer, levels, moved))
+        return Trial(step, moved, partial(base.refined, layer, levels, moved), fixed)
 
 
 class Refined:
@@ -309,7 +309,8 @@ class Refined:
             other = self._bounds.measures.shaper.unfold(positions, levels, directions, self._near(known))
             return None if other is None else self._leveled(step, base, layer, other, base.known_steps(layer, other))
 
-        return Trial(step, positions, partial(base.refined, layer, levels, positions), unfold, self._settled)
+        make = partial(base.refined, layer, levels, positions)
+        return Trial(step, positions, make, base.draft.size, unfold, self._settled)
 
     def _near(self, steps: Matrix) -> Matrix:
         """How far vertices may be brought from their places by steps, shape (n, 3)."""

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from copy import copy
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from typing import NamedTuple
@@ -58,6 +59,13 @@ class Measures:
         self.normals = normals
         self.near = near or Nearing(None)
         self.unseen = ""  # why there is no look
+        self.painted: Callable[[Positions], float] = lambda decoded: 0.0  # the distance of what is on the surface
+
+    def painting(self, painted: Callable[[Positions], float]) -> "Measures":
+        """The same measurements, and also those of what is on the surface."""
+        other = copy(self)
+        other.painted = painted
+        return other
 
     @cached_property
     def reference(self) -> Reference:
@@ -85,6 +93,7 @@ class Trial:
     step: float
     positions: Matrix
     make: Callable[[], Draft]
+    fixed: int  # bytes that are the same at all steps
     unfold: Callable[[], "Trial | None"] = lambda: None
     settled: bool = False  # whether levels are kept within reach, whatever the step is
     guess: Callable[[], float] | None = None
@@ -133,9 +142,9 @@ class Bounds:
         self.measures.near.by()
         return math.log(max(*shares, LEAST))
 
-    def folds(self, positions: Matrix) -> bool:
-        """Whether more edges are folded over than may be."""
-        return self.measures.shaper.folded(positions) > self.measures.shaper.most_folded
+    def folded(self, positions: Matrix) -> float:
+        """How many edges are folded over, over how many may be."""
+        return self.measures.shaper.folded(positions) / self.measures.shaper.most_folded
 
     @property
     def metric(self) -> LookMetric | None:
@@ -194,7 +203,9 @@ class Bounds:
         if look is not None:
             return *self._measured(candidate.positions), look / self.contract.look
         if self._last is None or self._last[0] is not candidate:
-            look = 0.0 if self.metric is None else self.metric.with_room(self._decoded(candidate))
+            look, decoded = 0.0, self._decoded(candidate)
+            if self.metric is not None and (look := self.metric.with_room(decoded)) <= self.contract.look:
+                look = max(look, self.measures.painted(decoded))
             self._last = candidate, (*self._measured(candidate.positions), look / self.contract.look)
         return self._last[1]
 

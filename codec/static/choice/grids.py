@@ -199,13 +199,13 @@ class Gridded:
         own, others = (grid.at(self.first).congruent.size for grid in (self, other))
         return other if others < (1.0 - LEAST_SAVED) * own else self
 
-    def repeat(self, first: Trial) -> float:
-        """Predict by congruent parts from now on if that pays in the first trial; return about its bytes."""
+    def repeat(self, first: Trial) -> Trial:
+        """Predict by congruent parts from now on if that pays in the first trial; return it so."""
         if first.congruent.size >= (1.0 - LEAST_SAVED) * first.draft.size:
-            return first.size
+            return first
         self.transforms = min(first.congruent.header.transforms, 1)
         self.at.cache_clear()
-        return first.congruent.size
+        return replace(first, make=lambda: first.congruent, guess=None, also=lambda make: make())
 
     def covered(self, step: float) -> float:
         """The share of vertices that congruent parts may predict at a step."""
@@ -244,4 +244,5 @@ class Gridded:
         guess = None if few or quick or self.transforms >= 0 else lambda: light().size * (sampled() / sampled(1))
         decoded = grid.positions(places)
         positions = np.ascontiguousarray(self._prepared.units.into(decoded))
-        return Trial(step, positions, partial(coded, self.transforms), guess=guess, also=also, decoded=decoded)
+        fixed = len(self._prepared.connectivity.data)
+        return Trial(step, positions, partial(coded, self.transforms), fixed, guess=guess, also=also, decoded=decoded)

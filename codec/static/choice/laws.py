@@ -77,6 +77,12 @@ class Hopes:
         self.low, self.bound = (self.errors, self.bytes) if self.fitting else (self.bytes, self.errors)
         self.left = np.full(len(self.steps), 2)  # stages
 
+    def begin(self, made: Trial, size: float) -> None:
+        """Take in a trial that is coded already, and its bytes."""
+        at = int(np.abs(self.steps - math.log(made.step)).argmin())
+        self.coded[at], self.left[at] = made, 1
+        self.bytes.learn(at, size)
+
     def next(self, least: float, price: float) -> tuple[float, int]:
         """Expected saving of the next stage, less its price, in logarithms; and the number of its step."""
         low, bound, closed = self.low, self.bound, self.left == 0

@@ -20,9 +20,9 @@ from bsm.codec.static.options import LARGE_BLOCKS, WORTH, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, Contract
 
-PRICES = {"quick": 2e-3, "normal": 7e-4, "best": 8e-5}
+PRICES = {"quick": 2e-3, "normal": 6e-4, "best": 8e-5}
 """Prices of a stage of a trial, as shares of the bytes, over the fourth root of the number of vertices."""
-SLOPE = -0.5  # of the logarithm of bytes over that of a step
+BYTES = 3.0 / math.log(256.0)  # of a vertex, that a step e times as wide saves where most levels are not 0
 
 
 class Search:
@@ -54,21 +54,26 @@ class Search:
 
         def excess(made: Trial) -> float:
             over, _ = bounds.excess(made), bounds.keeps(made)
-            return max(over, DOUBT) if bounds.folds(made.positions) else over  # a finer step has fewer folds
+            folded = bounds.folded(made.positions)
+            return max(over, math.log(folded) / 2.0) if folded > 1.0 else over  # they grow about as squares of steps
 
-        known: dict[Way, float] = {grid: first.size}
+        begun: dict[Way, Trial] = {grid: first}
+        sizes: dict[Way, float] = {}
         with suppress(LimitError):  # blocks that decoders would refuse
             if refined in ways:
-                made = refined.at(min(max(refined.first, refined.least), refined.most))
-                known[refined] = made.size
+                made = begun[refined] = refined.at(min(max(refined.first, refined.least), refined.most))
                 if (larger := self._larger(refined, made, bounds)) is not None:
                     ways.append(larger)
-                    known[larger] = made.size - refined.base.coded + larger.base.coded
-        if may_repeat(self._prepared) and min(known.values()) >= first.size * (1.0 - grid.covered(first.step)):
-            known[grid] = grid.repeat(first)
-        queue = [
-            self._hopes(way, bounds, total(way, known.get(way, first.size)), DOUBT * (way not in known)) for way in ways
-        ]
+                    sizes[larger] = made.size - refined.base.coded + larger.base.coded
+        smaller = min(made.size for made in begun.values()) < first.size * (1.0 - grid.covered(first.step))
+        if may_repeat(self._prepared) and not smaller:
+            begun[grid] = grid.repeat(first)
+        queue = []
+        for way in ways:
+            made = begun.get(way, begun[grid])
+            queue.append(self._hopes(way, bounds, made, total(way, sizes.get(way, made.size))))
+            if way in begun:
+                queue[-1].begin(made, queue[-1].bytes.known[0][1])
         least = math.log(min((made.size for made in kept.values()), default=math.inf))
         kept.update(search(queue, coded, excess, self._price, least))
         if not kept:
@@ -77,14 +82,14 @@ class Search:
 
     def _larger(self, way: Refined, found: Trial, bounds: Bounds) -> Refined | None:
         """The way with larger blocks, where these may take fewer bytes than those that it has come to."""
-        usual = self._prepared.parts.size == EncodeOptions.block_size
-        if bounds.contract.look == math.inf or not usual or way.base.coded <= found.size / 4.0:
+        usual, best = self._prepared.parts.size == EncodeOptions.block_size, self._options.effort == "best"
+        if bounds.contract.look == math.inf or not usual or (way.base.coded <= found.size / 4.0 and not best):
             return None
         parts = replace(self._prepared.parts, size=LARGE_BLOCKS["block_size"])
         larger = Refined(replace(self._prepared, parts=parts), self._options, bounds)
         larger.first = found.step
         saved = (way.base.coded - larger.base.coded) / found.size
-        return larger if larger.base.work < way.base.work * (1.0 + WORTH * saved) else None
+        return larger if best or larger.base.work < way.base.work * (1.0 + WORTH * saved) else None
 
     def best(self, contract: Contract, most_bytes: float) -> Draft | None:
         """Return the best stream of at most `most_bytes` that keeps a contract, or None."""
@@ -93,14 +98,14 @@ class Search:
             return point if self._size(point) <= most_bytes else None
         kept, near = Bounds(self._measures, contract), Bounds(self._measures, replace(contract, look=1.0))
         first = (usual := Gridded(self._prepared, near)).at(usual.first)
-        size = usual.repeat(first) if may_repeat(self._prepared) else first.size
+        first = usual.repeat(first) if may_repeat(self._prepared) else first
         # A step twice as wide, which looks about twice as far off, saves three bits of a vertex.
-        octaves = min(max(8.0 * (size - most_bytes) / (3.0 * self._prepared.graph.size), -12.0), 6.0)
+        octaves = min(max(8.0 * (first.size - most_bytes) / (3.0 * self._prepared.graph.size), -12.0), 6.0)
         bounds = Bounds(self._measures, replace(contract, look=2.0**octaves))
         grid = Gridded(self._prepared, bounds).in_frame()
         grid.transforms = usual.transforms
         found, ways = [*grid.made()], self._ways(bounds, grid, Refined(self._prepared, self._options, bounds))
-        queue = [self._hopes(way, bounds, most_bytes, DOUBT, most_bytes) for way in ways]
+        queue = [self._hopes(way, bounds, first, most_bytes, most_bytes) for way in ways]
 
         def coded(_: Way, made: Trial, exactly: bool) -> float:
             return math.log(self._size(made.draft) / most_bytes)
@@ -113,11 +118,12 @@ class Search:
         draft = next((draft for draft in drafts if self._size(draft) <= most_bytes), None)
         return None if draft is None else paying(self._prepared, draft)
 
-    def _hopes(self, way: Way, bounds: Bounds, size: float, doubt: float, most_bytes: float = 0.0) -> Hopes:
-        """What to expect of a way if it takes about so many bytes at its first step."""
+    def _hopes(self, way: Way, bounds: Bounds, like: Trial, size: float, most_bytes: float = 0.0) -> Hopes:
+        """What to expect of a way if it takes about so many bytes at its first step, and others as a trial does."""
         (first, steps), look = steps_of(way), bounds.contract.look
         luck = self._prepared.graph.size**-0.25 if look < math.inf else SLACK
-        taken = Law(steps, first, math.log(size / (most_bytes or 1.0)), SLOPE, doubt, SLACK)
+        slope = -min(BYTES * self._prepared.graph.size, max(like.size - like.fixed, 1.0)) / size
+        taken = Law(steps, first, math.log(size / (most_bytes or 1.0)), slope, DOUBT, SLACK)
         rise = 2.0 if bounds.contract.visual < math.inf else 1.0
         errors = Law(steps, first, math.log(look) if most_bytes else 0.0, rise, DOUBT, luck)
         return Hopes(way, steps, taken, errors, most_bytes > 0.0)

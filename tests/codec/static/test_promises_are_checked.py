@@ -97,7 +97,7 @@ def test_a_draft_is_judged_by_what_is_decoded(tmp_path: Path) -> None:
     assert made._input.measured(draft, promise)[0] == ""
     assert "look" in made._input.measured(draft, replace(promise, look=promise.look / 50.0))[0]
     assert "vertex" in made._input.measured(draft, replace(promise, farthest=1e-7))[0]
-    decoded = Trial(0.0, made._input.prepared.units.into(draft.decoded), lambda: draft)
+    decoded = Trial(0.0, made._input.prepared.units.into(draft.decoded), lambda: draft, 0)
     assert Bounds(made._input.measures, promise).keeps(decoded)
     assert len(encode(MESH, EncodeOptions(threads=1))) > 0
 
