@@ -546,8 +546,8 @@ def denoise(
 
     Parameters
     ----------
-    mesh : mesh, pair of arrays, or path
-        As `encode` takes it.
+    mesh, progress
+        As in `encode`.
     options : DenoiseOptions, optional
         Instead of keywords.
     **keywords
@@ -558,8 +558,6 @@ def denoise(
         Fraction of every movement, from 0 to 1.
     force : bool
         Return the result even if it loses detail.
-    progress : callable, optional
-        As in `encode`.
 
     Returns
     -------

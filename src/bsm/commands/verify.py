@@ -20,8 +20,6 @@ from bsm.tiles.shards import is_tiles, open_tiles
 
 @dataclass(frozen=True, kw_only=True)
 class VerifyJob(Task):
-    """The task of `bsm verify`: the limits, and whether only structure is checked."""
-
     limits: str = "default"
     quick: bool = False
 
