@@ -38,7 +38,7 @@ import bsm
 from bsm.bitstream.errors import imported
 from bsm.codec.geometry.attributes import at_corners
 from bsm.files.conventions import to_linear
-from bsm.files.formats.appearance import appearance
+from bsm.files.formats.appearance import appearance, within
 from bsm.files.formats.metadata import materials_in, names_in, rgba
 from bsm.gltf.compress import compress, restore
 from bsm.gltf.document import read_document
@@ -111,7 +111,7 @@ def of_ours(mesh: bsm.TriangleMesh) -> Read:
     names = {str(material.get("name", "")) for material in materials_in(mesh.metadata).values()}
     groups = {name for what in ("part", "group", "object") for name in names_in(mesh.metadata, what).values()}
     groups |= {str(mesh.metadata.get("name", ""))}
-    known = map(appearance, materials_in(mesh.metadata).values())
+    known = (within(appearance(words))[0] for words in (*materials_in(mesh.metadata).values(), {}))
     looks = [
         (*look.color, look.color_texture is not None, look.metallic, look.roughness, look.double_sided)
         for look in known
