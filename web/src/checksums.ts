@@ -1,16 +1,10 @@
 /** Checksums of frames (specification, F 1.3, F 1.4). */
 
-const CRC32 = Uint32Array.from({ length: 256 }, (_, byte) => {
-    let value = byte;
-    for (let k = 0; k < 8; k++) value = value & 1 ? (value >>> 1) ^ 0xedb88320 : value >>> 1;
-    return value;
-});
-
-const CRC16 = Uint16Array.from({ length: 256 }, (_, byte) => {
-    let value = byte << 8;
-    for (let k = 0; k < 8; k++) value = value & 0x8000 ? (value << 1) ^ 0x1021 : value << 1;
-    return value;
-});
+/** What a step makes of each number in eight times. */
+const table = (begin: (byte: number) => number, step: (value: number) => number): Uint32Array =>
+    Uint32Array.from({ length: 256 }, (_, byte) => [1, 2, 3, 4, 5, 6, 7, 8].reduce(step, begin(byte)));
+const CRC32 = table((byte) => byte, (value) => (value >>> 1) ^ (value & 1 && 0xedb88320));
+const CRC16 = table((byte) => byte << 8, (value) => ((value << 1) ^ (value & 0x8000 && 0x1021)) & 0xffff);
 
 /** CRC-32 of zlib; `before` is that of the bytes in front. */
 export function crc32(data: Uint8Array, before = 0): number {

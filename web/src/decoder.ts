@@ -61,36 +61,10 @@ export class Decoder {
 
     /** The next event, or `NEED_DATA`; with helpers `NEED_BLOCK`; `END_OF_STREAM` after the end and `receiveEof`. */
     nextEvent(): Event | Signal | typeof NEED_BLOCK {
-        return this.next(!this.wishes.whole);
-    }
-
-    /** Leave the memory to the next decoder; this one is not to be asked for anything more. */
-    release(): void {
-        this.engine.release();
-    }
-
-    /** Decode the rest of a complete stream, without helpers; faster than asking for events. */
-    finish(): Mesh {
-        const attributes: Attribute[] = [];
-        let [faces, first]: [Int32Array, Mesh?] = [new Int32Array(0)];
-        this.receiveEof();
-        for (let event; (event = this.next(false)) !== END_OF_STREAM; ) {
-            if (event === NEED_BLOCK) throw new TypeError("a decoder with helpers gives events; it cannot finish alone");
-            if (typeof event === "string" || first) continue;
-            const { type, ...content } = event;
-            if ("faces" in content) ({ faces } = content);
-            if ("domain" in content) attributes.push(content);
-            if (event.type === "frame") first = { positions: event.positions, faces, attributes: attributes.map((old) => event.attributes.find(({ name }) => name === old.name) ?? old) };
-            if (type === "end") first = { positions: event.positions ?? new Float64Array(0), faces, attributes };
-        }
-        return first!;
-    }
-
-    private next(growing: boolean): Event | Signal | typeof NEED_BLOCK {
         if (this.error) throw this.error;
         try {
             for (;;) {
-                const event = this.queue.shift() ?? (this.awaited === undefined ? this.heard(this.engine.next(), growing) : this.received(this.awaited, growing));
+                const event = this.queue.shift() ?? (this.awaited === undefined ? this.heard(this.engine.next()) : this.received(this.awaited));
                 if (event) return event;
             }
         } catch (error) {
@@ -99,8 +73,13 @@ export class Decoder {
         }
     }
 
+    /** Leave the memory to the next decoder; this one is not to be asked for anything more. */
+    release(): void {
+        this.engine.release();
+    }
+
     /** Convert an event of the decoder in C; nothing if it is not reported. */
-    private heard(raw: RawEvent, growing: boolean): Event | Signal | undefined {
+    private heard(raw: RawEvent): Event | Signal | undefined {
         const { engine, wishes } = this;
         const { type, index, count, vertices } = raw;
         if (type === NEED) return NEED_DATA;
@@ -118,7 +97,7 @@ export class Decoder {
             if (this.sameMesh) this.queue.push(...engine.attributes().map((attribute): Event => ({ type: "attribute", ...attribute })));
             return { type: "connectivity", faces, vertices, loose };
         }
-        if (growing && (type === BLOCK || type === REFINEMENT)) return this.changed(type === BLOCK ? index : undefined);
+        if (!wishes.whole && (type === BLOCK || type === REFINEMENT)) return this.changed(type === BLOCK ? index : undefined);
         if (type === ATTRIBUTE) return { type: "attribute", ...engine.attribute(index)! };
         if (type === FRAME) return { type: "frame", index, positions: engine.positions(vertices), attributes: engine.attributes(true) };
         if (type === LOSS) {
@@ -128,7 +107,7 @@ export class Decoder {
         if (type !== END) return undefined;
         const isMesh = this.header!.gopFrames === 0;
         const losses = wishes.tolerant && isMesh ? engine.losses() : { missing: new Int32Array(0), degraded: new Int32Array(0) };
-        return { type: "end", ...losses, ...(!growing && isMesh ? { positions: engine.positions(vertices) } : {}) };
+        return { type: "end", ...losses, ...(wishes.whole && isMesh ? { positions: engine.positions(vertices) } : {}) };
     }
 
     private beginMesh(header: Header): Event {
@@ -146,7 +125,7 @@ export class Decoder {
     }
 
     /** What the block of a helper is, if it is there. */
-    private received(index: number, growing: boolean): Event | typeof NEED_BLOCK | undefined {
+    private received(index: number): Event | typeof NEED_BLOCK | undefined {
         const shared = this.shared.get(index);
         if (!shared) return NEED_BLOCK;
         this.shared.delete(index);
@@ -155,16 +134,27 @@ export class Decoder {
         if (problem && (!this.wishes.tolerant || this.header!.gopFrames > 0)) throw errorLike(problem);
         this.engine.add(shared);
         if (problem) return { type: "loss", block: index, error: problem };
-        return growing ? this.changed(index) : undefined;
+        return this.wishes.whole ? undefined : this.changed(index);
     }
 }
 
-/** Decode a complete stream. */
+/** Decode a complete stream: a mesh, or the first frame of a sequence. */
 export function decode(kernels: Kernels, data: Uint8Array, limits: Partial<Limits> = {}): Mesh {
-    const decoder = new Decoder(kernels, limits);
+    const decoder = new Decoder(kernels, limits, { whole: true });
+    const attributes: Attribute[] = [];
+    let [faces, first]: [Int32Array, Mesh?] = [new Int32Array(0)];
     try {
         decoder.receiveData(data);
-        return decoder.finish();
+        decoder.receiveEof();
+        for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) {
+            if (typeof event === "string" || first) continue;
+            const { type: _, ...content } = event;
+            if ("faces" in content) ({ faces } = content);
+            if ("domain" in content) attributes.push(content);
+            if (event.type === "frame") first = { positions: event.positions, faces, attributes: attributes.map((old) => event.attributes.find(({ name }) => name === old.name) ?? old) };
+            if (event.type === "end") first = { positions: event.positions ?? new Float64Array(0), faces, attributes };
+        }
+        return first!;
     } finally {
         decoder.release();
     }

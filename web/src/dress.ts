@@ -1,12 +1,7 @@
 /** What is drawn of faces and attributes. */
 
 /** Faces with one material, of one part: `count` corners from `start` on. */
-export interface Piece {
-    material: number;
-    part: number;
-    start: number;
-    count: number;
-}
+export type Piece = Record<"material" | "part" | "start" | "count", number>;
 
 /** Numbers of the drawn vertices under one name. */
 export interface DrawnAttribute {

@@ -24,13 +24,7 @@ interface Kind<View> {
 }
 
 /** An event as the decoder in C reports it, with the numbers of vertices and faces once they are known. */
-export interface RawEvent {
-    type: number;
-    index: number;
-    count: number;
-    vertices: number;
-    faces: number;
-}
+export type RawEvent = Record<"type" | "index" | "count" | "vertices" | "faces", number>;
 
 export class Engine extends Memory {
     constructor(kernels: Kernels, limits: Partial<Limits>, tolerant: boolean, { number, among }: Share = { number: 0, among: 0 }) {

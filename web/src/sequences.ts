@@ -3,22 +3,12 @@ import { EventDispatcher, Mesh, type Material } from "three";
 import type { BSMGeometry } from "./geometry";
 import { Playback } from "./playback";
 
-export interface SequenceEvents {
-    play: object;
-    pause: object;
-    /** Another frame is shown. */
-    frame: { index: number };
-    /** It begins again. */
-    loop: object;
-    /** The last frame was shown, and it does not begin again. */
-    ended: object;
-    /** Frames come more slowly than they are shown. */
-    waiting: object;
-    /** The rest of the stream cannot be decoded; the frames before it are available. */
-    error: { error: unknown };
-    /** Nobody wants it any more: its load stops. */
-    dispose: object;
-}
+/**
+ * `frame`: another one is shown; `loop`: it begins again; `ended`: the last frame was shown, and it does not begin again;
+ * `waiting`: frames come more slowly than they are shown; `error`: the rest of the stream cannot be decoded, the frames before
+ * it are available; `dispose`: nobody wants it any more, and its load stops.
+ */
+export type SequenceEvents = Record<"play" | "pause" | "loop" | "ended" | "waiting" | "dispose", object> & { frame: { index: number }; error: { error: unknown } };
 
 /** A sequence that plays: `update` is to be called for every picture, as that of an AnimationMixer. */
 export class BSMSequence extends EventDispatcher<SequenceEvents> {

@@ -9,7 +9,4 @@ export interface SharedBlock {
 }
 
 /** Which of those that share the chains of a stream has which: chain c is that of number c % `among`; 0 is the decoder. */
-export interface Share {
-    number: number;
-    among: number;
-}
+export type Share = Record<"number" | "among", number>;

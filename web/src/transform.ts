@@ -50,13 +50,9 @@ interface CodedPrimitive {
 export class EXTBSMCompression extends Extension {
     static override readonly EXTENSION_NAME = EXTENSION;
     override readonly extensionName = EXTENSION;
-    /** @hidden */
     override readonly prereadTypes = [PropertyType.BUFFER];
-    /** @hidden */
     override readonly prewriteTypes = [PropertyType.ACCESSOR];
-    /** @hidden */
     override readonly readDependencies = ["bsm.decoder"];
-    /** @hidden */
     override readonly writeDependencies = ["bsm.decoder", "bsm.encoder"];
     /** Without plain geometry beside the streams. */
     protected override required = true;
@@ -64,14 +60,12 @@ export class EXTBSMCompression extends Extension {
     private encoder?: SceneEncoder;
     private readonly coded = new Map<Primitive, CodedPrimitive>();
 
-    /** @hidden */
     override install(key: string, dependency: unknown): this {
         if (key === "bsm.decoder") this.decoder = dependency as SceneDecoder;
         if (key === "bsm.encoder") this.encoder = dependency as SceneEncoder;
         return this;
     }
 
-    /** @hidden */
     override preread({ jsonDoc: { json, resources }, bufferViews }: ReaderContext): this {
         const { decoder } = this;
         if (!decoder) throw new Error(`[${EXTENSION}] needs a dependency, "bsm.decoder": await loadSceneDecoder()`);
@@ -92,7 +86,6 @@ export class EXTBSMCompression extends Extension {
         return this;
     }
 
-    /** @hidden */
     override read({ jsonDoc: { json }, buffers, bufferViewBuffers }: ReaderContext): this {
         const views = json.bufferViews ?? [];
         const replaced = new Set<Buffer>();
@@ -110,7 +103,6 @@ export class EXTBSMCompression extends Extension {
         return this;
     }
 
-    /** @hidden */
     override prewrite(context: WriterContext): this {
         const { decoder, encoder, coded } = this;
         if (!decoder || !encoder) throw new Error(`[${EXTENSION}] needs two dependencies, "bsm.decoder" and "bsm.encoder": await loadSceneEncoder()`);
@@ -150,7 +142,6 @@ export class EXTBSMCompression extends Extension {
         return { stream, accessors };
     }
 
-    /** @hidden */
     override write({ jsonDoc: { json }, otherBufferViewsIndexMap }: WriterContext): this {
         const views = json.bufferViews!;
         let size = 0;

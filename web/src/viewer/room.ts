@@ -1,12 +1,7 @@
 /** The part of the page that cards and buttons leave free for the mesh. */
 
 /** Pixels from the left and top of the page. */
-export interface Area {
-    left: number;
-    top: number;
-    right: number;
-    bottom: number;
-}
+export type Area = Record<"left" | "top" | "right" | "bottom", number>;
 
 const LEAST = 90; // pixels: what is narrower holds no mesh
 
