@@ -1,5 +1,5 @@
 /* Decoding ahead in threads of the host. */
-#include "library/ahead.h"
+#include "library/state.h"
 
 #include "library/arithmetic.h"
 #include "bitstream/payloads/payloads.h"

@@ -1,5 +1,5 @@
 /* Declarations, seams, and rows of attributes (specification, D 1 to D 3). */
-#include "library/attribute_set.h"
+#include "library/attribute.h"
 
 #include "bitstream/costs.h"
 #include "bitstream/payloads/payloads.h"

@@ -2,7 +2,7 @@
 #include "codec/blocks/blocks.h"
 #include "codec/signal/signal.h"
 #include "library/arithmetic.h"
-#include "library/decoder.h"
+#include "library/state.h"
 
 /* Nanoseconds to look at an edge while rings are found, and to find rings at all. */
 static const double LOOK = 18, CALL = 2e4;

@@ -1,9 +1,7 @@
 /* The functions of bsmdec.h. */
-#include "library/decoder.h"
+#include "library/state.h"
 
 #include "library/arithmetic.h"
-#include "library/sequence.h"
-#include "library/stages.h"
 
 /* The smallest sizes of the callers' structures: those of release 1.0. Do not change them. Add new fields at the end,
  * so that no padding follows them. */

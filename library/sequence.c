@@ -1,9 +1,7 @@
 /* Sequences: consecutive runs, each a mesh and its GOPs (specification, S 1, S 9). */
-#include "library/sequence.h"
+#include "library/state.h"
 
-#include "library/ahead.h"
 #include "bitstream/costs.h"
-#include "library/stages.h"
 
 static bool is_tolerable(const bsmdec *decoder) {
     return decoder->tolerant && failed(&decoder->context) && !decoder->context.starved;

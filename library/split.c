@@ -1,6 +1,6 @@
 /* Vertices as graphics draw them: several of one vertex of the mesh where attributes of its corners differ. */
 #include "library/arithmetic.h"
-#include "library/decoder.h"
+#include "library/state.h"
 
 /* Sort corners by a key of each, below `keys`; corners of one key keep their order. */
 static bool sort_corners(ConstInts key, int64_t keys, Arena *scratch, Ints *order, Ints *room) {

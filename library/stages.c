@@ -1,7 +1,6 @@
 /* The stages of one mesh: faces, blocks or grids, refinements, attributes (specification, F 3.8, F 8.3). */
-#include "library/stages.h"
+#include "library/state.h"
 
-#include "library/ahead.h"
 #include "bitstream/costs.h"
 #include "bitstream/payloads/payloads.h"
 

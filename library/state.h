@@ -1,14 +1,12 @@
 /* What a decoder has come to know: of the present mesh, of a sequence, and of what its caller has asked. */
 #pragma once
 
-#include "codec/signal/assembly.h"
-#include "library/attribute_set.h"
-#include "codec/signal/chain.h"
-#include "codec/sequence/gops.h"
-#include "bitstream/payloads/payloads.h"
-#include "codec/signal/layer.h"
-#include "bitstream/pool.h"
 #include "bitstream/container/container.h"
+#include "bitstream/payloads/payloads.h"
+#include "bitstream/pool.h"
+#include "codec/sequence/gops.h"
+#include "codec/signal/decoding.h"
+#include "library/attribute.h"
 
 typedef struct Ahead Ahead;
 
@@ -159,3 +157,72 @@ bool blend(bsmdec *decoder, Refined *refined);
 bool announce(bsmdec *decoder);
 /* Record the error as a loss of `block`, or with -1 of something else, and continue; false if it is fatal. */
 bool tolerate_error(bsmdec *decoder, int64_t block, bool anywhere);
+
+/* Chains of blocks, and levels of refinements, that threads of the host decode before their packets are accepted.
+ *
+ * Decoding ahead changes nothing but time. A chain that fails ahead, for whatever reason, is decoded again in its turn.
+ * A chain that does not fail leaves its charges in ledgers, and they are made in its turn. */
+
+/* Build blocks from the graph; meanwhile another thread reads levels of refinements, which need faces alone. */
+bool build_beside(bsmdec *decoder);
+/* Decode the chain that begins with this block and the next ones, as far as all of their bytes have come. */
+void look_ahead(bsmdec *decoder, const Packet *packet);
+/* A block that was decoded ahead; NULL if it was not. */
+const ReadyBlock *find_ready(const bsmdec *decoder, const Packet *packet);
+/* Chains are over: keep levels alone. */
+void end_chains_ahead(Mesh *mesh);
+/* `blend`; meanwhile another thread reads the levels that are left. All become those of the mesh, if there are any. */
+bool blend_beside(bsmdec *decoder, Refined *refined);
+void end_ahead(Mesh *mesh);
+
+/* The stages of one mesh: faces, blocks or grids, refinements, attributes (specification, F 3.8, F 8.3). */
+
+/* Accept a packet, and queue its events. */
+bool accept_section(bsmdec *decoder, const Packet *packet);
+/* The error is the context's. */
+bool accept_damage_in_mesh(bsmdec *decoder);
+/* Nothing follows. */
+bool finish_mesh(bsmdec *decoder);
+void end_mesh(Mesh *mesh);
+/* Positions of a mesh that is not whole yet, as far as they are known. */
+bool look_at_positions(bsmdec *decoder);
+/* Whether the checksum of all positions is the stream's; a tolerant decoder reports a difference as a loss. */
+bool check_sum(bsmdec *decoder, uint32_t found);
+
+/* Sequences: consecutive runs, each a mesh and its GOPs (specification, S 1, S 9). */
+bool accept_in_sequence(bsmdec *decoder, const Packet *packet);
+/* The error is the context's. */
+bool accept_damage_in_sequence(bsmdec *decoder);
+/* Nothing follows. */
+bool end_sequence(bsmdec *decoder);
+/* Make a reported frame the current one. */
+bool show(bsmdec *decoder, int64_t index);
+void close_sequence(bsmdec *decoder);
+
+/* What the functions of bsmdec.h have in common. */
+
+/* Bytes of an index; a short one is below 65535, which restarts a strip in graphics APIs. */
+enum { SHORT_INDEX = 2, LONG_INDEX = 4 };
+
+/* Note why a call is refused; returns BSMDEC_MISUSED. */
+bsmdec_status refuse(bsmdec *decoder, Message message);
+#ifdef BSMDEC_TERSE
+INLINE bsmdec_status refuse_tersely(const bsmdec *decoder) { return (void)decoder, BSMDEC_MISUSED; }
+#define REFUSE(decoder, ...) refuse_tersely(decoder)
+#else
+#define REFUSE(decoder, ...) refuse(decoder, (Message){.text = __VA_ARGS__})
+#endif
+
+/* Copy the options of a caller over `options`, the defaults; false if their size is wrong. */
+bool copy_options(const bsmdec_options *given, bsmdec_options *options);
+/* Whether an array of a caller is there and has as many elements, or bytes, as it must. */
+bool fits(bsmdec *decoder, const void *array, size_t count, int64_t expected);
+/* Whether positions are available: BSMDEC_OK, the error of a decoder that has failed, or why is noted. */
+bsmdec_status find_places(bsmdec *decoder);
+/* Where vertex v of the user is; `loose` counts those in no face. */
+const double *place_of(const bsmdec *decoder, int64_t v, int64_t *loose);
+/* An attribute of which values may have come; NULL, and the reason is noted, if there is none. */
+const Attribute *started_attribute(bsmdec *decoder, int index);
+bsmdec_attribute shape_of(const bsmdec *decoder, const Attribute *attribute);
+/* Describe one of the attributes if it is available; nothing is noted. */
+bool find_shape(const bsmdec *decoder, int index, bsmdec_attribute *shape);

@@ -1,6 +1,6 @@
 /* A stream in one call, into an array of vertices as graphics draw them. */
 #include "library/arithmetic.h"
-#include "library/decoder.h"
+#include "library/state.h"
 
 /* The mesh that a caller has, and what it is made with. */
 typedef struct {

@@ -1,9 +1,9 @@
 /* Payloads written by the functions that read them: faces, and fields of integers on them. */
 #pragma once
 
-#include "library/attribute_set.h"
+#include "library/attribute.h"
 #include "bitstream/payloads/payloads.h"
-#include "codec/signal/layer.h"
+#include "codec/signal/decoding.h"
 #include "bitstream/payloads/written.h"
 #include "bitstream/pool.h"
 

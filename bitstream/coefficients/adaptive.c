@@ -32,7 +32,7 @@ INLINE int32_t code_level(
     return code_bit(coder, ONE / 2, level < 0) ? -result : result;
 }
 
-/* Code the levels of a block in place, or stop where the data is beyond its end. */
+/* Code the levels of a block in place, or stop at the end of the data. */
 KERNEL void code_block(RangeCoder *coder, const Bank *bank, Past *past, const int32_t *expectations, Ints2 levels) {
     int64_t selector = level_selector(past);
     int state = 0;

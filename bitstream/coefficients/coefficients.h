@@ -4,7 +4,7 @@
 #include "bitstream/entropy/entropy.h"
 #include "bitstream/trellis.h"
 
-/* What surrounds a coefficient, and what that lets expect (specification, M 9.3 to M 9.5, M 9.7). See adaptive.c. */
+/* The neighbors of a coefficient, and expectations from them (specification, M 9.3 to M 9.5, M 9.7). See adaptive.c. */
 enum {
     NEIGHBORS = 20,
     SITUATIONS = 6,
@@ -17,7 +17,7 @@ enum {
     MEMORY = 8, /* blocks over which the usual magnitudes are averaged */
 };
 
-/* What a chain remembers: magnitudes in the present block and the one before, and their running mean; three of row 0,
+/* The memory of a chain: magnitudes in the present block and the one before, and their running mean; three of row 0,
  * and so on, and zeros in the rows around, which may be read. */
 typedef struct {
     int32_t *now, *before, *usual;
@@ -27,11 +27,11 @@ typedef struct {
 /* Number of the weights for a coefficient. */
 INLINE int situation(const Past *past, int coordinate) { return coordinate + (past->blocks == 0 ? 3 : 0); }
 
-/* What is remembered of a level. */
+/* The magnitude of a level that a chain remembers. */
 INLINE int32_t remembered(int64_t level) { return (int32_t)least(level < 0 ? -level : level, CEILING); }
 
 /* The inputs of the expectations of coefficient `d` of a row (M 9.4). `now`, `before` and `usual` are that row of
- * three; known are all rows above it, and the coordinates before its own in its row. */
+ * three; all rows above it are known, and earlier coordinates of its row. */
 INLINE void gather_inputs(
     const int32_t *now, const int32_t *before, const int32_t *usual, int64_t row, int d, int32_t *out) {
     int e = d == 2 ? 0 : d + 1, f = d == 0 ? 2 : d - 1;

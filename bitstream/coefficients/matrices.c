@@ -35,7 +35,7 @@ INLINE int64_t sum_of(const int32_t *data, int64_t rows, int64_t columns, int64_
 INLINE int zero_node(int grid) { return grid ? OTHER_ZERO : 0; }
 INLINE int one_node(int grid) { return grid ? OTHER_ONE : 2; }
 
-/* Code whether row j or one behind it has levels (S 4.2); `behind` is the sum of the reference from row j on. */
+/* Code whether row j or a later one has levels (S 4.2); `behind` is the sum of the reference from row j on. */
 INLINE int code_more(RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInts2 reference, int64_t j,
     int64_t behind, int64_t place, int64_t selector, int more) {
     int64_t lately = class_of(sum_of(levels.data, levels.rows, levels.columns, j - TOGETHER, j));

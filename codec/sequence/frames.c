@@ -71,7 +71,7 @@ static bool fill_known(Bend bend, ConstDoubles2 first_frame, const MovingAttribu
     return true;
 }
 
-/* What is known of a part: around it, and its differences. */
+/* The known columns of a part: around it, and its differences. */
 static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, const MovingAttribute *moving, int count,
     int64_t columns, Arena *scratch) {
     const Site *part = gops->parts.part + index;
@@ -234,7 +234,7 @@ static void basis_of_levels(ConstInts2 levels, ConstInts exponents, ConstDoubles
                     turned.data + (f * width + c) * r, r);
 }
 
-/* Levels that are nearest to `targets` at the price of bits, given what is known, and what they decode to. */
+/* The levels nearest to `targets` at the price of bits, from the known columns, and the values that they decode to. */
 static bool choose_levels(Context *context, ConstDoubles2 known, ConstDoubles2 targets, ConstInts2 reference,
     int64_t lead, int64_t stair, double step, Doubles2 moments, Doubles2 factor, Arena *scratch, Ints2 levels,
     Doubles2 decoded) {
@@ -258,8 +258,8 @@ static bool choose_levels(Context *context, ConstDoubles2 known, ConstDoubles2 t
     return true;
 }
 
-/* B: number 0 of all frames, then number 1, and so on (S 5.2, S 5.3). An encoder has what is free in it, in steps, in
- * `spectrum`, one below the other for each number. */
+/* B: number 0 of all frames, then number 1, and so on (S 5.2, S 5.3). An encoder gives its free parameters in
+ * `spectrum`, in steps, stacked by number. */
 static bool code_basis(Context *context, const GopField *field, int64_t frames, ConstDoubles2 spectrum, Arena *arena,
     Arena *scratch, Doubles2 *basis) {
     int64_t width = field->width, r = field->components, size = frames * r;
@@ -290,13 +290,13 @@ static bool code_basis(Context *context, const GopField *field, int64_t frames, 
     return done;
 }
 
-/* What an encoder wants of a part: no rows where levels are known; and the levels that those of the part refer to. */
+/* The targets of an encoder for a part, without rows for a decoder; and the levels that its levels refer to. */
 typedef struct {
     Doubles2 targets;
     ConstInts2 reference;
 } Goal;
 
-/* A closed loop over the rows of a part (S 6): `decoded` from levels, given what is known around it and in it. */
+/* A closed loop over the rows of a part (S 6): `decoded` from levels, from the known columns around it and in it. */
 static bool follow_loop(Context *context, ConstDoubles2 around, ConstDoubles2 ends, ConstDoubles2 known,
     const Goal *goal, Ints2 levels, double step, Arena *scratch, Doubles2 decoded) {
     int64_t width = known.columns + levels.columns, rows = known.columns + least(levels.columns, INHERITED);
@@ -360,7 +360,7 @@ static const double *kept_frame(const Track *track, int64_t age) {
     return track->ring[(track->latest + least(age, track->count - 1)) % track->kept].data;
 }
 
-/* What low-delay frames start from: `base`, of `rows` rows from `first` on (S 7.2). */
+/* The values that low-delay frames start from, in stacked rows from `first` on (S 7.2). */
 static void fill_base(const Track *track, const GopField *field, ConstDoubles2 time, int64_t first, Doubles2 base) {
     int64_t width = track->width;
     for (int64_t i = 0; i < base.rows * base.columns; i++) base.data[i] = 0.0;
@@ -373,7 +373,7 @@ static void fill_base(const Track *track, const GopField *field, ConstDoubles2 t
     }
 }
 
-/* Columns that are known of low-delay frames, in some stacked rows (S 7.2). */
+/* The known columns of low-delay frames, in some stacked rows (S 7.2). */
 static void fill_references(const Track *track, const GopField *field, int64_t first, Doubles2 known) {
     int64_t width = track->width, lags = lags_of(track->kept);
     const double *latest = kept_frame(track, 0);
@@ -392,7 +392,7 @@ static void fill_references(const Track *track, const GopField *field, int64_t f
     }
 }
 
-/* What a part is in low-delay frames, as cosines over time. */
+/* Code a part of low-delay frames, as cosines over time. */
 static bool code_next_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends,
     const Goal *goal, Ints2 levels, Arena *scratch, Doubles2 differences) {
     const GopField *field = decoding->gop->field + k;

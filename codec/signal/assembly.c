@@ -1,4 +1,4 @@
-#include "codec/signal/assembly.h"
+#include "codec/signal/decoding.h"
 
 #include "codec/blocks/blocks.h"
 #include "codec/geometry/geometry.h"

@@ -1,5 +1,5 @@
 /* One chain of blocks (specification, M 7, M 9, M 10). */
-#include "codec/signal/chain.h"
+#include "codec/signal/decoding.h"
 
 #include "codec/blocks/blocks.h"
 #include "codec/signal/signal.h"

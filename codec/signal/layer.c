@@ -1,5 +1,5 @@
 /* Levels that refine what blocks decoded to (specification, V 11, M 17). */
-#include "codec/signal/layer.h"
+#include "codec/signal/decoding.h"
 
 #include "codec/signal/signal.h"
 #include "bitstream/costs.h"

@@ -178,7 +178,7 @@ bool can_lean(const Declaration *declaration);
 
 /* Frames that share their faces, as a sequence (encoder only; specification, S). */
 
-/* Payloads of sections, one behind the other, and where each ends: blocks of the first frame, then GOPs. */
+/* Consecutive payloads of sections, and where each ends: blocks of the first frame, then GOPs. */
 typedef struct {
     Header header;
     Buffer bytes;

@@ -4,7 +4,7 @@
 
 #include "bitstream/payloads/payloads.h"
 #include "codec/sequence/gops.h"
-#include "codec/signal/assembly.h"
+#include "codec/signal/decoding.h"
 #include "codec/signal/signal.h"
 
 #ifdef BSMDEC_WRITES
@@ -16,7 +16,7 @@ enum { TOGETHER = 8, LONGEST = 256, BLOCK = 320, TRIES = 8 };
 static const double FIRST = 1.0, NEARER = 0.9, FIRST_FRAME = 0.3, ROUNDED_UP = 1.0 + 4e-6;
 static const double LEAST_STEP = 0x1p-40, MOST_STEP = 0x1p20; /* in headers */
 
-/* What is coded, and what a decoder has of it. */
+/* The input, and the state of a decoder. */
 typedef struct {
     Writer *writer;
     ConstInts2 faces;
@@ -69,7 +69,7 @@ static void write_anew(Encoding *encoding) {
     encoding->writer->context.writing = &encoding->writing;
 }
 
-/* Put that behind the numbers with which the section begins. */
+/* Append that payload to the numbers at the start of the section. */
 static void keep_section(Encoding *encoding) {
     Motion *motion = encoding->motion;
     encoding->writer->context.writing = NULL;

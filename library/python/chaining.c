@@ -2,7 +2,7 @@
 
 #include "bitstream/payloads/payloads.h"
 #include "codec/signal/signal.h"
-#include "codec/signal/chain.h"
+#include "codec/signal/decoding.h"
 #include "codec/sequence/gops.h"
 #include "library/writing.h"
 

@@ -56,7 +56,7 @@ double block_memory_of(const CodedChain *chain, int64_t width);
 bool make_coded_dictionary(CodedChain *chain, int64_t width);
 bool give_dictionary(CodedChain *chain, ConstSingles2 own);
 ConstSingles2 present_dictionary(const CodedChain *chain);
-/* Write the levels nearest to coefficients, as `write_levels` of codec/signal/chain.h. */
+/* Write the levels nearest to coefficients, as `write_levels` of codec/signal/decoding.h. */
 bool write_coded_block(CodedChain *chain, ConstDoubles2 prediction, ConstDoubles2 coefficients, double step, bool all,
     struct Writing *writing, int64_t *rows, Doubles2 positions);
 /* Positions become what the next block knows, and the first `width` columns its predecessor's U. */

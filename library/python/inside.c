@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "library/decoder.h"
+#include "library/state.h"
 #include "bitstream/payloads/payloads.h"
 #include "library/encode/encoding.h"
 #include "library/writing.h"

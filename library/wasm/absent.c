@@ -2,8 +2,7 @@
  *
  * A header that needs the missing parts is refused (BSMDEC_LACKS in header.c), so these are the only functions that are
  * called without them. The linker lets calls of the others trap. */
-#include "library/ahead.h"
-#include "library/sequence.h"
+#include "library/state.h"
 
 #define ABSENT __attribute__((weak))
 

@@ -1,7 +1,7 @@
 /* One decoder for a page: bsmdec.h, chains that other threads decode, and the fields of the header. */
 #include "library/wasm/page.h"
 
-#include "library/decoder.h"
+#include "library/state.h"
 
 /* What a page is given: rows of numbers in this memory. */
 typedef struct {

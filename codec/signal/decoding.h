@@ -1,9 +1,13 @@
-/* Blocks to positions: what the blocks of a chain know of those before them (specification, M 7 to M 12). */
+/* Blocks and levels to meshes (specification, M 7 to M 12, M 17). */
 #pragma once
 
 #include "bitstream/coefficients/coefficients.h"
+#include "bitstream/container/container.h"
+#include "bitstream/fields/fields.h"
 #include "bitstream/payloads/payloads.h"
 #include "codec/basis/patches.h"
+
+/* Blocks to positions: what the blocks of a chain know of those before them (specification, M 7 to M 12). */
 
 /* Sums of weight times position, and weights. */
 typedef struct {
@@ -81,3 +85,61 @@ bool write_levels(Chains *chains, ConstDoubles2 prediction, ConstSingles2 dictio
 void leave_chain(Chains *chains);
 /* Count a block as decoded that other chains decoded, and make its charges. */
 bool settle_block(Chains *chains, int64_t index, const Ledger *ledger);
+
+/* Blocks put together to a mesh (specification, M 12). */
+typedef struct {
+    Blended blend;
+    Bytes lost;  /* vertices of blocks that were lost */
+    Bytes added; /* blocks that were added */
+    bool lossy;
+} Assembly;
+
+bool begin_assembly(Assembly *assembly, int64_t vertices, int64_t blocks, Arena *arena);
+void add_block(Assembly *assembly, const DecodedBlock *block);
+void lose_block(Assembly *assembly, const Blocks *blocks, int64_t index);
+/* All positions in BSM units, smoothed; unknown ones are 0. */
+bool blend_all(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch,
+    Doubles2 *positions);
+/* Marks of the vertices that are as the encoder had them, they and those at most `beyond` edges away; no array if all
+ * are. */
+bool mark_whole(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch,
+    int beyond, Bytes *whole);
+/* From BSM units to the unit of the mesh, in place (M 12.5). */
+bool into_unit(Context *context, const Header *header, Doubles2 positions);
+
+/* Levels that refine what blocks decoded to (specification, V 11, M 17). */
+
+/* What levels refine. */
+typedef struct {
+    Doubles2 base, frames; /* positions in BSM units, and their local frames */
+    Bytes whole;           /* vertices that are as the encoder had them; empty: all */
+} Refined;
+
+/* A mesh of blocks, refined by levels. */
+typedef struct {
+    Context *context;
+    const Header *header;
+    ConstInts2 faces;
+    Arena own, models; /* levels; models of later levels, given back after the last */
+    Corners corners;
+    Bank bank;
+    Levels levels;
+    Refined refined;
+    Doubles2 positions;
+    int64_t read, coded; /* vertices whose levels are known, and those that are moved */
+    bool begun, lossy;
+} Layer;
+
+/* What levels are read with; it needs faces alone. */
+bool begin_levels(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Arena *scratch);
+void end_layer(Layer *layer);
+/* Frames of the base, if there may be so large a layer. */
+bool find_frames(Context *context, ConstInts2 faces, Arena *arena, Refined *refined);
+/* `layer` is zero, or its levels are begun; `refined` is the layer's from here on. */
+bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Refined refined, Arena *arena,
+    Arena *scratch);
+bool code_layer(Layer *layer, int64_t first, int64_t count, Span payload);
+bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch);
+
+/* Marks of the vertices whose steps follow from whole ones alone; empty: all. */
+bool fit_vertices(const Layer *layer, Arena *scratch, Bytes *fit);
