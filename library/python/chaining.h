@@ -1,4 +1,4 @@
-/* Blocks as encoders step through them: what decoders do with each (codec/signal/decoding.h), with levels in between. */
+/* Blocks as encoders step through them: what decoders do with each (codec/signal/decoding.h), levels in between. */
 #pragma once
 
 #include "codec/basis/basis.h"
