@@ -39,7 +39,7 @@ from bsm.codec.static.coding import Packed, rules_of
 from bsm.codec.static.options import RANGES, EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared, join, prepare
 from bsm.codec.static.units import Units, checksum_of
-from bsm.codec.static.ways.block_coder import DecodedBlock, blended
+from bsm.codec.static.ways.block_coder import blended
 from bsm.console import Console
 from bsm.files.inspection import Skimmer
 from bsm.libraries import as_mesh
@@ -220,7 +220,7 @@ class PartCoder:
         basis = columns(min(block.count, graph.size))
         coding = Packed(block.count, law.bits, header.step, law.coarser)
         levels = coding.read(stream[end - block.data : end], basis.shape[1])
-        copy = DecodedBlock(0, rows, coding.positions(prediction, basis, levels), weights)
+        copy = rows, coding.positions(prediction, basis, levels), weights
         mesh = TriangleMesh(Units(header.center, header.scale).back(blended(graph.size, [copy])), faces)
         if checksum_of(mesh.positions) != sections[FrameType.END].positions:
             raise CorruptError("the part does not follow the one before: decode all parts, in the order of encoding")

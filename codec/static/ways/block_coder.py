@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from threading import Lock
+from typing import TypeAlias
 
 import numpy as np
 
@@ -25,21 +26,15 @@ Charge = Callable[[float], None]
 """Takes the work in nanoseconds before it is done, and may refuse it by raising `LimitError`."""
 
 
-@dataclass(frozen=True, eq=False)
-class DecodedBlock:
-    """A block's own reconstruction, before it is blended with others; positions in BSM units."""
-
-    index: int
-    vertices: Indices
-    positions: Matrix
-    weights: Matrix
+DecodedBlock: TypeAlias = tuple[Indices, Matrix, Matrix]
+"""A block's own reconstruction: vertices, their positions in BSM units, and their weights in a blend."""
 
 
 def blended(size: int, blocks: Iterable[DecodedBlock]) -> Matrix:
     """Positions of all `size` vertices, shape (size, 3), in BSM units, from all blocks."""
     blend = Blend(size)
     for block in blocks:
-        blend.add(block.vertices, block.positions, block.weights)
+        blend.add(*block)
     return blend.all_positions()
 
 
@@ -106,7 +101,7 @@ class ChainEncoder:
         chain.commit(coded, decoded)
         packet = packets.Block(index, coded, payload)
         met = self._sizes is None or self._sizes.met
-        return CodedBlock(packet, DecodedBlock(index, vertices, decoded, weights), sum(work), memory, met)
+        return CodedBlock(packet, (vertices, decoded, weights), sum(work), memory, met)
 
 
 def encode_blocks(
