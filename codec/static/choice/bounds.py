@@ -59,10 +59,10 @@ class Measures:
         self.normals = normals
         self.near = near or Nearing(None)
         self.unseen = ""  # why there is no look
-        self.painted: Callable[[Positions], float] = lambda decoded: 0.0  # the distance of what is on the surface
+        self.painted: Callable[[Positions], float] = lambda decoded: 0.0  # the look of attributes
 
     def painting(self, painted: Callable[[Positions], float]) -> "Measures":
-        """The same measurements, and also those of what is on the surface."""
+        """The same measurements, and also the looks of attributes."""
         other = copy(self)
         other.painted = painted
         return other
