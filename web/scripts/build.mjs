@@ -2,7 +2,7 @@
 // `npm run build -- --check` writes nothing and fails if what is committed is not what the sources build.
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
-import { build } from "esbuild";
+import { build, transform } from "esbuild";
 import { minify } from "terser";
 import { compileKernels, compiler, fingerprint, KERNEL_BUILDS, WEB } from "./kernels.mjs";
 
@@ -17,6 +17,19 @@ const TERSE = {
     name: "terse",
     setup({ onLoad }) {
         onLoad({ filter: /src.\w+\.ts$/ }, ({ path }) => ({ contents: readFileSync(path, "utf8").replace(SENTENCE, '$1""'), loader: "ts" }));
+    },
+};
+
+/** Styles of pages in fewer bytes. */
+const STYLED = {
+    name: "styled",
+    setup({ onLoad }) {
+        onLoad({ filter: /\.html$/ }, async ({ path }) => {
+            const page = readFileSync(path, "utf8");
+            const [, style] = /<style>([^]*?)<\/style>/.exec(page);
+            const { code } = await transform(style, { loader: "css", minify: true, target: "es2022" });
+            return { contents: page.replace(style, () => code.trim()), loader: "text" };
+        });
     },
 };
 
@@ -96,7 +109,8 @@ function licenses(packages) {
 /** Path and content of everything that is built of TypeScript. */
 async function products() {
     const define = { LICENSES: JSON.stringify(licenses(BUNDLED)) };
-    const script = (await smaller(await bundle(join(SOURCES, "viewer/viewer.ts"), { define, plugins: [await inlined()] }))).replaceAll("</script", "<\\/script");
+    const mangleProps = /^__/; // by which three.js calls what nobody else sees
+    const script = (await smaller(await bundle(join(SOURCES, "viewer/viewer.ts"), { define, mangleProps, plugins: [await inlined(), STYLED] }))).replaceAll("</script", "<\\/script");
     const built = {
         "errors.js": await plain("errors.ts", []),
         "bsm.js": await plain("index.ts", [beside("errors")]),

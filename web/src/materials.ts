@@ -9,6 +9,12 @@ export function turnOf(metadata: Metadata): [number, number, number] {
     return up === "z" ? [-Math.PI / 2, 0, 0] : up === "x" ? [0, 0, Math.PI / 2] : [0, 0, 0];
 }
 
+/** What metadata call a part or a material. */
+export function nameOf(metadata: Metadata, kind: "part" | "material", number: number): string {
+    const names = metadata.get(`${kind}.names`);
+    return String(metadata.get(`${kind}.${number}.name`) ?? (typeof names === "string" ? names.split("\n")[number] : undefined) ?? `${kind} ${number}`);
+}
+
 type Words = Map<string, string | number>;
 type Slot = "map" | "emissiveMap" | "normalMap" | "metalnessMap" | "roughnessMap" | "aoMap";
 

@@ -3,7 +3,7 @@ import { BufferGeometry, Group, Loader, Mesh, type MeshStandardMaterial } from "
 import { BsmError, errorLike } from "./errors";
 import { BSMGeometry, type Progress } from "./geometry";
 import type { Limits } from "./index";
-import { materialsOf, turnOf } from "./materials";
+import { materialsOf, nameOf, turnOf } from "./materials";
 import { placeOf, Pool, type Build, type StreamDecoding } from "./pool";
 import { BSMSequence, type SequenceEvents } from "./sequences";
 
@@ -207,7 +207,7 @@ export async function sceneOf(geometry: BSMGeometry): Promise<Group> {
     group.userData = Object.fromEntries([...metadata].filter(([, value]) => !(value instanceof Uint8Array)));
     const parts = new Set(pieces.map(({ part }) => part));
     if (parts.size < 2) group.add(new Mesh<BSMGeometry, MeshStandardMaterial | MeshStandardMaterial[]>(geometry, materials.length > 1 ? materials : materials[0]));
-    else for (const piece of pieces) group.add(meshOf(geometry, piece, materials[piece.material], nameOf(metadata, piece.part)));
+    else for (const piece of pieces) group.add(meshOf(geometry, piece, materials[piece.material], nameOf(metadata, "part", piece.part)));
     group.rotation.set(...turnOf(metadata));
     return group;
 }
@@ -222,9 +222,4 @@ function meshOf(geometry: BSMGeometry, { start, count }: { start: number; count:
     const mesh = new Mesh(piece, material);
     mesh.name = name;
     return mesh;
-}
-
-function nameOf(metadata: Map<string, unknown>, part: number): string {
-    const names = metadata.get("part.names");
-    return String(metadata.get(`part.${part}.name`) ?? (typeof names === "string" ? names.split("\n")[part] : undefined) ?? `part ${part}`);
 }

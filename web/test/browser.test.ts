@@ -209,11 +209,11 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             title, detail: "", size, data: base64(whole),
             ...(share === undefined ? {} : { off: { data: base64(new Uint8Array(new Float32Array(vertices).fill(share * diagonal).buffer)) } }),
         });
-        const facts = { look: 0.9, farthest: 0.01, promised: { look: 1, farthest: 0.02 }, diagonal, draco: { bytes: 4000, bits: 11 } };
+        const facts = { look: 0.9, farthest: 0.01, promised: { look: 1, farthest: 0.02 }, diagonal, draco: { bytes: 4000, bits: 11 }, attributes: { color: { max_error: 3, range: 255 }, chart: null } };
         await page.goto(savedPage(folder, { three: whole }, { main: 1, facts, layers: [layer("Original", 64 * whole.length), layer("BSM", whole.length, 0.0075), layer("Draco", 2000, 0)] }));
         await page.waitForSelector("body[data-layers='3']");
         await page.waitForFunction(() => document.body.innerText.includes("64 times smaller"));
-        assert.match(await page.locator("[data-part=facts]").innerText(), /Look distance\s+0.90\s+promised 1;[^]*1\u00a0%[^]*promised 2\u00a0%[^]*Draco at the same look[^]*4 kB 11 bits/);
+        assert.match(await page.locator("[data-part=facts]").innerText(), /Look distance\s+0.90\s+promised 1;[^]*1\u00a0%[^]*promised 2\u00a0%[^]*Draco at the same look[^]*4 kB 11 bits[^]*Error of color\s+up to 3 of 255\s+Error of chart\s+missing/);
         const redOf = async (): Promise<number> => {
             await page.waitForTimeout(300);
             const { red } = colorsIn(await page.locator("canvas").screenshot());

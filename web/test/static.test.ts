@@ -56,6 +56,17 @@ describe("a page of files", { skip: !given && "bsm view has written none" }, () 
             assert.deepEqual([used, left], [paths.map((path) => basename(path)).filter((path) => path !== unused).join(", "), unused]);
             await save(name);
         }
+        writeFileSync(join(folder, "two.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 3 3 3\no one\nf 1 2 3\nf 1 3 4\no other\nf 2 3 5\n");
+        await drop(page, Object.fromEntries([bytes(join(folder, "two.obj"))]));
+        await page.waitForFunction(() => document.querySelector("h1")!.textContent === "two.obj" && document.body.dataset.layers === "2");
+        assert.deepEqual(await page.locator("[data-part=parts] label").allTextContents(), ["one2 triangles", "other1 triangles"]);
+        const shares: number[] = [];
+        for (let press = 0; press < 3; press++) {
+            await page.waitForTimeout(500);
+            shares.push(silhouette(await page.locator("canvas").screenshot()).share);
+            await page.locator("[data-part=parts] button").first().evaluate((button: HTMLElement) => button.click());
+        }
+        assert.ok(shares[1] < 0.9 * shares[0] && Math.abs(shares[2] / shares[0] - 1) < 0.02, `alone, then all again: ${shares.join()}`);
         writeFileSync(join(folder, "corners.ply"), "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n");
         await drop(page, Object.fromEntries([bytes(join(folder, "corners.ply"))]));
         await page.waitForFunction(() => /corners\.ply cannot be shown.*four corners/.test(document.querySelector("[role=alert]")!.textContent!));

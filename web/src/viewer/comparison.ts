@@ -9,6 +9,7 @@ import { distancesOf } from "./distances";
 import { element, percent, sized, type Content } from "./facts";
 import type { Form } from "./form";
 import { bytesOf } from "./inlined";
+import { listParts } from "./parts";
 import type { Mode, Shading, Stage } from "./stage";
 import { wholeOf } from "./tiles";
 
@@ -51,6 +52,7 @@ export class Comparison {
         [this.geometries, this.offs, this.accompanied, this.top] = [[], [], false, undefined];
         this.dressed.clear();
         delete form.root.dataset.layers;
+        form.part("parts").hidden = true;
         this.stage.clear();
         const part = form.part("layers");
         part.hidden = form.part("modes").hidden = layers.length < 2;
@@ -109,7 +111,10 @@ export class Comparison {
             form.pick("mode", "wipe");
         }
         await this.measure(mine);
-        if (mine()) form.root.dataset.layers = String(layers.length);
+        if (!mine()) return;
+        const found = geometries.flatMap((geometry) => geometry ?? []);
+        listParts(form, geometries[main]!, found, () => (stage.shadow(geometries[main]!), stage.redraw()));
+        form.root.dataset.layers = String(layers.length);
     }
 
     /** Have all sequences show a frame. */

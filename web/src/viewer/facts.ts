@@ -36,6 +36,8 @@ export interface Content {
         /** The largest error of each frame of a sequence. */
         errors?: number[];
         angle?: number;
+        /** Errors of attributes by name; null: one is missing. */
+        attributes?: Record<string, Partial<Record<"max_error" | "mean_error" | "range" | "max_angle_deg" | "mean_angle_deg", number | null>> | null>;
         seconds?: number;
         diagonal?: number;
         draco?: { bytes: number; bits: number } | null;
@@ -70,6 +72,8 @@ export function sized(bytes: number): string {
 export function percent(share: number): string {
     return `${Number((100 * share).toPrecision(3))}\u00a0%`;
 }
+
+const short = (number: number): string => `${Number(number.toPrecision(3))}`;
 
 function times(ratio: number): string {
     return ratio.toLocaleString("en", { maximumFractionDigits: ratio < 10 ? 1 : 0 });
@@ -118,7 +122,13 @@ export function factsOf({ layers, main, facts }: Content, length: number, { carr
     if (took !== undefined) rows.push(["Decoded and drawn in", spent(took)]);
     if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
     if (before && before[1] !== faces) rows.push(["Original", `${counted(before[0])} vertices`, `${counted(before[1])} triangles`]);
-    if (carried.length > 0) rows.push(["Attributes", carried.map(({ name }) => name).join(", ")]);
+    for (const [name, errors] of Object.entries(facts.attributes ?? {})) {
+        const { max_angle_deg: turned, mean_angle_deg: mean = 0, max_error: most = 0, range = 0 } = errors ?? {};
+        const far: [string, string] = turned != null ? [`up to ${short(turned)}°`, `${short(mean!)}° on average`] : [`up to ${short(most!)}`, `of ${short(range!)}`];
+        rows.push(errors ? [`Error of ${name}`, ...far] : [`Error of ${name}`, "missing"]);
+    }
+    const others = carried.filter(({ name }) => !facts.attributes?.[name]);
+    if (others.length > 0) rows.push(["Attributes", others.map(({ name }) => name).join(", ")]);
     if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);
     const [words, tone] = verdictOf(facts, metadata.get("unit"));
     const left = facts.less ? `${(notes.find((note) => /left out/i.test(note)) ?? "Left out: parts of the file").split(/\.( |$)/)[0].replace(/^.*?left out/i, "Left out")}. ` : "";
