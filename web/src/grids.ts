@@ -78,7 +78,7 @@ export class Decoder {
 
     /** Take more bytes of the stream. */
     receiveData(data: Uint8Array): void {
-        this.reader.receiveData(data);
+        if (!this.error) this.reader.receiveData(data);
     }
 
     /** Take note that no more bytes will come. */

@@ -37,14 +37,6 @@ export class Cursor {
     rest(): Uint8Array {
         return this.take(this.payload.length - this.at);
     }
-
-    get ended(): boolean {
-        return this.at === this.payload.length;
-    }
-
-    finish(): void {
-        if (this.at !== this.payload.length) throw new CorruptError("a payload has bytes too many");
-    }
 }
 
 /** What becomes of a payload of each kind. */
@@ -67,9 +59,9 @@ export const PARSERS: Parsers = {
     end: (payload) => {
         const frames = payload.varint();
         const crc = payload.take(4);
-        const positions = payload.ended ? undefined : littleEndian(payload.take(4));
-        payload.finish();
-        return { type: "end", frames, crc: littleEndian(crc), positions };
+        const rest = payload.rest();
+        if (rest.length !== 0 && rest.length !== 4) throw new CorruptError("a payload has bytes too many, or lacks some");
+        return { type: "end", frames, crc: littleEndian(crc), positions: rest.length > 0 ? littleEndian(rest) : undefined };
     },
 };
 

@@ -29,7 +29,7 @@ export function frameOf(tag: { value: number; end: number }): { type: number; le
     return { type, length, sum, end: sum + (type === BLOCK_TAG || length < SHORT ? 2 : 4) };
 }
 
-/** Strict: the first thing wrong is thrown, and thrown again by every later call. */
+/** Strict: the first thing wrong is thrown; nothing may be asked for afterwards. */
 export class Reader {
     private begin = 0;
     private end = 0;
@@ -42,14 +42,13 @@ export class Reader {
     /** Bytes of metadata. */
     private metadataRead = 0;
     private started = false;
-    private error?: BsmError;
 
     constructor(private readonly limits: Limits, private readonly charge: Charge) {}
 
     /** Take more bytes of the stream, any number of them. */
     receiveData(data: Uint8Array): void {
         if (this.eof) throw new Error("bytes were given to a reader after receiveEof");
-        if (this.error || data.length === 0) return;
+        if (data.length === 0) return;
         if (this.end + data.length > this.buffer.length) this.makeRoom(data.length);
         this.buffer.set(data, this.end);
         this.end += data.length;
@@ -67,15 +66,10 @@ export class Reader {
 
     /** The next packet, `NEED_DATA`, or `END_OF_STREAM` after END and `receiveEof`. */
     nextPacket(): Packet | Signal {
-        if (this.error) throw this.error;
         try {
             return this.next();
         } catch (error) {
-            if (error instanceof BsmError) {
-                this.error = error.located({ offset: this.offset, frame: this.started ? this.frames : undefined });
-                this.buffer = new Uint8Array(0);
-            }
-            throw error;
+            throw error instanceof BsmError ? error.located({ offset: this.offset, frame: this.started ? this.frames : undefined }) : error;
         }
     }
 
