@@ -30,12 +30,12 @@ BOUND = re.compile(r"(?:KERNEL|CHECKED)\((\w+)\)")
 CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
-    "codec proper, lines": 36_603,
-    "rest of the product, lines": 31_443,
-    "tests, lines": 30_932,
-    "tools, lines": 17_546,
+    "codec proper, lines": 36_046,
+    "rest of the product, lines": 31_177,
+    "tests, lines": 30_836,
+    "tools, lines": 17_375,
     "tuned constants of the search": 55,
-    "kernels driven by both Python and C": 17,
+    "kernels driven by both Python and C": 12,
 }
 
 

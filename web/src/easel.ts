@@ -1,16 +1,26 @@
 /** One WebGL context for all players of a page, since a page may have few: it draws them in turn, and each keeps a copy. */
-import { WebGLRenderer } from "three";
-import type { BSMPlayer } from "./player";
+import { type Camera, type Scene, WebGLRenderer } from "three";
+
+/** A scene with a canvas of its own. */
+export interface Pictured {
+    readonly canvas: HTMLCanvasElement;
+    readonly scene: Scene;
+    readonly camera: Camera;
+    /** Whether it can be seen now. */
+    readonly inView: boolean;
+    /** Move on by some seconds; returns whether the picture is another one then. */
+    step(seconds: number): boolean;
+}
 
 const MOST = 12; // milliseconds of drawing at a time: what is not drawn comes first next time
 
-const pictured = new Set<BSMPlayer>();
-const stale = new Set<BSMPlayer>();
+const pictured = new Set<Pictured>();
+const stale = new Set<Pictured>();
 let renderer: WebGLRenderer | undefined;
 let before = 0;
 
 /** Draw a scene whenever it changes; throws where there is no WebGL. */
-export function hang(picture: BSMPlayer): void {
+export function hang(picture: Pictured): void {
     if (!renderer) {
         renderer = new WebGLRenderer({ antialias: true, alpha: true });
         renderer.setScissorTest(true);
@@ -23,7 +33,7 @@ export function hang(picture: BSMPlayer): void {
 }
 
 /** Draw it no longer; the last one takes the context along. */
-export function takeDown(picture: BSMPlayer): void {
+export function takeDown(picture: Pictured): void {
     pictured.delete(picture);
     stale.delete(picture);
     if (pictured.size > 0 || !renderer) return;
@@ -34,7 +44,7 @@ export function takeDown(picture: BSMPlayer): void {
 }
 
 /** Draw it again, though nothing that it steps through has changed. */
-export function redraw(picture: BSMPlayer): void {
+export function redraw(picture: Pictured): void {
     if (pictured.has(picture)) stale.add(picture);
 }
 
@@ -51,7 +61,7 @@ function drawAll(now: number): void {
     }
 }
 
-function draw(renderer: WebGLRenderer, { canvas, scene, camera }: BSMPlayer): void {
+function draw(renderer: WebGLRenderer, { canvas, scene, camera }: Pictured): void {
     const { width, height } = canvas;
     const { domElement } = renderer;
     // It only grows: another size makes another buffer.
