@@ -68,7 +68,7 @@ def main(args: argparse.Namespace, console: Console) -> None:
     (ROOT / FRONT).write_bytes(with_titles(images, titles, figures=figures))
     (ROOT / TWINS).write_bytes(png(twins(bsm.load(folder / "assets" / "featuretype.STL"))))
     (ROOT / STEADY).write_bytes(png(steady(folder / "dynamic" / "horse_gallop.npz")))
-    trials(bsm.load(folder / "static" / "c3d_spot.ply"), ROOT / TRIALS)
+    trials(bsm.load(folder / "static" / "bunny_34834.ply"), ROOT / TRIALS)
     console.note(motion(folder / "dynamic" / "samba.npz", ROOT / MOTION))
     with tempfile.TemporaryDirectory() as work:
         pages(folder, ROOT / "docs" / "guides", Path(work))
