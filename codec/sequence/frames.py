@@ -30,7 +30,7 @@ class Group:
 
     @cached_property
     def shapes(self) -> Matrix:
-        """Of the positions, see `shapes_of`."""
+        """Shapes of the positions, see `shapes_of`."""
         return shapes_of(self.positions)
 
 

@@ -62,7 +62,7 @@ class Measures:
         self.painted: Callable[[Positions], float] = lambda decoded: 0.0  # the look of attributes
 
     def painting(self, painted: Callable[[Positions], float]) -> "Measures":
-        """The same measurements, and also the looks of attributes."""
+        """Return these measurements with looks of attributes."""
         other = copy(self)
         other.painted = painted
         return other
