@@ -31,7 +31,7 @@ CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
     "codec proper, lines": 36_046,
-    "rest of the product, lines": 31_177,
+    "rest of the product, lines": 31_166,
     "tests, lines": 30_836,
     "tools, lines": 17_375,
     "tuned constants of the search": 55,

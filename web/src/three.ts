@@ -126,7 +126,9 @@ export class BSMLoader extends Loader<BSMGeometry> {
 
     private fetched(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
         return this.decoded(progress, (stream, signal) => this.pass(url, stream, onProgress, signal)).catch((error: unknown) => {
-            throw naming(url, error);
+            if (error instanceof BsmError) throw errorLike({ ...error.described, problem: `${url}: ${error.problem}` });
+            const message = `${url}: ${error instanceof Error ? error.message : error}`; // what others made stays as it was
+            throw error instanceof DOMException ? new DOMException(message, error.name) : new Error(message, { cause: error });
         });
     }
 
@@ -189,13 +191,6 @@ export class BSMSceneLoader extends Loader<Group> {
         this.geometries.abort();
         return this;
     }
-}
-
-/** An error of the same kind that says of which address it is; what others made is its cause, and stays as it was. */
-function naming(url: string, error: unknown): Error {
-    if (error instanceof BsmError) return errorLike({ ...error.described, problem: `${url}: ${error.problem}` });
-    const message = `${url}: ${error instanceof Error ? error.message : error}`;
-    return error instanceof DOMException ? new DOMException(message, error.name) : new Error(message, { cause: error });
 }
 
 /** A whole geometry as a group of meshes: materials, textures, names of parts, and y up, as its metadata say. */

@@ -1,7 +1,6 @@
 /** The compared meshes (original, stream, Draco's file): which are shown, how, and in which colors. */
 import { BufferAttribute, Vector3 } from "three";
 import { BSMGeometry } from "../geometry";
-import type { Picture } from "../index";
 import { materialsOf, turnOf } from "../materials";
 import type { Pool } from "../pool";
 import { colorsOf, fieldOf, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
@@ -14,12 +13,6 @@ import type { Mode, Shading, Stage } from "./stage";
 import { wholeOf } from "./tiles";
 
 const EDGE = 4; // pixels between captions and the edge of the page
-
-function shownAs(pictures: Picture[]): BSMGeometry {
-    const geometry = new BSMGeometry();
-    for (const picture of pictures) geometry.accept(picture);
-    return geometry;
-}
 
 export class Comparison {
     /** Whether colors are to be computed again. */
@@ -92,7 +85,8 @@ export class Comparison {
         await this.dress(main);
         for (const [i, layer] of layers.entries()) {
             const off = layer.off && new Float32Array((await bytesOf(layer.off)).buffer);
-            const geometry = i === main ? undefined : layer.pictures ? shownAs(layer.pictures) : await wholeOf(pool, await bytesOf(layer));
+            const geometry = i === main ? undefined : layer.pictures ? new BSMGeometry() : await wholeOf(pool, await bytesOf(layer));
+            for (const picture of layer.pictures ?? []) geometry?.accept(picture);
             if (!mine()) return;
             offs[i] = off;
             this.top = undefined;
