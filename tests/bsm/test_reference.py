@@ -58,7 +58,7 @@ def examined(found):
 
 def described(text):
     """Names of parameters and attributes that a docstring describes, or only lists."""
-    heads = re.findall(r"^(\*{0,2}\w+(?:, \w+)*)(?: :.*)?$", text, re.MULTILINE)
+    heads = re.findall(r"^(\*{0,2}\w+(?:, \*{0,2}\w+)*)(?: :.*)?$", text, re.MULTILINE)
     return {name.strip("* ") for head in heads for name in head.split(",")}
 
 
