@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from bsm.bitstream.errors import ArgumentError, HarmError, MeshError, OptionError
+from bsm.bitstream.errors import HarmError, MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.choices import named
+from bsm.codec.choices import checked, named
 from bsm.codec.denoise.automatic import CHOSEN, AutomaticChoice, calm, choose, treat
 from bsm.codec.denoise.coarse import RULES, CoarseFilter, by_lengths
 from bsm.codec.denoise.filters import HAND_OVERS, DenoiseOptions, Filters
@@ -48,9 +48,7 @@ class FrameDenoiser:
         progress: Progress = silent,
     ) -> None:
         named("goal", GOALS, goal)
-        if not isinstance(strength, (int, float, np.number)):
-            raise ArgumentError(f"the strength must be a number, not {strength!r}")
-        if not 0.0 <= strength <= 1.0:
+        if not 0.0 <= checked("strength", strength, float) <= 1.0:
             raise OptionError(f"the strength must be from 0 to 1, not {strength}")
         first = np.ascontiguousarray(first, dtype=np.float64)
         if first.ndim != 2 or first.shape[1] != 3:

@@ -12,8 +12,8 @@
 True
 
 Functions that take a `TriangleMesh` also take a mesh of trimesh, pyvista, Open3D or meshio, a pair (positions, faces),
-or the name of a file. Functions that take bytes also take any buffer, the name of a file, or a binary file. `load` and
-`save` choose the format by its suffix, including .bsm. A `Decoder` decodes a stream block by block while it arrives:
+or a file. Files and streams are given by their names, as bytes or opened. `load` and `save` choose the format by its
+suffix, including .bsm. A `Decoder` decodes a stream block by block while it arrives:
 
 >>> with bsm.Decoder() as decoder:
 ...     [len(event.vertices) for event in decoder.events([data]) if isinstance(event, bsm.BlockEvent)]

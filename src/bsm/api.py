@@ -18,7 +18,7 @@ from bsm.console import Console, watched
 from bsm.files.formats.metadata import Written
 from bsm.files.mesh import format_of_name, save_written, unknown_suffix, written_mesh
 from bsm.files.pipes import Input, Source, named, read_chunks
-from bsm.files.stream import decode_whole
+from bsm.files.stream import SequenceStream, decode_whole
 from bsm.lengths import in_own_unit
 from bsm.libraries import as_mesh, read_any, warn, with_metadata, with_texels, without_provenance
 
@@ -52,7 +52,7 @@ def encode(
     Parameters
     ----------
     mesh : mesh, pair of arrays, or path
-        A `TriangleMesh`; a mesh of trimesh, pyvista, Open3D or meshio; ``(positions, faces)``; or a file's name.
+        A `TriangleMesh`; a mesh of trimesh, pyvista, Open3D or meshio; ``(positions, faces)``; or a file or its name.
     options : EncodeOptions, optional
         Instead of keywords.
     metadata : mapping from str to str, int, float or bytes, optional
@@ -382,13 +382,9 @@ def decode_frames(
     >>> for frame in bsm.decode_frames("dance.bsm"):
     ...     bounds = frame.positions.min(axis=0), frame.positions.max(axis=0)
     """
-    from bsm.codec.decoding import SequenceDecoder
-    from bsm.codec.events import FrameEvent
-
-    with SequenceDecoder(limits, threads) as decoder:
-        for event in decoder.events(read_chunks(stream)):
-            if isinstance(event, FrameEvent):
-                yield TriangleMesh(event.positions, event.faces, event.attributes, decoder.metadata)
+    decoded = SequenceStream(read_chunks(stream), limits=limits, threads=threads)
+    for _, positions in decoded.changing_frames():
+        yield TriangleMesh(positions, decoded.faces, decoded.attributes, decoded.metadata)
 
 
 def decode_sequence(
@@ -421,27 +417,12 @@ def decode_sequence(
     """
     import numpy as np
 
-    from bsm.codec.decoding import SequenceDecoder
-    from bsm.codec.events import ConnectivityEvent, FrameEvent, HeaderEvent
-
-    frames: list[Positions] = []
-    faces, vertices, count = np.zeros((0, 3), np.int32), 0, 0
-    with watched("decoding", progress) as reported, SequenceDecoder(limits, threads) as decoder:
-        for event in decoder.events(read_chunks(stream)):
-            match event:
-                case HeaderEvent(header):
-                    count = header.frames
-                case ConnectivityEvent(received, vertices):
-                    if frames and not np.array_equal(faces, received):
-                        raise MeshError(
-                            f"the faces change at frame {len(frames)}, so the frames do not form one array; "
-                            "use bsm.decode_frames"
-                        )
-                    faces = received
-                case FrameEvent(_, positions):
-                    frames.append(positions)
-                    reported(len(frames), count)
-    return np.array(frames).reshape(-1, vertices, 3), faces
+    with watched("decoding", progress) as reported:
+        decoded, frames = SequenceStream(read_chunks(stream), limits=limits, threads=threads), list[Positions]()
+        for _, positions in decoded.frames():
+            frames.append(positions)
+            reported(len(frames), decoded.header.frames)
+    return np.array(frames or np.empty((0, 0, 3))), decoded.faces
 
 
 def load(source: Source, *, limits: Limits = DEFAULT_LIMITS) -> TriangleMesh:
@@ -600,8 +581,8 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
     Parameters
     ----------
     original, decoded : mesh, pair of arrays, path, or stream
-        A mesh as in `encode`, or a stream as in `decode`. Vertices that no face uses are left out. If the meshes only
-        match after merging, vertices at one position are merged.
+        A mesh as in `encode`, or a stream as in `decode`; without vertices that no face uses. If the meshes only match
+        after merging, vertices at one position are merged.
     order : int array, shape (n,), optional
         Vertex j of `decoded` is vertex order[j] of `original`, as in `Encoder.vertex_order`. None: the same order, or
         the decoder's.
@@ -623,18 +604,11 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
     >>> errors.max_error_relative <= 0.01, errors.theta_deg < 10
     (True, True)
     """
-    import numpy as np
-
     from bsm.comparison import compare_meshes, order_of_used, pair
 
-    whole = [as_mesh(as_input(mesh)) for mesh in (original, decoded)]
+    whole = list(map(as_mesh, (original, decoded)))
     first, second = (mesh.without_isolated_vertices()[0] for mesh in whole)
-    if order is None:
-        return compare_meshes(first, second, pair(first, second))
-    numbers = np.asarray(order, None if np.ndim(order) == 1 else object)
-    if numbers.ndim != 1 or numbers.dtype.kind not in "iu":
-        raise ArgumentError(f"order must be a list of whole numbers, not {order!r}")
-    return compare_meshes(first, second, pair(first, second, order_of_used(numbers.astype(np.int64), *whole)))
+    return compare_meshes(first, second, pair(first, second, None if order is None else order_of_used(order, *whole)))
 
 
 def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
@@ -666,13 +640,8 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
     """
     from bsm.codec.look.measure import look as look_at
 
-    first, second = (as_mesh(as_input(mesh)) for mesh in (original, other))
+    first, second = map(as_mesh, (original, other))
     return look_at(first, second, threads=threads)
-
-
-def as_input(mesh: Any) -> Any:
-    named = isinstance(mesh, (bytes, bytearray, memoryview, str, os.PathLike))
-    return Input(mesh) if named or hasattr(mesh, "read") else mesh
 
 
 def _chosen(

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.errors import FormatError, MeshError, public
+from bsm.bitstream.errors import ArgumentError, FormatError, MeshError, public
 from bsm.codec.arrays import Faces, Mask, Order, Positions
 from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.graph import canonical, canonical_order
@@ -49,8 +49,11 @@ def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
     return replace(mesh, positions=mesh.positions[rows], faces=faces, attributes=attributes)
 
 
-def order_of_used(order: Order, original: TriangleMesh, decoded: TriangleMesh) -> Order:
+def order_of_used(given: npt.ArrayLike, original: TriangleMesh, decoded: TriangleMesh) -> Order:
     """The order of the vertices that faces use, made of one of all vertices."""
+    order = np.asarray(given, None if np.ndim(given) == 1 else object)
+    if order.ndim != 1 or order.dtype.kind not in "iu":
+        raise ArgumentError(f"order must be a list of whole numbers, not {given!r}")
     if len(order) != len(decoded.positions):
         raise MeshError(f"the permutation has {len(order)} vertices, the mesh has {len(decoded.positions)}")
     before, after = (mesh.without_isolated_vertices()[1] for mesh in (original, decoded))

@@ -22,7 +22,7 @@ from bsm.files.formats.with_meshio import columns_of, of_meshio
 from bsm.files.formats.with_trimesh import joined, polygons_of
 from bsm.files.images import largest_side, with_linked_images
 from bsm.files.mesh import read_mesh
-from bsm.files.pipes import Input
+from bsm.files.pipes import Input, as_input
 from bsm.files.room import PRECISION, Ints, is_single_and_far, ranges
 from bsm.files.stream import decode_whole, is_stream
 
@@ -50,11 +50,17 @@ def as_mesh(mesh: Any) -> TriangleMesh:
         return mesh
     if isinstance(mesh, MeshFile):
         return mesh.mesh
-    if isinstance(mesh, (str, os.PathLike, Input)):
-        return read_any(mesh if isinstance(mesh, Input) else Input(mesh))
+    if file := as_file(mesh):
+        return read_any(file)
     found = _of_library(mesh)
     warn(found.notes)
     return found.mesh
+
+
+def as_file(mesh: Any) -> Input | None:
+    """The input that a path, bytes or a file is; None: an object of a library, some of which have a `read`, too."""
+    named = isinstance(mesh, (str, bytes, bytearray, memoryview, os.PathLike, Input))
+    return as_input(mesh) if named or (hasattr(mesh, "read") and _attribute(mesh, _POINTS) is None) else None
 
 
 def _of_library(mesh: Any) -> MeshFile:
@@ -69,8 +75,8 @@ def _of_library(mesh: Any) -> MeshFile:
     if points is not None and faces is not None:
         return _of_arrays(points, faces)
     raise ArgumentError(
-        "a mesh is expected: an object with vertices (or points) and faces, a pair of arrays (positions, faces), or a "
-        f"path; not {type(mesh).__name__}"
+        "a mesh is expected: an object with vertices (or points) and faces, a pair of arrays (positions, faces), a "
+        f"path, or a file; not {type(mesh).__name__}"
     )
 
 

@@ -147,8 +147,7 @@ def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
 
 def blocks(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **keywords: Any) -> list[BlockArrays]:
     """The arrays of all blocks, in the order of coding, as `encode` with the same arguments meets them."""
-    idea = idea or Idea()
-    options = changed(EncodeOptions(), **{"step": step, **keywords, "threads": 1})
+    idea, options = idea or Idea(), changed(EncodeOptions(), **{"step": step, **keywords, "threads": 1})
     prepared = _prepared(join(as_mesh(mesh).bare, keep=False).mesh, idea, options)
     found: list[BlockArrays] = []
 

@@ -209,19 +209,13 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
     if not AXIS_EVEN[0] * end < side < AXIS_EVEN[1] * end or bare > AXIS_BARE * side:
         return None
     along = look(probe, positions / edge, np.tile(axis, (len(positions), 1)), edge)
-    windows, depth, growth = probe.windows, positions @ axis, None
-    depth = (depth - depth.min()) / (np.ptp(depth) or 1.0) - 0.5
-    levels, middles = along.levels[windows.valid], windows.means(depth)[windows.valid]
-    rate = np.polyfit(middles, np.log(np.maximum(levels, 1e-9)), 1)[0]
-    if abs(rate) < DEPTH_MOST and spread(levels / np.exp(rate * middles), windows) < DEPTH_WORTH * spread(
-        levels, windows
-    ):
-        growth = np.exp(rate * depth)
-        along = along.weakened(growth)
-    level = float(np.sqrt(max(along.level(windows.valid) ** 2 - values[1], 0.0)))  # the shape is as strong across
+    growth = _growth(along, positions @ axis)
+    along = along if growth is None else along.weakened(growth)
+    # The shape is as strong across.
+    level = float(np.sqrt(max(along.level(probe.windows.valid) ** 2 - values[1], 0.0)))
     if level < FAINTEST:
         return None
-    amount = level * edge * (np.ones(len(depth)) if growth is None else growth)
+    amount = level * edge * (np.ones(len(positions)) if growth is None else growth)
     reason = f"noise along one axis ({', '.join(f'{component:.2f}' for component in axis)})"
     if growth is not None:
         reason += f", {growth.max() / growth.min():.1f} times as strong at one end as at the other"
@@ -229,6 +223,16 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
     bound = Box(axis[None], AXIS_MOST * amount.max(keepdims=True))
     finding = Finding("axis", level * edge, amount * facing, edge, reason, axis=axis, growth=growth, bound=bound)
     return _suspect("axis", along, finding)
+
+
+def _growth(along: Evidence, depth: Floats) -> Floats | None:
+    """How many times as strong noise is at each depth as in the middle; None: as strong, or not told by depth."""
+    windows = along.probe.windows
+    depth = (depth - depth.min()) / (np.ptp(depth) or 1.0) - 0.5
+    levels, middles = along.levels[windows.valid], windows.means(depth)[windows.valid]
+    rate = np.polyfit(middles, np.log(np.maximum(levels, 1e-9)), 1)[0]
+    even = spread(levels / np.exp(rate * middles), windows) < DEPTH_WORTH * spread(levels, windows)
+    return np.exp(rate * depth) if abs(rate) < DEPTH_MOST and even else None
 
 
 def _everywhere(positions: Positions, evidence: Evidence) -> Suspect | None:

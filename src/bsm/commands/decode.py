@@ -7,15 +7,15 @@ import time
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from itertools import chain, islice
+from itertools import chain, islice, takewhile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm import __version__
 from bsm.bitstream.errors import BsmError, OptionError, counted
+from bsm.codec.arrays import Faces, Order
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_flags, add_inputs, adder, asked, limits_of, refuse_two_on_one_pipe
 from bsm.comparison import read_permutation, reorder
@@ -211,17 +211,8 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     """Decode one sequence; write each frame as soon as it is decoded."""
     if args.blocks is not None or args.layers is not None:
         raise OptionError("--blocks and --layers are for single meshes; this is a sequence")
-    # The output by default: an npz, or a folder if the format is one of meshes.
-    suffix = f".{args.format or 'npz'}" if args.format in (None, *ONE_FILE) else ""
-    output = default_output(args.input, suffix) if args.given is None else str(args.output)
-    if args.recursive:
-        output = str(Path(args.output).with_suffix(suffix))
-    elif args.given is not None and args.many:
-        output = output_inside(args.given, args.input, suffix)
-    first, last = _range(args.frames)
-    kind = args.format or format_of_name(output)
-    one_mesh = kind in WRITTEN_FORMATS and kind not in ONE_FILE and not is_numbered(output)
-    if last - first == 1 and one_mesh and not Path(output).is_dir():
+    output, (first, last) = _sequence_output(args), _range(args.frames)
+    if last - first == 1 and _is_of_one_frame(output, args.format):
         return _decode_frame(args, console, chunks, first, output)
     kind = sequence_kind(output, args.format)
     refuse_to_overwrite(output, args.may_replace(output))
@@ -229,32 +220,20 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     stream = SequenceStream(chunks, console.note if args.tolerant else None, first, limits_of(args.limits))
     header, frames = stream.header, stream.changing_frames()
     ahead = list(islice(frames, 1))  # whose faces are those that are written first
-    faces = stream.faces
-    last = min(last, header.frames or last)
-    expected = max(last - first, 0) if header.frames and not args.tolerant else 0
-    order: npt.NDArray[np.int64] | slice = slice(None)
-    if args.permutation:
-        numbers = np.repeat(np.arange(faces.max() + 1.0)[:, None], 3, axis=1)  # as positions, which tell the order
-        mesh = reorder(TriangleMesh(numbers, faces), read_permutation(args.permutation))
-        order, faces = mesh.positions[:, 0].astype(np.int64), mesh.faces
+    if not ahead or ahead[0][0] >= last:
+        raise OptionError(NO_FRAMES)
+    expected = min(last, header.frames) - first if header.frames and not args.tolerant else 0
+    order, faces = _ordered(stream.faces, args.permutation)
     shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: stream.metadata, first=first)
-    count = vertices = 0
     how: dict[str, Any] = {"overwrite": args.may_replace(output), "follow": args.follow, "shared": shared}
     with sequence_writer(output, kind, faces, expected, **how) as write, console.progress("decoding") as progress:
-        present = stream.faces
-        for number, frame in chain(ahead, frames):
-            if number >= last:
-                break
-            if args.permutation and stream.faces is not present:
+        for count, (number, frame) in enumerate(takewhile(lambda found: found[0] < last, chain(ahead, frames)), 1):
+            changed = stream.run_starts[-1:] == [number]
+            if args.permutation and changed:
                 raise OptionError(f"--permutation is the order of one mesh, but the faces change at frame {number}")
-            write(frame[order], None if stream.faces is present else stream.faces)
-            present = stream.faces
-            vertices = vertices or len(frame)
-            count += 1
+            write(frame[order], stream.faces if changed else None)
             if expected:
                 progress(count, expected)
-        if count == 0:
-            raise OptionError(NO_FRAMES)
     lost = [attribute.name for attribute in stream.attributes] if args.permutation else shared.left_out
     if lost:
         because = " with --permutation" if args.permutation else ""
@@ -262,13 +241,36 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     if names_many(output) and (others := len(mesh_files(output)) - count) > 0:
         console.note(f"{output}: {others} other meshes are there and count as frames; remove them")
     seconds = time.perf_counter() - begin
-    facts = {"frames": count, "vertices": vertices, "faces": header.faces}
     if stream.run_starts:
         console.note(f"{args.input}: {describe_runs(stream.run_starts)}")
-    counts = f"{counted(frames=count)} of {counted(vertices=vertices, faces=header.faces)}"
-    console.note(f"{args.input} -> {output}: {counts}, {seconds:.2f} s")
+    counts = {"vertices": len(ahead[0][1]), "faces": header.faces}
+    console.note(f"{args.input} -> {output}: {counted(frames=count)} of {counted(**counts)}, {seconds:.2f} s")
     sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}
-    return {"input": args.input, "output": output, **facts, **sizes, "seconds": seconds}
+    return {"input": args.input, "output": output, "frames": count, **counts, **sizes, "seconds": seconds}
+
+
+def _is_of_one_frame(output: str, file_format: str | None) -> bool:
+    kind = file_format or format_of_name(output)
+    return kind in WRITTEN_FORMATS and kind not in ONE_FILE and not is_numbered(output) and not Path(output).is_dir()
+
+
+def _sequence_output(args: DecodeJob) -> str:
+    """The file or folder that a sequence goes to: an npz, or a folder if the format is one of meshes."""
+    suffix = f".{args.format or 'npz'}" if args.format in (None, *ONE_FILE) else ""
+    if args.recursive:
+        return str(Path(args.output).with_suffix(suffix))
+    if args.given is not None and args.many:
+        return output_inside(args.given, args.input, suffix)
+    return default_output(args.input, suffix) if args.given is None else str(args.output)
+
+
+def _ordered(faces: Faces, permutation: str | None) -> tuple[Order | slice, Faces]:
+    """The rows of frames in the order that a file says, if there is one, and faces that fit."""
+    if permutation is None:
+        return slice(None), faces
+    numbers = np.repeat(np.arange(faces.max() + 1.0)[:, None], 3, axis=1)  # as positions, which tell the order
+    mesh = reorder(TriangleMesh(numbers, faces), read_permutation(permutation))
+    return mesh.positions[:, 0].astype(np.int64), mesh.faces
 
 
 def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], number: int, output: str) -> Facts:

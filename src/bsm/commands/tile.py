@@ -59,32 +59,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> int:
-    """Do the work in folders that this process has locked; `left`: a killed process had locked one before."""
-    unfinished = is_unfinished(args.output)
-    if unfinished and (work / "plan.json").is_file() and not (args.force or args.resume):
-        message = "these tiles are unfinished: --resume continues, -f starts again"
-        raise FileExistsError(errno.EEXIST, message, args.output)
-    over = args.force or args.resume
-    for name in (MANIFEST, TILESET):
-        refuse_to_overwrite(inside(args.output, name), args.force or bool(unfinished) or (left and over))
-    refuse_others(work)
-    if unfinished is not False:
-        write_unfinished(args.output, args.input)
-    with about(args.input), by_its_own_name(work):
-        try:
-            plan = _planned(args, work, console)
-        except BsmError:
-            if unfinished is None:
-                with suppress(OSError):
-                    remove(inside(args.output, MANIFEST))
-            raise
+    """Do the work in folders that this process has locked."""
+    plan = _begun(args, work, console, left)
     asked_for = asked(TileJob, args, input="", output="", most=args.triangles, force=False)
-    names = [name for name in plan.nodes() if name in plan.leaves or not args.finest]
-    numbers = {name: number for number, name in enumerate(names)}
-
-    def job_of(name: str) -> Job:
-        below = tuple(numbers[name + eighth] for eighth in "01234567" if name + eighth in numbers)
-        return Job(str(work / (f"{name}[0-7].mesh" if below else "plan.json")), str(work / f"{name}.bsm"), below)
 
     def ended(job: Job, outcome: Outcome) -> None:
         if outcome.error is not None:
@@ -92,10 +69,11 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
 
     many = asked(Batch, args, report=str(work / "tiles.json"))
     with console.progress(until=0.5 if args.tileset else 0.96):
-        done = run_many(many, asked_for, console, tile_one, list(map(job_of, names)), ended)
+        done = run_many(many, asked_for, console, tile_one, _jobs(plan, work, args.finest), ended)
     if failed := [facts for facts in done if "error" in facts]:
         console.note(f"{len(failed)} of {len(done)} tiles failed; --resume repeats these and the tiles above them")
         return int(failed[0]["exit"])
+    over = args.force or args.resume
     done.sort(key=lambda facts: (-len(Path(facts["output"]).stem), facts["output"]))
     write_unfinished(args.output, args.input)
     manifest, given = write_shards(args.output, plan, done, os.path.basename(args.input), overwrite=over)
@@ -117,6 +95,38 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
     if args.json:
         print_json(manifest)
     return 0
+
+
+def _jobs(plan: Plan, work: Path, finest: bool) -> list[Job]:
+    """A job for each tile; those of coarser tiles wait for the tiles that they are made of."""
+    names = [name for name in plan.nodes() if name in plan.leaves or not finest]
+    numbers, jobs = {name: number for number, name in enumerate(names)}, list[Job]()
+    for name in names:
+        below = tuple(numbers[name + eighth] for eighth in "01234567" if name + eighth in numbers)
+        source = f"{name}[0-7].mesh" if below else "plan.json"
+        jobs.append(Job(str(work / source), str(work / f"{name}.bsm"), below))
+    return jobs
+
+
+def _begun(args: argparse.Namespace, work: Path, console: Console, left: bool) -> Plan:
+    """Return the plan, with the output marked as unfinished; `left`: a killed process had locked a folder before."""
+    unfinished = is_unfinished(args.output)
+    if unfinished and (work / "plan.json").is_file() and not (args.force or args.resume):
+        message = "these tiles are unfinished: --resume continues, -f starts again"
+        raise FileExistsError(errno.EEXIST, message, args.output)
+    for name in (MANIFEST, TILESET):
+        refuse_to_overwrite(inside(args.output, name), args.force or bool(unfinished) or (left and args.resume))
+    refuse_others(work)
+    if unfinished is not False:
+        write_unfinished(args.output, args.input)
+    with about(args.input), by_its_own_name(work):
+        try:
+            return _planned(args, work, console)
+        except BsmError:
+            if unfinished is None:
+                with suppress(OSError):
+                    remove(inside(args.output, MANIFEST))
+            raise
 
 
 def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:

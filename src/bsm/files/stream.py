@@ -78,7 +78,12 @@ class SequenceStream:
     """A stream that is decoded while its frames are asked for."""
 
     def __init__(
-        self, chunks: Iterator[bytes], note: Note | None = None, start: int = 0, limits: Limits = DEFAULT_LIMITS
+        self,
+        chunks: Iterator[bytes],
+        note: Note | None = None,
+        start: int = 0,
+        limits: Limits = DEFAULT_LIMITS,
+        threads: int | None = None,
     ) -> None:
         from bsm.codec.decoding import SequenceDecoder
         from bsm.codec.events import ConnectivityEvent, HeaderEvent
@@ -88,7 +93,7 @@ class SequenceStream:
         self.run_starts: list[int] = []
         self._note = note
         self._present: tuple[Attribute, ...] | None = None
-        decoder = SequenceDecoder(limits, tolerant=note is not None, start=start)
+        decoder = SequenceDecoder(limits, threads, tolerant=note is not None, start=start)
         self._decoder = decoder
         self._events = decoder.events(chunks)
         for event in self._events:
@@ -112,7 +117,7 @@ class SequenceStream:
         """Number and positions, shape (n, 3), of one frame after the other."""
         for index, positions in self.changing_frames():
             if self.run_starts:
-                raise MeshError(f"faces change at frame {index}; this command cannot: use bsm decode or bsm compare")
+                raise MeshError(f"the faces change at frame {index}: use bsm.decode_frames, bsm decode or bsm compare")
             yield index, positions
 
     def changing_frames(self) -> Iterator[tuple[int, Positions]]:

@@ -70,16 +70,15 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     if job.members:
         return _encode_sequence(job, console, open_frames(job.members, job.format, limits, wanted, isolated=apart))
     sequence = open_sequence(job.input, job.format, None if plain else wanted, limits, isolated=apart)
-    return _encode_sequence(job, console, sequence) if sequence else _encode_mesh(job, console)
+    return _encode_sequence(job, console, sequence) if sequence else _encode_mesh(job, console, limits)
 
 
-def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
+def _encode_mesh(job: EncodeJob, console: Console, limits: Limits) -> Facts:
     for name, given in (("animation", job.animation), ("mesh", job.cache_mesh)):
         if given is not None:
             raise OptionError(f"--{name} is for sequences; this is a single mesh")
     chosen = encode_options(**job.options, threads=job.threads)
     with console.progress("reading", until=READ):
-        limits = Limits.service() if job.untrusted else DEFAULT_LIMITS
         source = read_mesh(job.input, job.format, limits, isolated=job.untrusted or None)
     if source.dropped and job.options.get("preset") == "lossless" and not job.force:
         lost = ", ".join(source.dropped)

@@ -31,7 +31,6 @@ class Batch:
     dask: str | None = None
     report: str | None = None
     resume: bool = False
-    json: bool = False
 
     @property
     def side_by_side(self) -> bool:
@@ -45,7 +44,7 @@ def run_jobs(
     if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:
         with pipes.about(jobs[0].input), console.progress():
             facts = work(task_of(asked, jobs[0]), console)
-        if run.json:
+        if console.json:
             print_json(facts)
         elif show:
             print(show(facts))
@@ -60,8 +59,8 @@ def run_jobs(
         if isinstance(outcome.error, UnitError) and asked_once > 1:
             return  # the same question for each file
         if outcome.error is not None:
-            report_error(outcome.error, as_json=run.json)
-        elif show and not run.json:
+            report_error(outcome.error, as_json=console.json)
+        elif show and not console.json:
             print(f"{job.input}:\n{show(outcome.facts)}\n", flush=True)
 
     done = run_many(run, asked, console, work, jobs, ended)
@@ -75,7 +74,7 @@ def run_jobs(
     for line in table(done) if run.report is not None else ():
         console.note(line)
     console.note(f"{len(good)} of {counted(files=len(done))}{sizes}, {time.perf_counter() - begin:.2f} s")
-    if run.json:
+    if console.json:
         print_json({"files": done})
     return next((facts["exit"] for facts in done if "error" in facts), 0)
 

@@ -195,14 +195,13 @@ def load_plan(path: Path) -> Plan:
 def cut(raw: Raw, lattice: Lattice, slides: bool, most: int) -> Plan:
     """Write faces by the leaf of their first corner, and which places are used from outside of it."""
     folder, (low, high) = raw.folder, lattice.places(np.array([raw.low, raw.high])).astype(np.int64)
-    vertices, triangles = raw.rows["positions"], raw.rows["faces"]
+    sizes = raw.rows["positions"], raw.rows["faces"]
     # Above the first level that is cut there is one node a level, down to a mesh that is there at once.
-    above = max(0, math.ceil(math.log(min(most, triangles) / COARSEST, 4)))
+    above = max(0, math.ceil(math.log(min(most, sizes[1]) / COARSEST, 4)))
     bits = max(1, int((high - low).max()).bit_length()) + above
     depth = min(DEPTH + above, bits)
     kinds = {what: kind for what, kind in raw.kinds.items() if what != "faces"}
     kinds |= {"codes": ("<i8", 1), "outside": ("<i8", 5), "cut": ("<u4", 7 if raw.textures else 3)}
-    sizes = vertices, triangles
     plan = Plan(tuple(map(int, low)), bits, lattice, depth, *sizes, kinds, {}, slides, raw.about, raw.textures)
     with table_file(folder / "codes") as coded:
         for piece in raw.pieces("positions"):

@@ -4,12 +4,11 @@ import json
 import os
 import shutil
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.attributes import Attribute
@@ -46,41 +45,35 @@ def write_joined(
         raise OptionError("no tile is that close to the mesh: give a larger --error, or a level")
     with by_its_own_name(tempfile.gettempdir()), ExitStack() as opened:
         tables, points, corners = (opened.enter_context(tempfile.TemporaryFile()) for _ in range(3))
-        outside, single, most, total = list[Table](), True, 0, 0
+        outside, single = list[Table](), True
         with console.progress("decoding") as progress:
             for number, (shard, tile) in enumerate(chosen, 1):
                 table, triangles = tiles.decoded(shard, tile)
                 np.save(tables, table)
                 np.save(tables, triangles)
-                most, total = most + len(table), total + len(triangles)
                 positions = tiles.lattice.positions(table[:, :3])
                 single = single and bool((positions.astype(np.float32) == positions).all())
                 outside.append(table[tiles.root.outside(tile.name, table[:, :3])])
                 progress(number, len(chosen))
         # Of what two tiles share one at least reaches out of its cube for it.
-        shared = np.unique(np.concatenate(outside), axis=0)
+        shared, kind = np.unique(np.concatenate(outside), axis=0), np.float32 if single else np.float64
         numbers = np.full(len(shared) + 1, -1, np.int64)  # the last for those that are not shared
-        vertices, index, kind = 0, np.int32 if most < 1 << 31 else np.uint32, np.float32 if single else np.float64
+        vertices = total = 0
         tables.seek(0)
         for _ in chosen:
             table, triangles = np.load(tables), np.load(tables)
-            low, high = table[:, :3].min(axis=0).astype(np.int64), table[:, :3].max(axis=0)
-            near = np.flatnonzero(((shared[:, :3] >= low) & (shared[:, :3] <= high)).all(axis=1))
-            which = row_numbers(np.concatenate([shared[near], table]))
-            known = np.full(len(which), -1, np.int64)
-            known[which[: len(near)]] = near
-            own = known[which[len(near) :]]
+            own = _places_in(shared, table)
             given = numbers[own]
             fresh = np.flatnonzero(given < 0)
             given[fresh] = vertices + np.arange(len(fresh))
             numbers[own[own >= 0]] = given[own >= 0]
-            vertices += len(fresh)
+            vertices, total = vertices + len(fresh), total + len(triangles)
             columns = [*zip("xyz", tiles.lattice.positions(table[fresh, :3]).astype(kind).T)]
             for what, values in tiles.values(table[fresh]).items():
                 columns += zip(CARRIED[what], values.T)
             of_points, rows = table_of(columns)
             points.write(rows.tobytes())
-            of_faces, rows = table_of([("vertex_indices", given[triangles].astype(index))])
+            of_faces, rows = table_of([("vertex_indices", given[triangles].astype(np.uint32))])
             corners.write(rows.tobytes())
         about = {name: tiles.manifest[name] for name in ABOUT if name in tiles.manifest}
         comments = [f"comment {line}" for line in remarks(about)[0]]
@@ -94,18 +87,21 @@ def write_joined(
     return {"vertices": vertices, "faces": total}
 
 
+def _places_in(shared: Table, table: Table) -> Ints:
+    """Which of the `shared` vertices each one of a table is; -1: none."""
+    low, high = table[:, :3].min(axis=0).astype(np.int64), table[:, :3].max(axis=0)
+    near = np.flatnonzero(((shared[:, :3] >= low) & (shared[:, :3] <= high)).all(axis=1))
+    which = row_numbers(np.concatenate([shared[near], table]))
+    known = np.full(len(which), -1, np.int64)
+    known[which[: len(near)]] = near
+    return known[which[len(near) :]]
+
+
 def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str = CONTENTS[0], overwrite: bool) -> int:
     """Write tileset.json of 3D Tiles 1.1, and beside it each tile as a GLB with normals; return their bytes."""
     known = {tile.name: (shard, tile) for shard, tile in tiles.all()}
-    below: dict[str, set[str]] = {}
     size, seen = 0, 1.0
-    ends: dict[str, npt.NDArray[np.int64]] = {}  # of a node and all below it
-    for name, (_, tile) in known.items():
-        own = np.array([tile.low, tile.high], np.int64)
-        for above in (name[:end] for end in range(1, len(name) + 1)):
-            low, high = ends.get(above, own)
-            ends[above] = np.array([np.minimum(low, own[0]), np.maximum(high, own[1])])
-            below.setdefault(above[:-1], set()).add(above)
+    ends = _ends(tile for _, tile in known.values())
     if not is_url(folder):
         os.makedirs(contents := os.path.join(folder, _CONTENT), exist_ok=True)
         if os.path.islink(contents):
@@ -127,26 +123,42 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
             write_output(inside(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite, follow=False)
             size += len(data)
             progress(number, len(known))
+    tree = _tree(tiles, {name: seen * tile.error for name, (_, tile) in known.items()}, ends)
+    data = json.dumps(tree).encode() + b"\n"
+    write_output(inside(folder, TILESET), data, overwrite=overwrite, follow=False)
+    console.note(f"{inside(folder, TILESET)}: {counted(tiles=len(known))} as {content} GLB, {size} bytes")
+    return size + len(data)
+
+
+def _ends(tiles: Iterable[Tile]) -> dict[str, Ints]:
+    """The lowest and the highest place of each node and all below it."""
+    ends: dict[str, Ints] = {}
+    for tile in tiles:
+        own = np.array([tile.low, tile.high], np.int64)
+        for name in (tile.name[:end] for end in range(1, len(tile.name) + 1)):
+            low, high = ends.get(name, own)
+            ends[name] = np.array([np.minimum(low, own[0]), np.maximum(high, own[1])])
+    return ends
+
+
+def _tree(tiles: Tiles, errors: Mapping[str, float], ends: Mapping[str, Ints]) -> Facts:
+    """The nodes of a tileset, of which those with an error have contents."""
     placed = placement({name: tiles.manifest[name] for name in ABOUT if name in tiles.manifest}, "tileset")
     diagonal = tiles.lattice.cell * float(np.linalg.norm(np.ptp(ends["r"], axis=0)))
 
     def node(name: str, around: Ints) -> Facts:
         """A node of the octree, where `around` is the lowest place of the one above."""
-        (low, high), children = ends[name], sorted(below.get(name, ()))
+        low, high = ends[name]
         half, moved = (high - low) * tiles.lattice.cell / 2, (low - around) * tiles.lattice.cell
-        error = seen * known[name][1].error if name in known else diagonal
-        tile: Facts = {"geometricError": error, "refine": "REPLACE"}
+        tile: Facts = {"geometricError": errors.get(name, diagonal), "refine": "REPLACE"}
         tile["boundingVolume"] = {"box": [*half.tolist(), *np.diag(half).ravel().tolist()]}
         tile["transform"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *moved.tolist(), 1]
-        tile |= {"content": {"uri": f"{_CONTENT}/{name}.glb"}} if name in known else {}
-        return tile | ({"children": [node(child, low) for child in children]} if children else {})
+        tile |= {"content": {"uri": f"{_CONTENT}/{name}.glb"}} if name in errors else {}
+        children = [node(name + eighth, low) for eighth in "01234567" if name + eighth in ends]
+        return tile | ({"children": children} if children else {})
 
     root = node("r", ends["r"][0])
     moved = np.eye(4)  # from the mesh to meters with z up
     moved[:3, :3], moved[:3, 3] = placed.matrix, placed.matrix @ tiles.lattice.positions(ends["r"][0])
     root["transform"] = moved.T.ravel().tolist()
-    tree = {"asset": {"version": "1.1", "generator": "bsm"}, "geometricError": diagonal * placed.scale, "root": root}
-    data = json.dumps(tree).encode() + b"\n"
-    write_output(inside(folder, TILESET), data, overwrite=overwrite, follow=False)
-    console.note(f"{inside(folder, TILESET)}: {counted(tiles=len(known))} as {content} GLB, {size} bytes")
-    return size + len(data)
+    return {"asset": {"version": "1.1", "generator": "bsm"}, "geometricError": diagonal * placed.scale, "root": root}

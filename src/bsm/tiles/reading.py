@@ -118,9 +118,8 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     for what in CARRIED:
         if raw.rows.get(what, vertices) != vertices:
             raise MeshError(f"{raw.rows[what]} of {vertices} vertices have a {what}: give all of them one, or none")
-    ends = tuple(map(float, low)), tuple(map(float, high))
     beside = Beside(None if is_url(name) or name == "-" else Path(name).parent, DEFAULT_LIMITS)
-    return replace(raw, low=ends[0], high=ends[1], textures=_textures(raw, beside))
+    return replace(raw, low=tuple(map(float, low)), high=tuple(map(float, high)), textures=_textures(raw, beside))
 
 
 def _textures(raw: Raw, beside: Beside) -> int:

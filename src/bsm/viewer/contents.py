@@ -92,7 +92,6 @@ def carried(source: TriangleMesh | Frames) -> bytes:
     if isinstance(source, TriangleMesh):
         return _carrier(source)[0]
     frames = np.array(list(source.frames))
-    object.__setattr__(source, "frames", iter(frames))  # they are read again
     return encode_sequence(frames, source.faces, frame_rate=source.frame_rate, metadata=source.metadata, step=_FINE)
 
 

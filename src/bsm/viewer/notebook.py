@@ -6,11 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from bsm.api import as_input, encode, encode_sequence
+from bsm.api import encode, encode_sequence
 from bsm.bitstream.errors import OptionError, imported
-from bsm.files.pipes import Input
 from bsm.files.stream import is_stream
-from bsm.libraries import as_mesh
+from bsm.libraries import as_file, as_mesh
 from bsm.viewer.contents import Content, alone, compared
 from bsm.viewer.page import embedded, listed, script
 
@@ -37,10 +36,8 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
 
     Raises
     ------
-    DependencyError
-        If anywidget is missing.
     BsmError
-        As in `encode` and `compare`.
+        As in `encode` and `compare`; `DependencyError` if anywidget is missing.
 
     Examples
     --------
@@ -61,17 +58,17 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
 
 def _content(source: Any, original: Any, keywords: dict[str, Any]) -> Content:
     name = Path(source).name if isinstance(source, (str, os.PathLike)) else "mesh"
-    given = as_input(source)
-    mesh = None if original is None else as_mesh(as_input(original))
+    given = as_file(source)
+    mesh = None if original is None else as_mesh(original)
     preset = None
-    if isinstance(given, Input) and is_stream(given):
+    if given and is_stream(given):
         if keywords:
             raise OptionError(f"this is encoded already: {', '.join(keywords)} cannot be chosen any more")
         data = given.read_all()
     elif isinstance(source, tuple) and len(source) == 2 and np.ndim(source[0]) == 3:
         data = encode_sequence(*source, **keywords)
     else:
-        data = encode(encoded := as_mesh(given), **keywords)
+        data = encode(encoded := as_mesh(given or source), **keywords)
         preset = None if set(keywords) - {"preset"} or mesh else keywords.get("preset", "balanced")
         mesh = mesh or encoded
     return alone(name, data) if mesh is None else compared(name, data, mesh, preset=preset)
