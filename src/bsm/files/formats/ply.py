@@ -16,7 +16,7 @@ from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import appearance, one_line, refers_to_image
 from bsm.files.formats.polygons import PLURALS, Array, Column, Polygons, color_column, meaning_of, unused_name
-from bsm.files.room import Ints, Rows, as_integers, ranges, require_count, require_lines, single_suffices
+from bsm.files.room import Doubles, Ints, Rows, as_integers, ranges, require_count, require_lines, single_suffices
 
 _WRITTEN_TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
@@ -30,6 +30,7 @@ _NAMES_OF_TYPES = {kind: name for name, kind in _WRITTEN_TYPES.items()}
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 MOST_HEADER = 1 << 20
 _MAX_ELEMENTS = 64
+_LONGEST = 1 << 53  # items of a list in a text
 _COUNTED = {"vertex": "vertices", "face": "faces"}
 _MAX_PROPERTIES = 256  # of one element: rows are walked once for each list
 COMMENTS = ("comment", "obj_info")  # what a line begins with that anybody may write anything in
@@ -143,58 +144,21 @@ def _extend(elements: list[Element], column: Property) -> None:
     elements[-1] = Element(last.name, last.count, (*last.properties, column))
 
 
-def tables_of(header: Header, body: bytes) -> "dict[str, _TextTable] | dict[str, _BinaryTable]":
-    """The elements of a file by their names; of a text file, only vertices and faces."""
-    if header.order:
-        tables: dict[str, _BinaryTable] = {}
-        begin, raw = 0, np.frombuffer(body, np.uint8)
-        for element in header.elements:
-            tables[element.name] = table = _BinaryTable(element, header.order, raw, begin)
-            begin = table.walk(0)[2]
-        return tables
-    lines = [line for line in body.splitlines() if line.strip()]
-    require_lines(len(lines), sum(element.count for element in header.elements))
-    ends = np.cumsum([element.count for element in header.elements]).tolist()
-    return {
-        element.name: _TextTable(element, Rows(lines[end - element.count : end], element.name))
-        for element, end in zip(header.elements, ends)
-        if element.name in ("vertex", "face")
-    }
-
-
-@dataclass
-class _TextTable:
-    """The rows of an element in a text."""
-
-    element: Element
-    rows: Rows
-
-    def numbers(self, place: int) -> Array:
-        """The property at a place, a number in each row, shape (count,)."""
-        return _typed(self.rows.values[self._starts(place)], self.element.properties[place].type)
-
-    def lists(self, place: int) -> tuple[Ints, Array]:
-        """Return a list property: the lengths of the lists, and all items in one array."""
-        starts = self._starts(place)
-        sizes = self._sizes(starts)
-        items = self.rows.values[ranges(starts + 1, sizes)]
-        return sizes, _typed(items, self.element.properties[place].type)
-
-    def _starts(self, place: int) -> Ints:
-        """Where in all numbers those of a property begin; the number, or all of the list, are there."""
-        offsets = np.zeros(len(self.rows.counts), np.int64)
-        for column in self.element.properties[: place + 1]:
-            begin = offsets
-            self.rows.require(offsets + 1)
-            offsets = offsets + 1 + (self._sizes(self.rows.starts + begin) if column.length else 0)
-            self.rows.require(offsets)
-        return self.rows.starts + begin
-
-    def _sizes(self, starts: Ints) -> Ints:
-        sizes = as_integers(self.rows.values[starts], f"the length of a list of a {self.element.name}")
-        if (sizes < 0).any():
-            raise MeshError(f"{self.element.name} {int(np.argmax(sizes < 0))} has a list of negative length")
-        return sizes
+def tables_of(header: Header, body: bytes) -> "dict[str, _Table]":
+    """The elements of a file by their names; those of a text as integers of eight bytes, lengths among them."""
+    tables: dict[str, _Table] = {}
+    begin, raw, text = 0, np.frombuffer(body, np.uint8), None
+    if not header.order:
+        lines = [line for line in body.splitlines() if line.strip()]
+        require_lines(len(lines), sum(element.count for element in header.elements))
+        text = Rows(lines, "row").values
+        raw = np.where(text == np.rint(text), text, -1).clip(-1, _LONGEST).astype("<i8").view(np.uint8)
+    for element in header.elements:
+        tables[element.name] = table = _Table(element, header.order, raw, begin, text)
+        begin = table.walk(0)[2]
+    if text is not None and begin < raw.size:
+        raise MeshError(f"the rows of this PLY file have {(raw.size - begin) // 8} numbers more than its header tells")
+    return tables
 
 
 def _typed(values: Array, kind: str) -> Array:
@@ -205,17 +169,15 @@ def _typed(values: Array, kind: str) -> Array:
     return converted if same else values
 
 
-# ------------------------------------------------------------------------------------------------------------- binary
-
-
 @dataclass
-class _BinaryTable:
-    """The rows of an element in bytes, from one of them on."""
+class _Table:
+    """The rows of an element in bytes, from one of them on, and all numbers of a text."""
 
     element: Element
     order: str
     raw: npt.NDArray[np.uint8]
     begin: int
+    text: Doubles | None
 
     def numbers(self, place: int) -> Array:
         return self.lists(place)[1]
@@ -223,6 +185,8 @@ class _BinaryTable:
     def lists(self, place: int) -> tuple[Ints, Array]:
         starts, sizes, _ = self.walk(place)
         kind = np.dtype(self.order + self.element.properties[place].type)
+        if self.text is not None:
+            return sizes, _typed(self.text[ranges(starts // 8, sizes)], kind.str)
         step = np.diff(starts[:2]).sum()
         if len(starts) and (np.diff(starts) == step).all() and (sizes == sizes[0]).all():  # as of most files
             shape, strides = (len(starts), int(sizes[0])), (int(step), kind.itemsize)
@@ -234,9 +198,10 @@ class _BinaryTable:
 
     def walk(self, place: int) -> tuple[Ints, Ints, int]:
         """Where each row's property begins, how many items it has, and where the last row ends."""
+        properties = self.element.properties
         # The bytes of the length of each property's lists (0: it is a number), and of an item.
-        sizes_of = ((np.dtype(p.length).itemsize if p.length else 0, p.type) for p in self.element.properties)
-        widths = [(length, np.dtype(kind).itemsize) for length, kind in sizes_of]
+        kinds = ((p.length, p.type) if self.text is None else (p.length and "i8", "i8") for p in properties)
+        widths = [(np.dtype(length).itemsize if length else 0, np.dtype(kind).itemsize) for length, kind in kinds]
         count = self.element.count if widths else 0  # rows without properties take no bytes, however many they are
         # Every row is at least as long as its numbers and the lengths of its lists.
         least = sum(length or width for length, width in widths)
@@ -310,7 +275,7 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     return Polygons(positions, sizes, flat, tuple(notes), (*dropped, *others), columns, header.metadata)
 
 
-def _columns(table: _TextTable | _BinaryTable, domain: Domain, needed: Sequence[str]) -> Iterator[Column]:
+def _columns(table: _Table, domain: Domain, needed: Sequence[str]) -> Iterator[Column]:
     """The properties that are numbers, those together that are one value."""
     properties = table.element.properties
     plain = (place for place, p in enumerate(properties) if p.length is None and p.name not in needed)
@@ -338,7 +303,7 @@ def _series(types: dict[str, str]) -> Iterator[tuple[str, list[str]]]:
         left = {member: kind for member, kind in left.items() if member not in together}
 
 
-def _wedges(table: _TextTable | _BinaryTable, corners: int, sizes: Ints) -> tuple[list[Column], list[str], list[str]]:
+def _wedges(table: _Table, corners: int, sizes: Ints) -> tuple[list[Column], list[str], list[str]]:
     """Values of corners: lists as long as that of the vertices, or twice, ...; the lists that are not; and notes."""
     found, dropped, notes = [], [], []
     for place, column in enumerate(table.element.properties):

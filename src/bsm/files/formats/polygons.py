@@ -71,71 +71,53 @@ def attributes_of(
 
 
 def joined_columns(parts: Sequence[Part]) -> tuple[list[Column], list[str]]:
-    """Return the columns of parts, joined where no value changes (an opacity of 1, a third number of 0), and notes."""
-    by_name: list[dict[str, list[Column]]] = [{} for _ in parts]
+    """Return the columns of parts, joined, those of fewer numbers filled up (by an opacity of 1, or zeros); notes."""
+    by_name: list[dict[str, Column]] = [{} for _ in parts]
     for part, named_so in zip(parts, by_name, strict=True):
         for column in part.columns:
-            named_so.setdefault(column.name, []).append(column)
+            name = unused_name(column.name, column.domain, named_so)
+            named_so[name] = replace(column, name=name)
     found: list[Column] = []
     notes: list[str] = []
     for name in dict.fromkeys(name for named_so in by_name for name in named_so):
-        alike = _made_alike(parts, [named_so.get(name, []) for named_so in by_name], notes)
-        keys = dict.fromkeys((column.domain, column.values.shape[1]) for columns in alike for column in columns)
-        first: dict[Domain, int] = {}
-        for domain, width in keys:
-            usual = first.setdefault(domain, width)
-            called = name if width == usual else f"{name}_{width}"
-            if width != usual:
-                notes.append(
-                    f"{name} has {usual} numbers in some parts and {width} in others; these are {called}, with zeros "
-                    "where a part has no such values"
-                )
-            chosen = [[c for c in columns if (c.domain, c.values.shape[1]) == (domain, width)] for columns in alike]
-            found.append(_concatenated(parts, called, [columns[0] if columns else None for columns in chosen]))
-            lacking = sum(all(c.domain != domain for c in columns) for columns in alike) if width == usual else 0
-            if lacking:
-                filled = "white" if found[-1].semantic == "color" else "zeros"
-                notes.append(f"parts without {PLURALS.get(name, name)} were given {filled}: {lacking}")
+        alike = _made_alike(parts, [named_so.get(name) for named_so in by_name], notes)
+        found.append(_concatenated(parts, alike))
+        if lacking := alike.count(None):
+            filled = "white" if found[-1].semantic == "color" else "zeros"
+            notes.append(f"parts without {PLURALS.get(name, name)} were given {filled}: {lacking}")
     return found, notes
 
 
-_WIDENED = {("color", 3): 4, ("texcoord", 2): 3}
-"""Columns of a meaning and a width that another width can hold."""
-
-
-def _made_alike(parts: Sequence[Part], alike: list[list[Column]], notes: list[str]) -> list[list[Column]]:
-    """Return the columns of one name in a width and a domain that hold those of all parts, where there is one."""
-    every = [column for columns in alike for column in columns]
-    meanings = {column.semantic for column in every}
+def _made_alike(parts: Sequence[Part], given: list[Column | None], notes: list[str]) -> list[Column | None]:
+    """Return the columns of one name in the meaning, the width and the domain that hold those of all parts."""
+    every = [column for column in given if column is not None]
+    name, meanings, most = every[0].name, {c.semantic for c in every}, max(c.values.shape[1] for c in every)
     if len(meanings) > 1:
-        alike = [[replace(column, semantic="generic") for column in columns] for columns in alike]
-    widths = {column.values.shape[1] for column in every}
-    if len(meanings) == 1 and any(
-        _WIDENED.get((column.semantic, column.values.shape[1])) in widths for column in every
-    ):
-        alike = [[_widened(column, max(widths)) for column in columns] for columns in alike]
-    lacking = sum(not columns for columns in alike) if meanings == {"normal"} else 0
-    if lacking:
-        notes.append(f"parts without normals were given those of their faces: {lacking}")
-        alike = [columns or [part.own_normals(every[0].name)] for part, columns in zip(parts, alike, strict=True)]
-    domains = {column.domain for columns in alike for column in columns}
-    if len(domains) > 1 and max(map(len, alike)) == 1:
-        alike = [[part.at_corners(c) for c in columns] for part, columns in zip(parts, alike, strict=True)]
-    return alike
+        given = [c and replace(c, semantic="generic") for c in given]
+    if any(c.values.shape[1] < most for c in every):
+        given = [c and _widened(c, most) for c in given]
+        if meanings - {"color", "texcoord"}:
+            notes.append(f"parts whose {name} has fewer than {most} numbers were given zeros after them")
+    if meanings == {"normal"} and None in given:
+        notes.append(f"parts without normals were given those of their faces: {given.count(None)}")
+        given = [column or part.own_normals(name) for part, column in zip(parts, given, strict=True)]
+    if len({column.domain for column in given if column}) > 1:
+        given = [column and part.at_corners(column) for part, column in zip(parts, given, strict=True)]
+    return given
 
 
 def _widened(column: Column, width: int) -> Column:
-    values, more = column.values, width - column.values.shape[1]
+    values = column.values
     blank = _FULL.get(values.dtype.name, 1) if column.semantic == "color" else 0
-    return replace(column, values=np.pad(values, ((0, 0), (0, more)), constant_values=blank)) if more else column
+    return replace(column, values=np.pad(values, ((0, 0), (0, width - values.shape[1])), constant_values=blank))
 
 
-def _concatenated(parts: Sequence[Part], name: str, given: list[Column | None]) -> Column:
+def _concatenated(parts: Sequence[Part], given: list[Column | None]) -> Column:
     """Return the columns of parts as one; parts that have none get zeros, or white."""
     there = [column for column in given if column is not None]
     if there[0].semantic == "color" and len({c.values.dtype for c in there}) > 1:  # bytes here, floats there
         given = [c and replace(c, values=shares_of(c.values).astype(np.float32)) for c in given]
-    model = replace(next(filter(None, given)), name=name)
+    model = next(filter(None, given))
     blank = _FULL.get(model.values.dtype.name, 1) if model.semantic == "color" else 0
     tables, places, begin = [], [], 0
     for part, column in zip(parts, given, strict=True):
