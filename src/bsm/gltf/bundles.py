@@ -22,7 +22,7 @@ from bsm.codec.geometry.welding import degenerate, group_rows, weld
 from bsm.codec.static.encoder import Encoder
 from bsm.files.conventions import shares_of
 from bsm.gltf import document as gltf
-from bsm.gltf.coding import COMPONENTS, DRACO, FLOAT, PIECE, TRIANGLES, TRIANGULAR, Array, Drawn, Tree, drawn
+from bsm.gltf.coding import COMPONENTS, DRACO, FLOAT, PIECE, TRANSFORM, TRIANGLES, TRIANGULAR, Array, Drawn, Tree, drawn
 from bsm.options import encode_options
 
 _TEXCOORD: tuple[Semantic, int] = ("texcoord", 2)
@@ -185,7 +185,7 @@ def _texel(document: gltf.Document, bundle: Bundle, name: str) -> float:
         groups = [material, material.get("pbrMetallicRoughness", {}), *material.get("extensions", {}).values()]
         textures = [value for group in groups for key, value in group.items() if key.endswith("Texture")]
         for info in textures:
-            moved = info.get("extensions", {}).get("KHR_texture_transform", {})
+            moved = info.get("extensions", {}).get(TRANSFORM, {})
             if f"TEXCOORD_{moved.get('texCoord', info.get('texCoord', 0))}" == name:
                 sides.append(document.side_of_texture(info["index"], _SIDE) * max(map(abs, moved.get("scale", [1.0]))))
     return 1.0 / max(sides[1:] or sides, default=_SIDE)

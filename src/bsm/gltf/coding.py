@@ -1,5 +1,6 @@
 """Arrays of glTF that an extension holds compressed: by BSM streams, Draco, or meshoptimizer."""
 
+import math
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -10,6 +11,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import DependencyError, FormatError, UnsupportedError, imported
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of
+from bsm.files.formats.appearance import Texture
 from bsm.files.room import as_library_error
 
 Array = npt.NDArray[Any]
@@ -20,6 +22,8 @@ FLOAT, UINT = COMPONENTS["float32"], COMPONENTS["uint32"]
 TRIANGLES, STRIP, FAN = TRIANGULAR = 4, 5, 6
 EXTENSION, DRACO = "EXT_bsm_compression", "KHR_draco_mesh_compression"
 INSTANCING, STRENGTH = "EXT_mesh_gpu_instancing", "KHR_materials_emissive_strength"
+TRANSFORM, UNLIT = "KHR_texture_transform", "KHR_materials_unlit"
+_WRAPS = {10497: "repeat", 33071: "clamp", 33648: "mirror"}
 MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 MATTE: Tree = {"pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.9}}
 """The material that we write where a mesh has none; reading passes over it."""
@@ -111,3 +115,25 @@ def unpack_draco(data: bytes) -> dict[int, Array]:
         mesh = draco.decode(data)
     found = {int(attribute["unique_id"]): np.atleast_2d(attribute["data"]) for attribute in mesh.attributes}
     return found | {-1: np.asarray(mesh.faces).reshape(-1, 1)}
+
+
+def texture_of(info: Tree, sampler: Tree, image: int) -> Texture:
+    """A texture as a material refers to it; glTF counts coordinates from above."""
+    moved = info.get("extensions", {}).get(TRANSFORM, {})
+    (across, up), (right, down) = moved.get("scale", (1.0, 1.0)), moved.get("offset", (0.0, 0.0))
+    turn, which = moved.get("rotation", 0.0), moved.get("texCoord", info.get("texCoord", 0))
+    offset = right + up * math.sin(turn), 1 - up * math.cos(turn) - down
+    wrap = tuple(_WRAPS.get(sampler.get(name), "repeat") for name in ("wrapS", "wrapT"))
+    return Texture(image, (across, up), offset, turn, wrap, which)
+
+
+def words_of(texture: Texture) -> tuple[Tree, Tree]:
+    """What a material says of a texture, but for its number, and the sampler."""
+    (across, up), (right, above), turn = texture.scale, texture.offset, texture.rotation
+    info: Tree = {"texCoord": texture.set} if texture.set else {}
+    if (across, up, right, above, turn) != (1, 1, 0, 0, 0):
+        offset = [right - up * math.sin(turn), 1 - up * math.cos(turn) - above]
+        moved = {"scale": [across, up], "offset": offset, **({"rotation": turn} if turn else {})}
+        info["extensions"] = {TRANSFORM: moved}
+    codes = [next(code for code, way in _WRAPS.items() if way == own) for own in texture.wrap]
+    return info, dict(zip(("wrapS", "wrapT"), codes)) if {*texture.wrap} != {"repeat"} else {}

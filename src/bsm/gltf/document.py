@@ -34,7 +34,7 @@ _WIDTHS = {"MAT2": 4, "MAT3": 9, "MAT4": 16, "SCALAR": 1, "VEC2": 2, "VEC3": 3, 
 _TYPES = {width: name for name, width in _WIDTHS.items()}  # vectors rather than matrices
 _MOST_BYTES = (1 << 32) - 1
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
-WEBP, TRANSFORM = "EXT_texture_webp", "KHR_texture_transform"
+WEBP = "EXT_texture_webp"
 PER_NUMBER = 48  # bytes that a number of an accessor takes while it is made into what a mesh has
 MOST_NUMBERS = 1 << 27
 """In one accessor, and in all morph targets: those without a buffer are zeros, for which no byte pays."""

@@ -20,8 +20,8 @@ from bsm.files.formats.appearance import Material, appearance
 from bsm.files.formats.metadata import Value, described
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, between, painted_like, rate_of_times
 from bsm.files.room import Doubles, Ints, as_format_error, require_count
-from bsm.gltf.coding import INSTANCING, MATTE, STRENGTH, TRIANGLES, TRIANGULAR, Array, Tree
-from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, TRANSFORM, Document, read_document, triangles_of
+from bsm.gltf.coding import INSTANCING, MATTE, STRENGTH, TRIANGLES, TRIANGULAR, UNLIT, Array, Tree, texture_of
+from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, Document, read_document, triangles_of
 
 PER_INSTANCE = 2000  # bytes of the node of an instance, at most
 _REST = {"translation": (0, 0, 0), "rotation": (0, 0, 0, 1), "scale": (1, 1, 1)}
@@ -156,15 +156,14 @@ class Skin:
 @dataclass(frozen=True, eq=False)
 class Part:
     node: int
-    base: Doubles
-    targets: Doubles
-    colors: Doubles  # of the vertices, and what each target adds to them; none where none adds anything
+    points: Doubles  # of the vertices, and what each target adds to them, shape (1 + targets, n, 3)
+    colors: Doubles  # as well; of no rows where no target adds anything
     faces: Ints
     skin: Skin | None
     joints: Ints
     weights: Doubles
     columns: tuple[shapes.Column, ...]
-    normals: Doubles  # of a scene at rest, and what each target adds to them; of no rows where there are none
+    normals: Doubles  # as well, of a scene at rest; of no rows where there are none
     material: int
     name: str
 
@@ -225,14 +224,14 @@ class Scene:
 
     @property
     def vertices(self) -> int:
-        return sum(len(part.base) for part in self.parts)
+        return sum(part.points.shape[1] for part in self.parts)
 
     @property
     def work(self) -> float:
         """Nanoseconds that a frame takes, at most."""
         joints = sum(len(part.skin.joints) for part in self.parts if part.skin is not None)
-        tables = [table for part in self.parts for table in (part.targets, part.colors, part.joints)]
-        numbers = sum(table.size for table in tables) + sum(len(part.targets) for part in self.parts)
+        tables = [table for part in self.parts for table in (part.points, part.colors, part.joints)]
+        numbers = sum(table.size for table in tables) + sum(len(part.points) for part in self.parts)
         return 3e4 * (len(self._parents) + len(self.parts)) + 1e3 * joints + 100.0 * numbers
 
     @property
@@ -262,9 +261,7 @@ class Scene:
         """Each part with the matrix, or that of each vertex, which places it, and its vertices before that."""
         places = places_of(self._document, self._parents, self._curves, time)
         for part in self.parts:
-            points = part.base
-            if len(part.targets):
-                points = points + self._added(part, part.targets, time)
+            points = self._shown(part, part.points, time)
             matrix = places[part.node]
             if part.skin is not None:
                 bones = np.array([places[joint] for joint in part.skin.joints]) @ part.skin.inverse
@@ -279,10 +276,10 @@ class Scene:
         for part, matrix, _ in self._placed(time):
             columns, faces = part.columns, part.faces
             if len(part.normals):
-                normals = part.normals[0] + self._added(part, part.normals[1:], time)
+                normals = self._shown(part, part.normals, time)
                 values = shapes.compact(shapes.turned_normals(normals, matrix[..., :3, :3]))
                 columns = (shapes.Column("normal", values, semantic="normal"), *columns)
-            sides = np.broadcast_to(np.linalg.det(matrix[..., :3, :3]), len(part.base))
+            sides = np.broadcast_to(np.linalg.det(matrix[..., :3, :3]), part.points.shape[1])
             mirrored = np.median(sides[faces], axis=1) < 0
             turned = np.where(mirrored[:, None], np.arange(3)[::-1], np.arange(3)) + 3 * np.arange(len(faces))[:, None]
             faces = faces.reshape(-1)[turned]
@@ -295,19 +292,21 @@ class Scene:
         """The colors of all parts' vertices, white where a part has none; of no rows if no target changes any."""
         if not self._painted:
             return np.zeros((0, 4))
-        moved = (part.colors[0] + self._added(part, part.colors[1:], time) for part in self.parts)
+        moved = (self._shown(part, part.colors, time) for part in self.parts)
         found: Doubles = np.clip(np.concatenate(list(moved)), 0.0, 1.0)
         return found
 
-    def _added(self, part: Part, targets: Doubles, time: float) -> Doubles:
+    def _shown(self, part: Part, tables: Doubles, time: float) -> Doubles:
+        """The first table, and of each of the others as much as its target has weight."""
+        targets = tables[1:]
         if not len(targets):
-            return np.zeros(targets.shape[1:])
+            return tables[0]
         node = self._nodes[part.node]
         given = node.get("weights", self._document.item("meshes", node["mesh"]).get("weights", [0.0] * len(targets)))
         curve = self._curves.get((part.node, "weights"))
         weights = np.asarray(given, np.float64).reshape(len(targets)) if curve is None else curve.at(time)
         used = np.flatnonzero(weights)
-        return np.tensordot(weights[used], targets[used], 1)
+        return tables[0] + np.tensordot(weights[used], targets[used], 1)
 
     def _animated(self, animation: Tree) -> dict[tuple[int, str], Curve]:
         document, found, numbers = self._document, {}, 0
@@ -381,14 +380,13 @@ class Scene:
     def _part(self, node: int, primitive: Tree, skin: Skin | None, name: str) -> Part:
         given, document = primitive["attributes"], self._document
         count = document.count(given["POSITION"])
-        base = self._of(given["POSITION"], count, 3, "positions")
-        targets = [self._of(one.get("POSITION"), count, 3, "a morph target") for one in primitive.get("targets", [])]
-        shades = []
+        holders = (given, *primitive.get("targets", []))
+        points = np.array([self._of(one.get("POSITION"), count, 3, "positions") for one in holders])
+        colors = np.zeros((0, count, 4))
         if self._painted:
-            shades = [self._shade(given.get("COLOR_0"), count, 1.0)]
-            shades += [self._shade(target.get("COLOR_0"), count, 0.0) for target in primitive.get("targets", [])]
+            usual = (1.0, *[0.0] * len(holders[1:]))
+            colors = np.array([self._shade(one.get("COLOR_0"), count, own) for one, own in zip(holders, usual)])
             given = {name: index for name, index in given.items() if name != "COLOR_0"}
-        colors = np.array(shades).reshape(-1, count, 4)
         faces = triangles_of(document, primitive, count)
         joints, weights = np.zeros((count, 0), np.int64), np.zeros((count, 0))
         if skin is not None:
@@ -407,11 +405,10 @@ class Scene:
         if not self._still:
             corners = faces.reshape(-1)
             columns = tuple(replace(column, domain="corner", indices=corners) for column in columns)
-            origin = group_rows(np.column_stack([base, *targets, joints, weights, *colors]))
+            origin = group_rows(np.column_stack([*points, joints, weights, *colors]))
             rows, faces = first_of(origin), origin[faces].astype(np.int64)
         elif "NORMAL" in given:
-            added = [self._of(target.get("NORMAL"), count, 3, "normals") for target in primitive.get("targets", [])]
-            normals = np.array([self._of(given["NORMAL"], count, 3, "normals"), *added])
+            normals = np.array([self._of(one.get("NORMAL"), count, 3, "normals") for one in holders])
         if self._still and self._tables[str(primitive["attributes"])] > 1:
             rows, faces = np.unique(faces, return_inverse=True)
             columns = tuple(replace(column, values=column.values[rows]) for column in columns)
@@ -419,8 +416,7 @@ class Scene:
         number = int(primitive.get("material", -1))
         return Part(
             node,
-            base[rows],
-            np.array(targets).reshape(len(targets), count, 3)[:, rows],
+            points[:, rows],
             colors[:, rows],
             faces,
             skin,
@@ -453,7 +449,7 @@ class Scene:
 
     def _columns(self, given: Tree, count: int) -> tuple[shapes.Column, ...]:
         found: list[shapes.Column] = []
-        for name, index in given.items():
+        for name, index in sorted(given.items()):  # sets are counted by their order
             kind, _, number = name.partition("_")
             if not name.startswith(("TEXCOORD_", "COLOR_", "_")):
                 continue
@@ -591,11 +587,11 @@ def _rate(keys: Doubles) -> float:
 def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> shapes.Polygons:
     """The parts of a scene as one mesh."""
     parts, positions = scene.turned(time), scene.at(time)
-    ends = np.cumsum([len(part.base) for part in parts])
+    ends = np.cumsum([part.points.shape[1] for part in parts])
     used = sorted({part.material for part in parts})
     made = (
         shapes.Part(
-            positions[end - len(part.base) : end],
+            positions[end - part.points.shape[1] : end],
             np.full(len(part.faces), 3),
             part.faces.reshape(-1),
             part.columns,
@@ -604,7 +600,7 @@ def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> sh
         )
         for part, end in zip(parts, ends.tolist())
     )
-    counts = [(len(part.base), len(part.faces)) for part in parts]
+    counts = [(part.points.shape[1], len(part.faces)) for part in parts]
     whole = shapes.joined_parts(made, counts, limits, document.received)
     metadata: dict[str, Value] = {}
     for name, value in _all_extras(document):
@@ -643,6 +639,7 @@ def _materials(document: Document, used: list[int], transparent: bool) -> tuple[
         if "alphaMode" not in tree and (transparent or factor[3] < 1):
             found["alphaMode"] = "OPAQUE"
         shine = tree.get("extensions", {}).get(STRENGTH, {}).get("emissiveStrength", 1.0)
+        found |= {"unlit": 1} if UNLIT in tree.get("extensions", {}) else {}
         for name, value in {**tree, **tree.get("pbrMetallicRoughness", {})}.items():
             if name.endswith("Texture"):
                 if (source := document.source_of(value["index"])) is None:
@@ -659,10 +656,9 @@ def _materials(document: Document, used: list[int], transparent: bool) -> tuple[
                     images[f"image.{numbers[key]}.data"] = data
                     images |= {f"image.{numbers[key]}.name": called} if called else {}
                 if f"image.{numbers[key]}.data" in images:
-                    found[name] = numbers[key]
-                    if moved := value.get("extensions", {}).get(TRANSFORM):  # counts from above, and MTL from below
-                        (across, up), (right, down) = moved.get("scale", (1, 1)), moved.get("offset", (0, 0))
-                        found[f"{name}.options"] = f"-s {across:.9g} {up:.9g} 1 -o {right:.9g} {1 - up - down:.9g} 0"
+                    sampler = document.item("textures", value["index"]).get("sampler")
+                    how = document.item("samplers", sampler) if sampler is not None else {}
+                    found |= texture_of(value, how, numbers[key]).in_words(name)
             elif isinstance(value, str | int | float):
                 found[name] = int(value) if isinstance(value, bool) else value
             elif isinstance(value, list) and all(isinstance(item, int | float) for item in value):

@@ -24,8 +24,8 @@ from bsm.files.formats.appearance import Material, Texture, appearance, as_numbe
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.room import NO_DOUBLES, Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream
-from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, MATTE, STRENGTH, UINT, Array, Tree, drawn
-from bsm.gltf.document import TRANSFORM, WEBP, Growing, bounds_of, mime_of
+from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, MATTE, STRENGTH, UINT, UNLIT, Array, Tree, drawn, words_of
+from bsm.gltf.document import WEBP, Growing, bounds_of, mime_of
 
 MOST_FRAMES = 2048
 """Viewers keep targets as the layers of one texture, of which graphics cards have 2,048, and some old ones 256."""
@@ -80,6 +80,7 @@ class _Scene(Growing):
         placed, expressed = placed_node(mesh.metadata, origin)
         names, taken, written = formats.names_in(mesh.metadata, "part"), set[str](), {*expressed, "part.names"}
         images, known = formats.images_in(mesh.metadata), formats.materials_in(mesh.metadata)
+        self._sets = sum(name.startswith("TEXCOORD_") for name in arrays)
         materials = {n: self._material(n, words, images, written) for n, words in known.items()}
         bare = [n for n in kinds[:, 1].tolist() if materials.get(n) is None]  # which viewers draw as black metal
         materials |= dict.fromkeys(bare, self.add("materials", dict(MATTE))) if bare else {}
@@ -114,33 +115,36 @@ class _Scene(Growing):
     ) -> int | None:
         """Add a material; None if glTF can express nothing of it. `written` gets the names of expressed properties."""
         look, _ = within(appearance(words))
-        found, surface, absent = Tree(), Tree(), list[Texture]()
+        found, surface, extensions, absent = Tree(), Tree(), Tree(), list[Texture]()
         for name, value in in_gltf(look).items():
             if isinstance(value, Texture):
-                if (texture := self._texture(*images.get(value.image, ("", b"")))) is None:
+                info, sampler = words_of(value if value.set < self._sets else replace(value, set=0))
+                if (texture := self._texture(*images.get(value.image, ("", b"")), sampler)) is None:
                     absent.append(value)
                     continue
                 written |= {f"image.{value.image}.data", f"image.{value.image}.name"}
-                value = {"index": texture, **self._moved(value)}
+                for extension in info.get("extensions", {}):
+                    self.use(extension, required=False)
+                value = {"index": texture, **info}
             elif name == "emissiveFactor" and (most := max(value)) > 1:
-                found["extensions"] = {STRENGTH: {"emissiveStrength": most}}
+                extensions[STRENGTH] = {"emissiveStrength": most}
                 value = [number / most for number in value]
-                self.use(STRENGTH, required=False)
+            elif name == "unlit":
+                extensions |= {UNLIT: {}} if value else {}
+                continue
             (surface if name.startswith(("baseColor", "metallic", "roughness")) else found)[name] = value
         found |= {"pbrMetallicRoughness": surface} if surface else {}
+        found |= {"extensions": extensions} if extensions else {}
+        for extension in extensions:
+            self.use(extension, required=False)
         held = {name for name in held_by("glTF") if getattr(look, name.partition(".")[0]) not in absent}
+        held -= {
+            f"{name}.set" for name, one in vars(look).items() if isinstance(one, Texture) and one.set >= self._sets
+        }
         written |= {f"material.{number}.{name}" for name in words.keys() - {*lost(words, held)}}
         return self.add("materials", found) if found else None
 
-    def _moved(self, texture: Texture) -> Tree:
-        """Return the extension by which a texture is moved and scaled; it counts from above."""
-        if texture == Texture(texture.image):
-            return {}
-        (across, up), (right, above) = texture.scale, texture.offset
-        self.use(TRANSFORM, required=False)
-        return {"extensions": {TRANSFORM: {"scale": [across, up], "offset": [right, 1 - up - above]}}}
-
-    def _texture(self, name: str, data: bytes) -> int | None:
+    def _texture(self, name: str, data: bytes, sampler: Tree) -> int | None:
         kind = mime_of(data)
         if kind not in ("image/png", "image/jpeg", "image/webp"):
             return None
@@ -151,6 +155,7 @@ class _Scene(Growing):
         if kind == "image/webp":
             texture = {"extensions": {WEBP: texture}}
             self.use(WEBP, required=True)
+        texture |= {"sampler": self.add("samplers", sampler)} if sampler else {}
         return self.add("textures", texture)
 
 

@@ -2,6 +2,8 @@
 
 import itertools
 import json
+import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,9 +13,11 @@ from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.cli import main
 from bsm.files.conventions import placement, unit_named
 from bsm.files.formats.appearance import Texture, appearance, in_mtl
-from bsm.files.formats.metadata import in_words
+from bsm.files.formats.metadata import in_words, materials_in
 from bsm.files.formats.polygons import Column, Part, joined_parts
 from bsm.files.mesh import write_mesh, written_mesh
+from bsm.files.motion.frames import Shared
+from bsm.files.sequence import sequence_writer
 from bsm.gltf.coding import MATTE
 from bsm.lengths import metres
 from tests.bsm.files.test_file_attributes import png
@@ -158,7 +162,8 @@ def test_vertices_that_are_transparent_blend():
 
 def test_options_of_images_and_words_for_what_is_lost():
     assert appearance({"norm": 1, "norm.options": "-s 2 3"}).normal_texture == Texture(1, (2.0, 3.0), (0.0, 0.0))
-    assert "norm.options" not in appearance({"norm": 1, "norm.options": "-clamp on"}).said
+    assert appearance({"norm": 1, "norm.options": "-clamp on"}).normal_texture == Texture(1, wrap=("clamp", "clamp"))
+    assert "norm.options" not in appearance({"norm": 1, "norm.options": "-bm 2"}).said
     metadata = {"material.0.name": "Glass", "material.0.d": "0.3", "material.1.d": "0.5", "image.0.name": "oak.png"}
     assert in_words([*metadata], metadata) == [
         "the image oak.png",
@@ -167,24 +172,59 @@ def test_options_of_images_and_words_for_what_is_lost():
     ]
 
 
-def test_textures_that_are_moved_stay_so(tmp_path):
-    """The options of MTL, the extension of glTF, and back; what MTL has no word for is named."""
-    metadata = {"material.0.name": "a", "material.0.map_Kd": 0, "material.0.map_Kd.options": "-s 2 3 1 -o 0.5 0.25 0"}
-    metadata |= {"image.0.name": "a.png", "image.0.data": png()}
-    of = (
-        Attribute("texcoord", np.array([[0, 0], [1, 0], [0, 1.0]])),
-        Attribute("material", np.zeros((1, 1), int), "face"),
+SAID = {"": 0, ".options": "-s 2 3 1 -o 0.5 0.25 0", ".rotation": 0.5, ".wrap": "clamp mirror", ".set": 1}
+SAID = {f"material.0.baseColorTexture{entry}": value for entry, value in SAID.items()} | {"material.0.unlit": 1}
+
+
+def with_two_sets(words=SAID):
+    sets = [Attribute(name, np.eye(3, 2) * n, "vertex", "texcoord") for n, name in enumerate("ab", 1)]
+    return TriangleMesh(TRIANGLE, [[0, 1, 2]], sets, {"image.0.name": "a.png", "image.0.data": png(), **words})
+
+
+def test_what_gltf_says_of_a_texture_comes_back():
+    written = written_mesh(with_two_sets(), "glb")
+    tree, _ = unpack(written.data)
+    material, again = tree["materials"][0], read_mesh(written.data, "glb")
+    info = material["pbrMetallicRoughness"]["baseColorTexture"]
+    moved = info["extensions"]["KHR_texture_transform"]
+    assert info["texCoord"] == 1 and tree["samplers"] == [{"wrapS": 33071, "wrapT": 33648}]
+    assert {*tree["extensionsUsed"]} == {*material["extensions"], "KHR_texture_transform"}
+    x, y, cos, sin = 0.25 * 2, 0.75 * 3, np.cos(moved["rotation"]), np.sin(moved["rotation"])
+    expected = [cos * x - sin * y + 0.5, 1 - (sin * x + cos * y + 0.25)]  # and glTF counts from above
+    x, y = moved["scale"] * np.array([0.25, 1 - 0.75])
+    assert moved["offset"] + np.array([cos * x + sin * y, cos * y - sin * x]) == pytest.approx(expected)
+    assert written.left_out == again.dropped == () and SAID.items() <= again.mesh.metadata.items()
+    one = replace(with_two_sets(), attributes=with_two_sets().attributes[:1])
+    assert written_mesh(one, "glb").left_out == ("baseColorTexture.set of material 0",)
+    swapped = re.sub(rb"TEXCOORD_(.)", lambda found: b"TEXCOORD_%d" % (1 - int(found[1])), written.data)
+    assert [a.values.max() for a in read_mesh(swapped, "glb").mesh.attributes] == [2, 1]  # sets have numbers
+
+
+def test_what_usd_says_of_a_texture_comes_back(tmp_path):
+    usd = pytest.importorskip("pxr.Usd")
+    mesh, path = with_two_sets(), str(tmp_path / "a.usdz")
+    shared = Shared(lambda: mesh.attributes, lambda: mesh.metadata)
+    with sequence_writer(path, "usdz", mesh.faces, 1, overwrite=True, shared=shared) as write:
+        write(mesh.positions)
+    assert shared.left_out == ["baseColorTexture.set, unlit of material 0"]
+    stage, again = usd.Stage.Open(path), read_mesh(path)
+    given = {prim.GetName(): prim.GetAttribute for prim in stage.Traverse()}
+    assert [given["diffuseColor_texture"](f"inputs:wrap{side}").Get() for side in "ST"] == ["clamp", "mirror"]
+    moved = [given["diffuseColor_transform"](f"inputs:{name}").Get() for name in ("scale", "rotation", "translation")]
+    assert moved == [(2, 3), pytest.approx(np.degrees(0.5)), (0.5, 0.25)] and again.dropped == ()
+    assert appearance(materials_in(again.mesh.metadata)[0]).color_texture == Texture(
+        0, (2, 3), (0.5, 0.25), pytest.approx(0.5), ("clamp", "mirror")
     )
-    written = written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]], of, metadata), "glb")
-    assert written.left_out == ()
-    again = read_mesh(written.data, "glb")
-    assert (
-        again.dropped == () and again.mesh.metadata["material.0.baseColorTexture.options"] == "-s 2 3 1 -o 0.5 0.25 0"
-    )
-    assert write_mesh(tmp_path / "a.obj", again.mesh) == ()
+
+
+def test_what_mtl_says_of_a_texture_comes_back(tmp_path):
+    lost = "baseColorTexture.rotation, baseColorTexture.wrap, baseColorTexture.set, unlit of material 0"
+    assert write_mesh(tmp_path / "a.obj", with_two_sets()) == ("b", lost)
     assert b"map_Kd -s 2 3 1 -o 0.5 0.25 0 " in (tmp_path / "a.mtl").read_bytes()
-    second = written_mesh(again.mesh, "glb").data
-    assert unpack(second)[0]["materials"] == unpack(written.data)[0]["materials"]
+    data = written_mesh(with_two_sets({"material.0.map_Kd": 0, "material.0.map_Kd.options": "-clamp on"}), "glb").data
+    assert unpack(data)[0]["samplers"] == [{"wrapS": 33071, "wrapT": 33071}]
+    write_mesh(tmp_path / "b.obj", read_mesh(data, "glb").mesh)
+    assert b"map_Kd -clamp on b.0.png" in (tmp_path / "b.mtl").read_bytes()
 
 
 SHADES = {3: np.array([[10, 20, 30]] * 3, np.uint8), 4: np.array([[10, 20, 30, 40]] * 3, np.uint8)}

@@ -25,11 +25,23 @@ Numbers: TypeAlias = tuple[float, ...]
 
 @dataclass(frozen=True)
 class Texture:
-    """An image by its number; coordinates, which count from the bottom, are scaled and then moved."""
+    """An image by its number; coordinates, which count from the bottom, are scaled, then turned, and then moved."""
 
     image: int
     scale: Numbers = (1.0, 1.0)
     offset: Numbers = (0.0, 0.0)
+    rotation: float = 0.0  # in radians, counterclockwise
+    wrap: tuple[str, ...] = ("repeat", "repeat")  # beyond the image, across and up; or clamp, mirror
+    set: int = 0  # of texture coordinates
+
+    def in_words(self, word: str) -> Material:
+        """The entries of a material that say this: the number of the image, options as in MTL, and others."""
+        scale, offset = (" ".join(f"{number:.9g}" for number in pair) for pair in (self.scale, self.offset))
+        options = [f"-s {scale} 1 -o {offset} 0"] * ((scale, offset) != ("1 1", "0 0"))
+        options += ["-clamp on"] * (both := self.wrap == ("clamp", "clamp"))
+        wrap = "" if both or self.wrap == ("repeat", "repeat") else " ".join(self.wrap)
+        more = {"options": " ".join(options), "rotation": self.rotation, "wrap": wrap, "set": self.set}
+        return {word: self.image, **{f"{word}.{name}": value for name, value in more.items() if value}}
 
 
 @dataclass(frozen=True)
@@ -50,6 +62,7 @@ class Appearance:
     roughness: float = 1.0
     cutoff: float = 0.5
     double_sided: bool = False
+    unlit: bool = False
     said: Mapping[str, tuple[str, ...]] = field(default_factory=dict, compare=False)  # fields by the words for them
 
     def says(self, name: str) -> bool:
@@ -68,17 +81,25 @@ def fields_of(kind: str) -> dict[str, list[str]]:
     return {word: [name for other, name in said if other == word] for word, _ in said}
 
 
+_OF_TEXTURES = {
+    "MTL": ("options",),
+    "USD": ("options", "rotation", "wrap"),
+    "glTF": ("options", "rotation", "wrap", "set"),
+}
+
+
 def held_by(kind: str) -> set[str]:
-    """Return the fields that a format holds; MTL and glTF also say how images are moved."""
+    """Return the fields that a format holds, and the entries about those that are textures."""
     held = {row["field"] for row in _ROWS[:-1] if row[kind]}
-    return held | ({f"{name}.moved" for name in held} if kind in ("MTL", "glTF") else set())
+    return held | {f"{name}.{entry}" for name in held for entry in _OF_TEXTURES.get(kind, ())}
 
 
 _GLTF, _MTL = fields_of("glTF"), fields_of("MTL")
 _OF_MTL = {word.lower(): word for word in {**_MTL, **dict.fromkeys(_ROWS[-1]["MTL"].split())} if word != "name"}
 """Words of MTL as most files write them, by those in lower case."""
 MTL_IMAGES = re.compile(r"map_\w+|bump|disp|decal|norm|refl")
-_MOVE = r"\s*-([so])((?:\s+[-+]?[\d.]+(?:e[-+]?\d+)?){1,3})"
+_MOVE = r"\s*-([so])((?:\s+[-+]?[\d.]+(?:e[-+]?\d+)?){1,3})|\s*-clamp\s+(on)\b"
+WAYS = ("repeat", "clamp", "mirror")
 _MTL_COLORS = ("Ka", "Kd", "Ks", "Ke", "Tf")
 _MTL_OPTIONS = re.compile(
     r"((?:-(?:type|colorspace)\s+\w+\s+|-[a-z]+(?:\s+(?:on|off|[lrgbmz]|[-+]?[\d.]+(?:e[-+]?\d+)?))+\s+)*)(\S.*)",
@@ -109,7 +130,7 @@ def appearance(words: Material) -> Appearance:
         if word in words and (values := _read(word, names, words)):
             said[word] = tuple(values)
             found = values | found
-            said |= {f"{word}.options": (f"{names[0]}.moved",)} if _moved(words, word) else {}
+            said |= {f"{word}.{entry}": (f"{names[0]}.{entry}",) for entry in _about(words, word)}
     metal, rough = (words.get(f"map_{word}") for word in ("Pm", "Pr"))
     if isinstance(rough, int) and (metal == rough or (metal is None and not any(as_numbers(words.get("Pm", 0))))):
         found.setdefault("surface_texture", Texture(rough))  # gray: green is the roughness, blue counts as metal
@@ -132,7 +153,8 @@ def _read(word: str, names: Sequence[str], words: Material) -> dict[str, Any]:
     value, numbers = words[word], as_numbers(str(words[word]).removeprefix("-halo"))
     name, usual = names[0], getattr(USUAL, names[0])
     if usual is None:
-        return {name: Texture(value, *(_moved(words, word) or ()))} if isinstance(value, int) else {}
+        about = {key: value for fields in _about(words, word).values() for key, value in fields.items()}
+        return {name: Texture(value, **about)} if isinstance(value, int) else {}
     if isinstance(usual, str):
         return {name: str(value)} if name == "name" or value in ("OPAQUE", "MASK", "BLEND") else {}
     if isinstance(usual, bool):
@@ -152,12 +174,18 @@ def is_black_beside_image(words: Material) -> bool:
     return "map_Kd" in words and as_numbers(words.get("Kd")) == [0.0] * 3
 
 
-def _moved(words: Material, word: str) -> tuple[Numbers, Numbers] | None:
-    """Return the scale and the offset, across and up, in the options of an image; None: these are others, or none."""
-    options = str(words.get(f"{word}.options", ""))
-    found = {name: tuple(as_numbers(numbers)[:2]) for name, numbers in re.findall(_MOVE, options)}
-    scale, offset = (found.get(name, usual) for name, usual in (("s", (1.0, 1.0)), ("o", (0.0, 0.0))))
-    return ((*scale, 1.0)[:2], (*offset, 0.0)[:2]) if re.fullmatch(f"(?:{_MOVE})+", options) else None
+def _about(words: Material, word: str) -> dict[str, dict[str, Any]]:
+    """Return the fields of a texture that the entries about it say, but for entries that make no sense."""
+    options, wrap = str(words.get(f"{word}.options", "")), tuple(str(words.get(f"{word}.wrap", "")).split())
+    rotation, which = as_numbers(words.get(f"{word}.rotation")), words.get(f"{word}.set")
+    found: dict[str, dict[str, Any]] = {"wrap": {"wrap": wrap}} if len(wrap) == 2 and {*wrap} <= {*WAYS} else {}
+    found |= {"rotation": {"rotation": rotation[0]}} if len(rotation) == 1 else {}
+    found |= {"set": {"set": which}} if isinstance(which, int) and which >= 0 else {}
+    if re.fullmatch(f"(?:{_MOVE})+", options):
+        given = {name: tuple(as_numbers(numbers)[:2]) for name, numbers, _ in re.findall(_MOVE, options)}
+        moved = {"scale": (*given.get("s", ()), 1.0, 1.0)[:2], "offset": (*given.get("o", ()), 0.0, 0.0)[:2]}
+        found["options"] = moved | ({"wrap": ("clamp", "clamp")} if "" in given else {})
+    return found
 
 
 def within(look: Appearance) -> tuple[Appearance, list[str]]:
@@ -190,8 +218,7 @@ def in_mtl(words: Material) -> Material:
             continue
         fields.remove(name)
         if isinstance(value, Texture):
-            options = next((words[key] for key in words if look.said.get(key) == (f"{name}.moved",)), None)
-            found |= {word: value.image} | ({f"{word}.options": options} if options else {})
+            found |= {key: entry for key, entry in value.in_words(word).items() if key == word or is_mtl(key)}
         elif name == "mode":
             found |= {word: found["map_Kd"]} if value != "OPAQUE" and "map_Kd" in found else {}
         elif name != "opacity" or (value != 1 and look.mode == "BLEND"):

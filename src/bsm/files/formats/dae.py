@@ -15,7 +15,7 @@ from bsm.bitstream.errors import imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Semantic
 from bsm.files.conventions import unit_named
-from bsm.files.formats.appearance import Material, as_text
+from bsm.files.formats.appearance import Material, Texture, as_text
 from bsm.files.formats.metadata import Beside, Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, cut_holes, joined_parts
 from bsm.files.room import Doubles, Ints, as_library_error, in_words
@@ -30,7 +30,8 @@ _IMAGES["transparent"] = "map_d"
 """Properties of effects, and what libraries of OBJ call them."""
 _TAKEN = Taken(rows_of("dae"))
 _DRAWN = ("triangles", "tristrips", "trifans", "polylist", "polygons")
-_WAYS = ("MIRROR", "CLAMP", "BORDER", "NONE", "NEAREST")  # of textures, in place of repeated and smooth ones
+_WAYS = {"WRAP": "repeat", "MIRROR": "mirror", "CLAMP": "clamp"}
+_OTHER_WAYS = ("BORDER", "NONE", "NEAREST")  # of textures
 _LUMINANCE = (0.212671, 0.715160, 0.072169)  # as COLLADA has it
 
 
@@ -140,14 +141,16 @@ class _Nodes:
             if isinstance(value := getattr(effect, given), self._collada.material.Map):
                 name = str(value.sampler.surface.image.path)
                 image = self._beside.read(unquote(name))
-                ways = ((_tag(one), str(one.text).strip()) for one in value.sampler.xmlnode.iter())
-                self.absent |= {f"{name} {way} of textures": None for name, way in ways if way in _WAYS}
+                ways = {_tag(one): str(one.text).strip() for one in value.sampler.xmlnode.iter()}
+                self.absent |= {f"{name} {way} of textures": None for name, way in ways.items() if way in _OTHER_WAYS}
                 self.absent |= {"the texcoord set of textures": None} if value.texcoord in others else {}
                 why = image if isinstance(image, str) else "" if kind_of_image(image) else "its format is not known"
                 if why:
                     self.absent[f"the image {name[:80]} ({why})"] = None
                     continue
-                found[word] = number = self._numbers.setdefault(name, len(self._numbers))
+                number = self._numbers.setdefault(name, len(self._numbers))
+                wrap = tuple(_WAYS.get(ways.get(side, ""), "repeat") for side in ("wrap_s", "wrap_t"))
+                found |= Texture(number, wrap=wrap).in_words(word)
                 self.images |= {f"image.{number}.name": name, f"image.{number}.data": image}
         if (opacity := _opacity(effect)) != 1:
             found["d"] = opacity

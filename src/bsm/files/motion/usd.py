@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shutil
@@ -35,6 +36,7 @@ from bsm.lengths import metres, unit_of
 
 _COORDINATES = "st"  # what texture coordinates are called
 _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader_float2"
+_MOVE, _SIDES = "UsdTransform2d", ("wrapS", "wrapT")
 _KINDS = {"diffuseColor": "Color3f", "emissiveColor": "Color3f", "normal": "Normal3f"}  # others are Float
 _INPUTS: Mapping[str, tuple[Any, ...]] = {
     name: (_KINDS.get(name, "Float"), *map({f.endswith("_texture"): f for f in fields}.get, (False, True)))
@@ -122,16 +124,16 @@ class Materials:
         if not surface or surface.GetIdAttr().Get() != _SURFACE:
             return {"name": called}
         look: dict[str, Any] = {}
-        self._unsaid |= {f"texture of {name}" for name in ("metallic", "roughness") if self._texture(surface, name)}
+        self._unsaid |= {f"texture of {name}" for name in ("metallic", "roughness") if self._source(surface, name)}
         for name, (kind, number, painted) in _INPUTS.items():
             value = self._value(surface, name, 3 if kind == "Color3f" else 1) or _USUAL.get(name)
-            if texture := self._texture(surface, name) if painted else None:
+            if texture := self._source(surface, name) if painted else None:
                 image = texture.GetInput("file").Get() if texture.GetInput("file") else None
                 if image is not None and image.path:
                     _, packed, inside = str(image.resolvedPath).rpartition("[")
                     folder = Path(self._path).resolve().parent
                     path = inside.rstrip("]") if packed else os.path.relpath(inside or folder / image.path, folder)
-                    look[painted] = looks.Texture(self._images.setdefault(path, len(self._images)))
+                    look[painted] = self._placed(texture, self._images.setdefault(path, len(self._images)))
                 space = texture.GetInput("sourceColorSpace")
                 if space and space.Get() not in ("auto", "sRGB" if kind == "Color3f" else "raw"):
                     self._unsaid.add(f"sourceColorSpace of {_TEXTURE}")
@@ -139,20 +141,31 @@ class Materials:
             if number and value:
                 look[number] = tuple(value) if kind == "Color3f" else value[0]
         opacity, cut = (self._value(surface, "opacity", 1) or [1.0])[0], look.get("cutoff", 0.0)
-        if cut > 0 or opacity < 1 or self._texture(surface, "opacity") is not None:
+        if cut > 0 or opacity < 1 or self._source(surface, "opacity") is not None:
             look["mode"] = "MASK" if cut > 0 else "BLEND"
         said = {"": ("metallic", "roughness", *(name for name in look if name == "cutoff"))}
         given = looks.in_gltf(looks.Appearance(called, **look, opacity=opacity, said=said))
-        given = {word: value.image if isinstance(value, looks.Texture) else value for word, value in given.items()}
-        return {word: value if isinstance(value, int | str) else looks.as_text(value) for word, value in given.items()}
+        images = [word for word, value in given.items() if isinstance(value, looks.Texture)]
+        plain = ((w, v if isinstance(v, int | str) else looks.as_text(v)) for w, v in given.items() if w not in images)
+        return dict(plain) | {key: entry for word in images for key, entry in given[word].in_words(word).items()}
 
-    def _texture(self, shader: Any, name: str) -> Any:
-        """The texture that an input takes its value from, if it takes it from one."""
+    def _placed(self, texture: Any, image: int) -> looks.Texture:
+        """A texture with the way in which it goes on beyond its image, and the transform of its coordinates."""
+        ways = [given.Get() if (given := texture.GetInput(side)) else "" for side in _SIDES]
+        about: dict[str, Any] = {"wrap": tuple(way if way in looks.WAYS else "repeat" for way in ways)}
+        if move := self._source(texture, "st", _MOVE):
+            given = {name: self._value(move, name, 2) for name in ("scale", "translation")}
+            about |= {{"translation": "offset"}.get(name, name): tuple(pair) for name, pair in given.items() if pair}
+            about["rotation"] = math.radians((self._value(move, "rotation", 1) or [0.0])[0])
+        return looks.Texture(image, **about)
+
+    def _source(self, shader: Any, name: str, kind: str = _TEXTURE) -> Any:
+        """The shader of a kind that an input takes its value from, if it takes it from one."""
         given = shader.GetInput(name)
         if not given or not given.HasConnectedSource() or not (sources := given.GetValueProducingAttributes()):
             return None
         source = self._shade.Shader(sources[0].GetPrim())
-        return source if source and source.GetIdAttr().Get() == _TEXTURE else None
+        return source if source and source.GetIdAttr().Get() == kind else None
 
     @staticmethod
     def _value(shader: Any, name: str, width: int) -> list[float] | None:
@@ -261,9 +274,15 @@ def _write_surface(pxr: Any, material: Any, look: looks.Appearance, images: Mapp
         reader.CreateInput("varname", types.String).Set(_COORDINATES)
         texture = shader(f"{name}_texture", _TEXTURE)
         texture.CreateInput("file", types.Asset).Set(pxr.Sdf.AssetPath(f"./{image}"))
+        if (shown.scale, shown.offset, shown.rotation) != ((1.0, 1.0), (0.0, 0.0), 0.0):
+            reader, placed = shader(f"{name}_transform", _MOVE), reader
+            reader.CreateInput("in", types.Float2).ConnectToSource(placed.ConnectableAPI(), "result")
+            reader.CreateInput("scale", types.Float2).Set(pxr.Gf.Vec2f(*shown.scale))
+            reader.CreateInput("rotation", types.Float).Set(math.degrees(shown.rotation))
+            reader.CreateInput("translation", types.Float2).Set(pxr.Gf.Vec2f(*shown.offset))
         texture.CreateInput("st", types.Float2).ConnectToSource(reader.ConnectableAPI(), "result")
-        for side in ("wrapS", "wrapT"):
-            texture.CreateInput(side, types.Token).Set("repeat")
+        for side, way in zip(_SIDES, shown.wrap):
+            texture.CreateInput(side, types.Token).Set(way)
         opacity = look.opacity if name == "diffuseColor" and look.mode != "OPAQUE" else 1.0
         if isinstance(value, tuple) and (*value, opacity) != (1.0,) * 4:
             texture.CreateInput("scale", types.Float4).Set(pxr.Gf.Vec4f(*value, opacity))
