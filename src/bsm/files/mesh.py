@@ -23,7 +23,7 @@ from bsm.files import pipes
 from bsm.files.formats.metadata import Beside, Written, fetched, images_in
 from bsm.files.formats.polygons import Cut, MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
-from bsm.files.pipes import Input, Source, as_input, file_beside, is_url
+from bsm.files.pipes import Input, Source, as_input, is_url
 from bsm.files.room import PRECISION, gunzipped, plain_text
 from bsm.files.table import FORMATS, GLTF, MESH_FORMATS, USD_FORMATS, WRITTEN_FORMATS, format_of_bytes, other_kind
 
@@ -201,15 +201,10 @@ def size_with_parts(path: str, metadata: Metadata) -> tuple[int | None, dict[str
 
 def copied(source: str, mesh: TriangleMesh, output: str | os.PathLike[str]) -> Written:
     """The bytes of a mesh file, and, unless they go to its own folder, those of the files there that it names."""
-    folder, beside, lost = Path(source).resolve().parent, dict[str, bytes](), list[str]()
-    if not can_be_replaced(output) or Path(output).resolve().parent != folder:
-        libraries, images = str(mesh.metadata.get("mtllib", "")).split("\n"), images_in(mesh.metadata).values()
-        for name in filter(None, (*libraries, *(name for name, _ in images))):
-            try:
-                beside[Path(name).name] = file_beside(folder, Path(name).name).read_bytes()
-            except FormatError:
-                lost.append(name)
-    return Written(Path(source).read_bytes(), tuple(lost), beside)
+    elsewhere = not can_be_replaced(output) or Path(output).resolve().parent != Path(source).resolve().parent
+    parts = parts_of(source, mesh.metadata) if elsewhere else {}
+    beside = {Path(name).name: part.read_bytes() for name, part in parts.items() if part}
+    return Written(Path(source).read_bytes(), tuple(name for name, part in parts.items() if not part), beside)
 
 
 def save_written(

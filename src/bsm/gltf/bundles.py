@@ -121,21 +121,16 @@ def _vertices(document: gltf.Document, primitive: Tree) -> dict[str, Array] | st
         array, normalized = document.array(index), bool(document.item("accessors", index).get("normalized"))
         geometry = name.rpartition("/")[2].startswith(("POSITION", "NORMAL", "TANGENT", "TEXCOORD_"))
         narrow = normalized and (name.startswith("_") or array[0].nbytes % 4 > 0)
-        arrays[name] = _floats(array, normalized) if geometry or narrow else array
+        if (geometry or narrow) and array.dtype.itemsize <= 2:
+            values = array.astype(np.float32)
+            array = np.maximum(values / np.iinfo(array.dtype).max, -1, dtype=np.float32) if normalized else values
+        arrays[name] = array
     positions = arrays.get("POSITION")
     if positions is None or positions.dtype != np.float32 or not np.isfinite(positions).all():
         return "positions that are not finite floats"
     if any(len(array) != len(positions) for array in arrays.values()):
         return "attributes of different lengths"
     return arrays
-
-
-def _floats(array: Array, normalized: bool) -> Array:
-    """Return the values of normalized integers as float32, of any shape."""
-    if array.dtype.itemsize > 2 or array.dtype.kind not in "iu":
-        return array
-    values = array.astype(np.float32)
-    return np.maximum(values / np.iinfo(array.dtype).max, -1, dtype=np.float32) if normalized else values
 
 
 def _opens(arrays: Mapping[str, Array], faces: npt.NDArray[np.int64]) -> bool:

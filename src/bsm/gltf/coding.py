@@ -123,12 +123,12 @@ def texture_of(info: Tree, sampler: Tree, image: int) -> Texture:
     (across, up), (right, down) = moved.get("scale", (1.0, 1.0)), moved.get("offset", (0.0, 0.0))
     turn, which = moved.get("rotation", 0.0), moved.get("texCoord", info.get("texCoord", 0))
     offset = right + up * math.sin(turn), 1 - up * math.cos(turn) - down
-    wrap = tuple(_WRAPS.get(sampler.get(name), "repeat") for name in ("wrapS", "wrapT"))
+    wrap = tuple(_WRAPS.get(sampler.get(name, 0), "repeat") for name in ("wrapS", "wrapT"))
     return Texture(image, (across, up), offset, turn, wrap, which)
 
 
 def words_of(texture: Texture) -> tuple[Tree, Tree]:
-    """What a material says of a texture, but for its number, and the sampler."""
+    """Return the words of a material for a texture, without its number, and the sampler."""
     (across, up), (right, above), turn = texture.scale, texture.offset, texture.rotation
     info: Tree = {"texCoord": texture.set} if texture.set else {}
     if (across, up, right, above, turn) != (1, 1, 0, 0, 0):

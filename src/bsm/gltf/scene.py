@@ -299,14 +299,15 @@ class Scene:
     def _shown(self, part: Part, tables: Doubles, time: float) -> Doubles:
         """The first table, and of each of the others as much as its target has weight."""
         targets = tables[1:]
+        found: Doubles = tables[0]
         if not len(targets):
-            return tables[0]
+            return found
         node = self._nodes[part.node]
         given = node.get("weights", self._document.item("meshes", node["mesh"]).get("weights", [0.0] * len(targets)))
         curve = self._curves.get((part.node, "weights"))
         weights = np.asarray(given, np.float64).reshape(len(targets)) if curve is None else curve.at(time)
         used = np.flatnonzero(weights)
-        return tables[0] + np.tensordot(weights[used], targets[used], 1)
+        return found + np.asarray(np.tensordot(weights[used], targets[used], 1))
 
     def _animated(self, animation: Tree) -> dict[tuple[int, str], Curve]:
         document, found, numbers = self._document, {}, 0
@@ -449,8 +450,9 @@ class Scene:
 
     def _columns(self, given: Tree, count: int) -> tuple[shapes.Column, ...]:
         found: list[shapes.Column] = []
-        for name, index in sorted(given.items()):  # sets are counted by their order
-            kind, _, number = name.partition("_")
+        kinds = [name.partition("_")[0] for name in given]
+        for name in sorted(given, key=lambda name: (kinds.index(kind := name.partition("_")[0]), name * bool(kind))):
+            index, (kind, _, number) = given[name], name.partition("_")  # sets are counted by their order
             if not name.startswith(("TEXCOORD_", "COLOR_", "_")):
                 continue
             values: Any = self._document.numbers(index, whole=kind == "COLOR")

@@ -115,27 +115,25 @@ class _Scene(Growing):
     ) -> int | None:
         """Add a material; None if glTF can express nothing of it. `written` gets the names of expressed properties."""
         look, _ = within(appearance(words))
-        found, surface, extensions, absent = Tree(), Tree(), Tree(), list[Texture]()
-        for name, value in in_gltf(look).items():
+        said, found, surface, absent = in_gltf(look), Tree(), Tree(), list[Texture]()
+        extensions: Tree = {UNLIT: {}} if said.pop("unlit", False) else {}
+        used = set[str]()
+        for name, value in said.items():
             if isinstance(value, Texture):
                 info, sampler = words_of(value if value.set < self._sets else replace(value, set=0))
                 if (texture := self._texture(*images.get(value.image, ("", b"")), sampler)) is None:
                     absent.append(value)
                     continue
                 written |= {f"image.{value.image}.data", f"image.{value.image}.name"}
-                for extension in info.get("extensions", {}):
-                    self.use(extension, required=False)
+                used |= info.get("extensions", {}).keys()
                 value = {"index": texture, **info}
             elif name == "emissiveFactor" and (most := max(value)) > 1:
                 extensions[STRENGTH] = {"emissiveStrength": most}
                 value = [number / most for number in value]
-            elif name == "unlit":
-                extensions |= {UNLIT: {}} if value else {}
-                continue
             (surface if name.startswith(("baseColor", "metallic", "roughness")) else found)[name] = value
         found |= {"pbrMetallicRoughness": surface} if surface else {}
         found |= {"extensions": extensions} if extensions else {}
-        for extension in extensions:
+        for extension in sorted(used | extensions.keys()):
             self.use(extension, required=False)
         held = {name for name in held_by("glTF") if getattr(look, name.partition(".")[0]) not in absent}
         held -= {

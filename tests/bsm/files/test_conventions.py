@@ -1,6 +1,5 @@
 """What is written acts in other programs: size, up, opacity, colors; parts that differ are joined without a loss."""
 
-import itertools
 import json
 import re
 from dataclasses import replace
@@ -227,9 +226,6 @@ def test_what_mtl_says_of_a_texture_comes_back(tmp_path):
     assert b"map_Kd -clamp on b.0.png" in (tmp_path / "b.mtl").read_bytes()
 
 
-SHADES = {3: np.array([[10, 20, 30]] * 3, np.uint8), 4: np.array([[10, 20, 30, 40]] * 3, np.uint8)}
-
-
 def part(*columns):
     return Part(TRIANGLE, np.array([3]), np.arange(3), columns, np.zeros(1, np.int64), "")
 
@@ -239,21 +235,14 @@ def joined(*parts):
     return {attribute.name: attribute for attribute in found.mesh.attributes}, found.notes
 
 
-@pytest.mark.parametrize("widths", [*itertools.product((3, 4), repeat=2)])
-def test_colors_of_three_and_of_four_numbers_are_joined(widths):
-    found, notes = joined(*(part(Column("color", SHADES[width], "vertex", "color")) for width in widths))
-    expected = [SHADES[width][0].tolist() + [255] * (max(widths) - width) for width in widths]
-    assert found["color"].values[[0, 3]].tolist() == expected and len(notes) == 1
-
-
-@pytest.mark.parametrize("widths", [(2, 3), (1, 4), (3, 2)])
-def test_values_of_fewer_numbers_get_zeros_after_them(widths):
-    tables = [np.full((3, width), 7.0, np.float32) for width in widths]
-    found, notes = joined(*(part(Column("W", table)) for table in tables), part())
-    most = max(widths)
-    assert found["W"].values[::3].tolist() == [[7] * width + [0] * (most - width) for width in (*widths, 0)]
-    assert f"parts whose W has fewer than {most} numbers were given zeros after them" in notes
-    assert "parts without W were given zeros: 1" in notes
+@pytest.mark.parametrize(("meaning", "blank", "filled"), [("color", 255, "white"), ("generic", 0, "zeros")])
+@pytest.mark.parametrize("widths", [(3, 4), (4, 3), (3, 3)])
+def test_values_of_fewer_numbers_are_filled_up(widths, meaning, blank, filled):
+    tables, most = [np.full((3, width), 7, np.uint8) for width in widths], max(widths)
+    found, notes = joined(*(part(Column("W", table, "vertex", meaning)) for table in tables), part())
+    assert found["W"].values[::3].tolist() == [[7] * width + [blank] * (most - width) for width in (*widths, 0)]
+    told = f"parts whose W has fewer than {most} numbers were given zeros after them" in notes
+    assert told == (meaning == "generic" and most > min(widths)) and f"parts without W were given {filled}: 1" in notes
 
 
 def test_parts_without_normals_get_those_of_their_faces():

@@ -99,30 +99,6 @@ def test_materials_there_and_back(kind, tmp_path, capsys):
     assert sum(len(subset.GetIndicesAttr().Get()) for subset in subsets) == 76
 
 
-def test_one_material_needs_no_subsets(tmp_path):
-    from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
-
-    path = str(tmp_path / "one.usda")
-    stage = Usd.Stage.CreateNew(path)
-    mesh = UsdGeom.Mesh.Define(stage, "/mesh")
-    mesh.CreateFaceVertexCountsAttr([3])
-    mesh.CreateFaceVertexIndicesAttr([0, 1, 2])
-    mesh.CreatePointsAttr([Gf.Vec3f(0, 0, 0), Gf.Vec3f(1, 0, 0), Gf.Vec3f(0, 1, 0)])
-    material = UsdShade.Material.Define(stage, "/mesh/glass")
-    surface = UsdShade.Shader.Define(stage, "/mesh/glass/surface")
-    surface.CreateIdAttr("UsdPreviewSurface")
-    surface.CreateInput("opacity", Sdf.ValueTypeNames.Float).Set(0.25)
-    surface.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(1, 1, 0.5))
-    surface.CreateInput("emissiveColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(0, float("nan"), 0))
-    material.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "surface")
-    UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
-    stage.Save()
-    found = read_mesh(path).mesh
-    assert found.metadata["material.0.baseColorFactor"] == "1 1 0.5 0.25"
-    assert "material.0.emissiveFactor" not in found.metadata
-    assert not any(attribute.name == "material" for attribute in found.attributes)
-
-
 STAGE = """#usda 1.0
 def Mesh "G" (prepend apiSchemas = ["MaterialBindingAPI"]) {
     point3f[] points = [(0,0,0),(1,0,0),(0,1,0)]
@@ -154,6 +130,8 @@ def Material "M" {
             "color3f inputs:emissiveColor.connect = </M/T.outputs:rgb>",
             {"emissiveFactor": "1 1 1", "emissiveTexture": 0},
         ),
+        ("color3f inputs:diffuseColor = (1, 1, 0.5)\nfloat inputs:opacity = 0.25", {"baseColorFactor": "1 1 0.5 0.25"}),
+        ("color3f inputs:emissiveColor = (0, nan, 0)", {}),
     ],
 )
 def test_defaults_and_inputs_of_surfaces(inputs, words, tmp_path):
@@ -161,8 +139,9 @@ def test_defaults_and_inputs_of_surfaces(inputs, words, tmp_path):
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "W.png").write_bytes(b"\x89PNG\r\n\x1a\n")
     (tmp_path / "a.usda").write_text(STAGE % inputs)
-    metadata = read_mesh(tmp_path / "a.usda").mesh.metadata
-    found = {key.removeprefix("material.0."): value for key, value in metadata.items()}
+    mesh = read_mesh(tmp_path / "a.usda").mesh
+    found = {key.removeprefix("material.0."): value for key, value in mesh.metadata.items()}
+    assert mesh.attributes == () and ("emissiveFactor" in words) == ("emissiveFactor" in found)
     assert {"metallicFactor": "0", "roughnessFactor": "0.5", **words}.items() <= found.items()
 
 

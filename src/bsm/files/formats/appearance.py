@@ -40,7 +40,7 @@ class Texture:
         options = [f"-s {scale} 1 -o {offset} 0"] * ((scale, offset) != ("1 1", "0 0"))
         options += ["-clamp on"] * (both := self.wrap == ("clamp", "clamp"))
         wrap = "" if both or self.wrap == ("repeat", "repeat") else " ".join(self.wrap)
-        more = {"options": " ".join(options), "rotation": self.rotation, "wrap": wrap, "set": self.set}
+        more: Material = {"options": " ".join(options), "rotation": self.rotation, "wrap": wrap, "set": self.set}
         return {word: self.image, **{f"{word}.{name}": value for name, value in more.items() if value}}
 
 
@@ -72,26 +72,21 @@ class Appearance:
 
 USUAL = Appearance()
 _ROWS = [*csv.DictReader(Path(__file__).with_suffix(".csv").read_text().splitlines())]
-"""A row for each field with its words in each format, those after ~ converted; the last has those of no field."""
+"""A row for each field with its words in each format, those after ~ converted; rows with * have
+the entries about each texture; the last row has the words of no field."""
 
 
 def fields_of(kind: str) -> dict[str, list[str]]:
     """Return the fields that each word of a format says."""
-    said = [(word, row["field"]) for row in _ROWS[:-1] for word in row[kind].replace("~", "").split()]
+    rows = [row for row in _ROWS[:-1] if "*" not in row["field"]]
+    said = [(word, row["field"]) for row in rows for word in row[kind].replace("~", "").split()]
     return {word: [name for other, name in said if other == word] for word, _ in said}
-
-
-_OF_TEXTURES = {
-    "MTL": ("options",),
-    "USD": ("options", "rotation", "wrap"),
-    "glTF": ("options", "rotation", "wrap", "set"),
-}
 
 
 def held_by(kind: str) -> set[str]:
     """Return the fields that a format holds, and the entries about those that are textures."""
-    held = {row["field"] for row in _ROWS[:-1] if row[kind]}
-    return held | {f"{name}.{entry}" for name in held for entry in _OF_TEXTURES.get(kind, ())}
+    held = [row["field"] for row in _ROWS[:-1] if row[kind]]
+    return {entry.replace("*", name) for name in held if "*" not in name for entry in held}
 
 
 _GLTF, _MTL = fields_of("glTF"), fields_of("MTL")

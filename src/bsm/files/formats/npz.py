@@ -65,10 +65,6 @@ def read_header(file: IO[bytes] | Input) -> tuple[tuple[int, ...], bool, Kind]:
     return shape, fortran, kind
 
 
-def size_of(shape: tuple[int, ...], kind: Kind) -> int:
-    return math.prod(shape) * kind.itemsize
-
-
 def read_npy(file: Input, bound: str = "vertices", limits: Limits = DEFAULT_LIMITS) -> Array | None:
     """The next table of three columns of a pipe, or None at its end; the limit called `bound` is that of its rows."""
     if not (begin := file.peek(len(NPY))):
@@ -79,7 +75,7 @@ def read_npy(file: Input, bound: str = "vertices", limits: Limits = DEFAULT_LIMI
     if len(shape) != 2 or shape[1] != 3:
         raise FormatError(f"an array of {kind} and shape {shape} is neither faces nor a frame: (n, 3) numbers are")
     require_count(bound, shape[0], limits)
-    size = size_of(shape, kind)
+    size = math.prod(shape) * kind.itemsize
     data = file.read(size)
     if len(data) < size:
         raise TruncatedError(f"an npy array has {len(data)} of {size} bytes")
@@ -133,7 +129,7 @@ class NpzArray:
 
     @property
     def size(self) -> int:
-        return size_of(self.shape, self._kind)
+        return math.prod(self.shape) * self._kind.itemsize
 
     def whole(self) -> Array:
         """All numbers; `LimitError` beyond 4 GiB."""
@@ -154,7 +150,7 @@ class NpzArray:
 
     def _taken(self, shape: tuple[int, ...]) -> Array:
         """The next numbers; memory is allocated only for bytes that are present."""
-        size = size_of(shape, self._kind)
+        size = math.prod(shape) * self._kind.itemsize
         with _reading(self._name):
             if len(data := self._entry.read(size)) < size:
                 raise CorruptError(f"the array {self._name} of {self.size} bytes ends early")

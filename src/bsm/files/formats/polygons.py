@@ -95,21 +95,21 @@ def _made_alike(parts: Sequence[Part], given: list[Column | None], notes: list[s
     if len(meanings) > 1:
         given = [c and replace(c, semantic="generic") for c in given]
     if any(c.values.shape[1] < most for c in every):
-        given = [c and _widened(c, most) for c in given]
+        more = [((0, 0), (0, most - c.values.shape[1])) if c else () for c in given]
+        given = [c and replace(c, values=np.pad(c.values, m, constant_values=_blank(c))) for c, m in zip(given, more)]
         if meanings - {"color", "texcoord"}:
             notes.append(f"parts whose {name} has fewer than {most} numbers were given zeros after them")
     if meanings == {"normal"} and None in given:
         notes.append(f"parts without normals were given those of their faces: {given.count(None)}")
-        given = [column or part.own_normals(name) for part, column in zip(parts, given, strict=True)]
+        given = [c or Column(name, part.normals(), "face", "normal") for part, c in zip(parts, given, strict=True)]
     if len({column.domain for column in given if column}) > 1:
         given = [column and part.at_corners(column) for part, column in zip(parts, given, strict=True)]
     return given
 
 
-def _widened(column: Column, width: int) -> Column:
-    values = column.values
-    blank = _FULL.get(values.dtype.name, 1) if column.semantic == "color" else 0
-    return replace(column, values=np.pad(values, ((0, 0), (0, width - values.shape[1])), constant_values=blank))
+def _blank(column: Column) -> int:
+    """The opacity of a color, or zero."""
+    return {"uint8": 255, "uint16": 65535}.get(column.values.dtype.name, 1) if column.semantic == "color" else 0
 
 
 def _concatenated(parts: Sequence[Part], given: list[Column | None]) -> Column:
@@ -118,22 +118,18 @@ def _concatenated(parts: Sequence[Part], given: list[Column | None]) -> Column:
     if there[0].semantic == "color" and len({c.values.dtype for c in there}) > 1:  # bytes here, floats there
         given = [c and replace(c, values=shares_of(c.values).astype(np.float32)) for c in given]
     model = next(filter(None, given))
-    blank = _FULL.get(model.values.dtype.name, 1) if model.semantic == "color" else 0
     tables, places, begin = [], [], 0
     for part, column in zip(parts, given, strict=True):
         if column is None:
             count = {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)}[model.domain]
             size = min(count, 1) if model.domain == "corner" else count
-            values = np.full((size, model.values.shape[1]), blank, model.values.dtype)
+            values = np.full((size, model.values.shape[1]), _blank(model), model.values.dtype)
             column = replace(model, values=values, indices=np.zeros(count, np.int64))
         tables.append(column.values)
         places.append(begin + (np.empty(0, np.int64) if column.indices is None else column.indices))
         begin += len(column.values)
     at_corners = np.concatenate(places) if model.domain == "corner" else None
     return replace(model, values=np.concatenate(tables), indices=at_corners)
-
-
-_FULL = {"uint8": 255, "uint16": 65535}  # of a color
 
 
 def polygon_normals(positions: Doubles, sizes: Ints, corners: Ints) -> Doubles:
@@ -320,9 +316,8 @@ class Part:
         known = {"vertex": self.corners, "face": faces, "corner": column.indices}
         return replace(column, domain="corner", indices=known[column.domain])
 
-    def own_normals(self, name: str) -> Column:
-        values = compact(polygon_normals(self.positions, self.sizes, self.corners))
-        return self.at_corners(Column(name, values, "face", "normal"))
+    def normals(self) -> Array:
+        return compact(polygon_normals(self.positions, self.sizes, self.corners))
 
     def without(self, faces: Ints) -> Part:
         """Return the part without some of its polygons."""

@@ -13,7 +13,7 @@ from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files.conventions import TIME_VALUE
+from bsm.files.conventions import TIME_VALUE, shares_of
 from bsm.files.formats.appearance import as_numbers
 from bsm.files.table import RATE, START, STEP, TIMES
 
@@ -145,7 +145,7 @@ def painted_like(first: TriangleMesh, mesh: TriangleMesh) -> TriangleMesh:
         kind = kinds.get(attribute.name, attribute.values.dtype)
         if kind == attribute.values.dtype or attribute.semantic != "color":
             return attribute
-        shades = attribute.values / (255.0 if attribute.values.dtype == np.uint8 else 1.0)
+        shades = shares_of(attribute.values)
         return replace(attribute, values=(np.rint(255.0 * shades) if kind == np.uint8 else shades).astype(kind))
 
     return replace(mesh, attributes=tuple(map(same, mesh.attributes)))

@@ -264,7 +264,7 @@ def _write_surface(pxr: Any, material: Any, look: looks.Appearance, images: Mapp
     for name, (kind, number, painted) in _INPUTS.items():
         shown = getattr(look, painted) if painted else None
         value, image = getattr(look, number) if number else None, images.get(shown.image) if shown else None
-        if image is None:
+        if image is None or shown is None:
             held.discard(painted)
             if number and (name in needed or look.says(number)):
                 value = pxr.Gf.Vec3f(*value) if isinstance(value, tuple) else value
