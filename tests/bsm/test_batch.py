@@ -21,6 +21,7 @@ from bsm.files.pipes import _errors_of
 from bsm.jobs.plan import plan
 from bsm.jobs.report import table
 from tests.bsm import program
+from tests.bsm.test_libraries import painted
 from tools.noise import gaussian_along_normals
 
 ROOT = program.ROOT
@@ -304,6 +305,33 @@ def test_inputs_that_differ_in_their_suffix_alone_keep_it(corpus, tmp_path):
     assert "failed: the file is cut short" in lines[head + 1]
     again = bsm("encode", "-r", corpus, "-o", tmp_path / "out", "--report", corpus / "r.json", "--resume")
     assert "3 of 4 were up to date" in again.stderr and "as it was" not in again.stderr.splitlines()[0]
+
+
+def keys_of(facts, listed, before=""):
+    """The keys of facts; a dot leads into tables whose keys are listed."""
+    for name, value in facts.items():
+        yield f"{before}{name}"
+        for part in value if isinstance(value, list) else [value]:
+            if isinstance(part, dict) and any(known.startswith(f"{name}.") for known in listed):
+                yield from keys_of(part, listed, f"{name}.")
+
+
+def test_the_documents_list_all_keys_of_reports_and_of_info(corpus, meshes, tmp_path):
+    listed = re.findall(r"^\| `([\w.]+)`", (ROOT / "docs/json.md").read_text(), re.MULTILINE)
+    write_mesh(corpus / "painted.obj", painted(knot(100)))
+    np.savez(tmp_path / "moving.npz", positions=np.stack([knot(100).positions] * 2), faces=knot(100).faces)
+    encode = ("encode", "-r", corpus, "-o", tmp_path / "out", "--max-error", "0.1mm", "--meta", "unit=mm")
+    moving = ("encode", "-f", tmp_path / "moving.npz", "-o", tmp_path / "out/moving.bsm")
+    decode = ("decode", "-f", "-r", tmp_path / "out", "-o", tmp_path / "back")
+    denoise = ("denoise", "-f", meshes / "a.npz", "-o", tmp_path / "a.npz", "--look")
+    facts = []
+    for words in (encode, (*encode, "--resume"), moving, decode, denoise):
+        bsm(*words, "--report", tmp_path / "r.json")
+        facts.append(report := json.loads((tmp_path / "r.json").read_text()))
+        facts += report["files"]
+    assert bsm("glb", meshes / "a.npz", "-o", tmp_path / "a.glb").returncode == 0
+    facts += [program.run_json("info", tmp_path / name) for name in ("out/painted.bsm", "out/moving.bsm", "a.glb")]
+    assert {key for each in facts for key in keys_of(each, listed)} == {*listed}
 
 
 def test_a_table_has_failures_first_and_then_the_largest_errors_in_one_unit():

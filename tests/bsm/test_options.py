@@ -1,6 +1,6 @@
 """Options by keyword: what Python and the command line share."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -34,7 +34,9 @@ def test_presets_of_sequences(preset):
             sequence_options(preset=preset, **other)
 
 
-def test_bounds_of_sequences():
+def test_targets_and_bounds_of_sequences():
+    options = sequence_options(kg=0.1, low_delay=4, overlap=1.2)
+    assert (options.target, options.low_delay, options.overlap) == (bsm.SequenceTarget("kg", 0.1), 4, 1.2)
     assert sequence_options(max_error="0.2%").promise == bsm.Contract(0.002, look=1.0)
     assert sequence_options(max_error="3mm", look=2).promise == bsm.Contract(3.0, look=2.0, absolute=True)
     assert sequence_options(preset="fine", look=2).promise == bsm.Contract(PROMISES["fine"].farthest, look=2.0)
@@ -65,18 +67,6 @@ def test_the_command_line_has_the_same_targets():
     assert [target.field for target in flags.FLAGS["bounds"]] == list(BOUNDS)
 
 
-def test_sequences():
-    options = sequence_options(kg=0.1, low_delay=4, overlap=1.2)
-    assert options.target == bsm.SequenceTarget("kg", 0.1)
-    assert (options.low_delay, options.overlap) == (4, 1.2)
-
-
-@pytest.mark.parametrize("name", [field.name for field in fields(bsm.EncodeOptions)])
-def test_a_value_of_the_wrong_type_is_named(name):
-    with pytest.raises(TypeError, match=f"{name} must be .*, not <object"):
-        encode_options(**{name: object()})
-
-
 @pytest.mark.parametrize(
     ("keywords", "error", "words"),
     [
@@ -85,10 +75,13 @@ def test_a_value_of_the_wrong_type_is_named(name):
         ({"elephant": 1}, bsm.ArgumentError, "there are attributes, bits"),
         ({"kg": 1}, bsm.ArgumentError, "kg is for sequences, not for a mesh"),
         ({"bits": 2.5}, bsm.ArgumentError, "a whole number or None, not 2.5"),
+        ({"grid_origin": 1}, TypeError, "grid_origin must be .*, not 1"),
         ({"step": True}, bsm.ArgumentError, "a number or None, not True"),
         ({"predict": 1}, bsm.ArgumentError, "True or False"),
         ({"doi": (1, 2, 3)}, bsm.ArgumentError, "doi"),
         ({"step": 2.0}, bsm.OptionError, "outside"),
+        ({"effort": "more"}, bsm.OptionError, "effort must be one of"),
+        ({"preset": "fine", "grid": 4}, bsm.OptionError, "grid fixes .* combined with the preset fine"),
         ({"preset": "best"}, bsm.OptionError, "small, balanced, fine"),
         ({"theta": 5, "size": 100}, bsm.OptionError, "give one target only"),
         ({"theta": 5, "target": bsm.Target("bpv", 2)}, bsm.OptionError, "give one target only"),
@@ -156,24 +149,13 @@ def test_what_is_fixed_excludes_bounds(fixed):
     assert encode_options(**fixed).promise is None and encode_options(preset="none", **fixed).promise is None
 
 
-def test_a_grid_excludes_a_preset_that_promises_a_look():
-    with pytest.raises(bsm.OptionError, match=r"grid fixes .* combined with the preset fine"):
-        encode_options(preset="fine", grid=4)
-
-
-def test_efforts_are_named() -> None:
-    for build in (encode_options, sequence_options):
-        with pytest.raises(bsm.OptionError, match="effort"):
-            build(effort="more")
-
-
 def test_quick_sequences_search_for_nothing() -> None:
     assert sequence_options().promise is not None and sequence_options(effort="best").promise is not None
     assert sequence_options(look=None, max_error=None) == sequence_options()
-    assert (
-        sequence_options(effort="quick").promise is None
-        and sequence_options(effort="quick", preset="fine").step < 0.002
-    )
+    assert sequence_options(effort="quick").promise is None
+    assert sequence_options(effort="quick", preset="fine").step < 0.002
+    with pytest.raises(bsm.OptionError, match="unknown effort"):
+        sequence_options(effort="more")
     for keywords in ({"look": 1.0}, {"kg": 0.1}):
         with pytest.raises(bsm.OptionError, match="does not search for a step"):
             sequence_options(effort="quick", **keywords)
