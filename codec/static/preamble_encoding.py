@@ -97,7 +97,7 @@ def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
     if error == 0.0:
         return mesh, ()
     edges = np.linalg.norm(mesh.positions[mesh.faces[:, 0]] - mesh.positions[mesh.faces[:, 1]], axis=1)
-    diagonal, edge = mesh.diagonal, float(np.median(edges)) if len(edges) else 0.0
+    diagonal, edge = mesh.diagonal, float(np.median(edges[edges > 0.0])) if edges.any() else math.inf
     if error > LOST_OF_DIAGONAL * diagonal or error > LOST_OF_EDGE * edge:
         cell = 10.0 ** math.ceil(math.log10((float(np.ptp(mesh.positions, axis=0).max()) or error) / MOST_CELLS))
         origin = ",".join(f"{value:.12g}" for value in np.floor(mesh.positions.min(axis=0)).tolist())

@@ -45,9 +45,9 @@ class Shaper:
 
     @cached_property
     def mean_edge(self) -> float:
-        """Mean length of an edge: of the first one of each face."""
+        """Mean length of an edge: of the first one of each face; 1 where that is zero."""
         a, b = (self._original.positions[corner] for corner in self._original.faces[:, :2].T)
-        return float(np.sqrt(squares_of(a - b)).mean())
+        return float(np.sqrt(squares_of(a - b)).mean()) or 1.0
 
     def levels(self, base: Positions, wanted: Levels, directions: Matrix, aim: Aim) -> Levels:
         """Levels along fixed directions."""

@@ -74,8 +74,9 @@ def test_a_look_holds_by_the_normals_that_are_sent(preset):
         bsm.TriangleMesh(torus(30, 20).positions * 1e-12, torus(30, 20).faces),
         bsm.TriangleMesh(np.zeros((3, 3)), [(0, 1, 2)]),
         bsm.TriangleMesh([(0, 0, 0), (1, 0, 0), (3, 0, 0)], [(0, 1, 2), (0, 0, 1)]),
+        bsm.TriangleMesh(torus(8, 6).positions, np.repeat(np.arange(48), 3).reshape(48, 3)),
     ],
-    ids=["tetrahedron", "patch", "torus", "noise", "strong-noise", "many", "flat", "far", "tiny", "point", "line"],
+    ids="tetrahedron patch torus noise strong-noise many flat far tiny point line points".split(),
 )
 def test_presets_keep_what_they_promise(mesh: bsm.TriangleMesh, preset: str) -> None:
     assert_kept(mesh, bsm.PRESETS[preset])

@@ -72,6 +72,7 @@ def test_doubles_are_rounded_and_that_is_reported() -> None:
     decoded = decode(encoder.encode())
     assert any("rounded to single precision" in note for note in encoder.notes)
     assert np.array_equal(bits(decoded.positions), bits(mesh.positions[encoder.vertex_order]))
+    assert encode(TriangleMesh(mesh.positions, np.repeat(mesh.faces[:, :1], 3, axis=1)), LOSSLESS)  # of no area
     single = TriangleMesh(mesh.positions.astype(np.float32), mesh.faces)
     assert not any("precision" in note for note in Encoder(single, LOSSLESS).notes)
     with pytest.raises(bsm.BsmError, match="single precision"):
