@@ -104,7 +104,7 @@ def numbering(original: TriangleMesh, other: TriangleMesh, order: Order | None =
         encoded = encode_connectivity(faces, count)
         if np.array_equal(by_decoder.faces, encoded.faces):
             return encoded.vertex_order[np.argsort(by_decoder.vertex_order)].astype(np.int64)
-    raise MeshError("the meshes have different faces, or number their vertices differently; use --permutation, or --look --surface")
+    raise MeshError("the meshes have different faces or another order of vertices; use --permutation or --surface")
 
 
 def _collapsed(original: TriangleMesh, other: TriangleMesh) -> str:

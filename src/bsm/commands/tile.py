@@ -2,13 +2,12 @@
 
 import argparse
 import errno
-import math
 import os
 from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import Any
 
 from bsm.bitstream.errors import BsmError, FormatError, OptionError, counted
+from bsm.codec.static.options import EncodeOptions
 from bsm.codec.threads import available_threads
 from bsm.commands.flags import add_flags, adder, asked, within
 from bsm.console import Console, print_json
@@ -38,10 +37,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    if args.grid_cell is not None and not 0.0 < args.grid_cell < math.inf:
-        raise OptionError(f"--grid-cell {args.grid_cell:g}: must be positive and finite")
-    if not all(map(math.isfinite, args.grid_origin or ())):
-        raise OptionError(f"--grid-origin {args.grid_origin}: must be finite")
+    cell = 1.0 if args.grid_cell is None else args.grid_cell
+    EncodeOptions(grid_cell=cell, grid_origin=args.grid_origin)  # refuses what makes no grid
     if not is_url(args.input) and args.input != "-":
         os.stat(args.input)
     beside = f"{name_in(args.output) or 'tiles'}.work" if is_url(args.output) else os.path.join(args.output, ".work")
@@ -82,6 +79,9 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
         given = write_tileset(open_tiles(args.output), args.output, console, content=args.tileset, overwrite=over)
         for name in (MANIFEST, *(shard["file"] for shard in manifest["shards"])):  # what the tileset holds again
             remove(inside(args.output, name))
+    elif over:
+        with suppress(FileNotFoundError):
+            remove(inside(args.output, TILESET))  # it may be of another mesh
     came = came_to(size_of(args.input), given)
     console.note(
         f"{args.input} -> {args.output}: {counted(vertices=plan.vertices, faces=plan.faces, tiles=len(done))} in "
@@ -131,9 +131,7 @@ def _begun(args: argparse.Namespace, work: Path, console: Console, left: bool) -
 
 def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
     """Return the plan of the resumed run, or of a new one."""
-    options: dict[str, Any] = {
-        name: getattr(args, name) for name in ("triangles", "grid_cell", "grid_origin", "images")
-    }
+    options = {name: getattr(args, name) for name in ("triangles", "grid_cell", "grid_origin", "images")}
     asked_for = repr((options, state_of(args.input)))
     note = work / NOTE
     if args.resume and (work / "plan.json").is_file():

@@ -36,8 +36,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         chosen = tiles.chosen(args.error or 0.0, level=args.level)
         summary = write_joined(tiles, chosen, args.output, console, overwrite=args.force)
     else:
-        far = 1e300
-        ends = args.box or (-far, -far, -far, far, far, far)
+        ends = args.box or (*(-1e300,) * 3, *(1e300,) * 3)
         with console.progress("decoding"):
             mesh = tiles.region(ends[:3], ends[3:], args.error or 0.0, level=args.level)
         summary = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}

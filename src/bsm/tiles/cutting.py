@@ -71,12 +71,15 @@ def chosen_lattice(
     The cells represent every position exactly."""
     require_sizes(np.array([raw.low, raw.high]), done="cut")
     chosen, slides = _by_look(raw, threads) if cell is None else (cell, False)
-    lattice = Lattice(chosen, origin or (0.0, 0.0, 0.0))
+    lattice, ends = Lattice(chosen, origin or (0.0, 0.0, 0.0)), np.array([raw.low, raw.high])
+    short = 16 * math.frexp(chosen)[0] % 1 == 0
+    if origin is None and short and np.abs(lattice.cells(ends)).max() >= _FARTHEST:  # from a point of the same grid on
+        lattice = Lattice(chosen, tuple((lattice.cells(ends[0]) * chosen).tolist()))
     reach = max(abs(end - at) for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin))
     farthest = reach / lattice.cell
-    exact = 16 * math.frexp(lattice.cell)[0] % 1 == 0 and not any(at % lattice.cell for at in lattice.origin)
+    exact = short and not any(at % lattice.cell for at in lattice.origin)
     if not farthest < (_FARTHEST if exact else MOST_GRID // 2):
-        least = math.ceil(math.log2(2 * max(reach, *map(abs, (*raw.low, *raw.high))) / _FARTHEST))
+        least = math.ceil(math.log2(2 * (reach if origin else np.ptp(ends, axis=0).max()) / _FARTHEST))
         better = 2.0 ** max(math.floor(math.log2(lattice.cell)), least)
         message = f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell "
         raise OptionError(f"{message}places exactly; a power of two does, such as --grid-cell {better!r}")
@@ -85,13 +88,13 @@ def chosen_lattice(
 
 def _by_look(raw: Raw, threads: int) -> tuple[float, bool]:
     """The largest cell of few bits that keeps the default's promise, and whether vertices may slide."""
-    bare, extent = not raw.kinds.keys() & {*CARRIED, "texcoord"}, np.ptp([raw.low, raw.high], axis=0).max()
+    bare, extent = not raw.kinds.keys() & {*CARRIED, "texcoord"}, np.ptp([raw.low, raw.high], axis=0).max() or 1.0
 
     def seen(faces: Ints) -> tuple[float, bool]:
         used, corners = np.unique(faces, return_inverse=True)
         points, slides = raw.table("positions")[used].astype(np.float64), False
         sample = TriangleMesh(points, corners.reshape(-1, 3).astype(np.int32))
-        edge = np.linalg.norm(np.diff(points[sample.faces], axis=1), axis=2).mean()
+        edge = np.linalg.norm(np.diff(points[sample.faces], axis=1), axis=2).mean() or math.inf
         most = min(0.01 * sample.diagonal, edge / 2.0) or 1.0
         cell = 2.0 ** math.floor(math.log2(most))
         with suppress(MeshError):  # there is nothing to see

@@ -30,6 +30,7 @@ Pieces: TypeAlias = Iterator[tuple[str, Array]]  # some rows of "positions", "fa
 Kinds: TypeAlias = Mapping[str, tuple[str, int]]  # of numbers in a table, and how many a row has
 ABOUT = ("unit", "up")
 CARRIED = {"color": ("red", "green", "blue", "alpha"), "normal": ("nx", "ny", "nz")}
+_CORNERS = ("vertex_indices", "vertex_index")
 _KNOWN = ("x", "y", "z", "length", "corners")
 ROWS = 1 << 18  # that are in memory at a time
 _HEAD = 1 << 16
@@ -174,11 +175,11 @@ _WORDS = {
 
 def _read_ply(given: Input, raw: Raw) -> Pieces:
     header = parse_header(given.peek(MOST_HEADER))
-    if not header.order:
-        raise FormatError("this PLY file is text; tiles are made of binary ones")
+    lists = (c.name for element in header.elements for c in element.properties if c.length is not None)
+    if not header.order or {*lists} - {*_CORNERS}:  # text, or rows of different sizes
+        yield from _read_whole("ply", given, raw)
+        return
     given.read(header.size)
-    if {"vertex", "face"} - {element.name for element in header.elements}:
-        raise FormatError("the PLY file has no vertices, or no faces")
     raw.about.update({name: str(header.metadata[name]) for name in ABOUT if name in header.metadata})
     others = (keyword for keyword, line in header.comments if not parse_remarks([line]).keys() & {*ABOUT})
     raw.left_out.update(dict.fromkeys(f"lines of {keyword}" for keyword in others))
@@ -215,10 +216,8 @@ def _row_of(element: Element, order: str) -> np.dtype[Any]:
     for column in element.properties:
         if column.length is None:
             fields.append((column.name, order + column.type))
-        elif element.name == "face" and column.name in ("vertex_indices", "vertex_index"):
-            fields += [("length", order + column.length), ("corners", order + column.type, (3,))]
         else:
-            raise FormatError(f"the list {column.name} of the PLY file cannot be skipped; leave it out")
+            fields += [("length", order + column.length), ("corners", order + column.type, (3,))]
     names = {field[0] for field in fields}
     needed = {"vertex": {"x", "y", "z"}, "face": {"corners"}}.get(element.name, set())
     if needed - names or len(names) < len(fields):
@@ -230,7 +229,8 @@ def _read_stl(given: Input, raw: Raw) -> Pieces:
     head = given.peek(_HEAD)
     size = size_of(given.name) if given.is_file else None
     if is_text(head, size):
-        raise FormatError("this STL file is text; tiles are made of binary ones")
+        yield from _read_whole("stl", given, raw)
+        return
     count, note = binary_triangles(head, size)
     raw.left_out.update(dict.fromkeys([note] if note else ()))
     given.read(HEAD)
