@@ -18,8 +18,6 @@ BSM_STRUCT(Creases, ConstInts2, ConstInts2, ConstBytes, ConstDoubles, ConstInts,
 
 using namespace nb::literals;
 
-#define NUMBER(name) std::pair<const char *, int>{#name, name}
-
 template <typename T, size_t count> static nb::tuple tuple_of(const T (&numbers)[count]) {
     nb::list all;
     for (T number : numbers) all.append(number);
@@ -33,11 +31,10 @@ void bind_codec(nb::module_ &m) {
     KERNEL(filter_normals) KERNEL(describe_faces) KERNEL(reach) KERNEL(face_patches)
     KERNEL(face_geometry) KERNEL(pair_distances) KERNEL(follow_normals)
     KERNEL(cosines) KERNEL(project) KERNEL(reconstruct) CHECKED(show_frames) CHECKED(turn_columns)
-    CHECKED(back_into_unit) CHECKED(smooth_all)
-    // What both sides of a sequence have.
-    for (const auto &[name, number] : {NUMBER(BENDING), NUMBER(BATCH), NUMBER(LEAST_KEPT), NUMBER(MOST_KEPT),
-             NUMBER(POSITIONS_KEPT), NUMBER(TRACK_MEMORY), NUMBER(SPARE_MEMORY)})
-        m.attr(name) = number;
+    CHECKED(smooth_all)
+    m.attr("BATCH") = static_cast<int>(BATCH);
+    m.attr("LEAST_KEPT") = static_cast<int>(LEAST_KEPT);
+    m.def("frames_kept", &frames_kept, "vertices"_a);
     m.def("quarters", [] { return tuple_of(QUARTERS); }, nb::sig("def quarters() -> tuple[float, ...]"));
     CHECKED(label_components) KERNEL(weighted_angle)
     CHECKED(local_frames) CHECKED(tangent_steps) CHECKED(add_heights) CHECKED(add_slides)

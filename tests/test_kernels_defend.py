@@ -24,7 +24,7 @@ from tools.vectors.good_fields import LAYER, refined
 from tools.vectors.meshes import tangled
 
 STAGES = (
-    *("smooth_all", "back_into_unit", "show_frames", "draw_shaded", "averaged"),
+    *("smooth_all", "show_frames", "draw_shaded", "averaged"),
     *("contrast", "shown_normals", "collect_creases"),
     *("settle_levels", "paint_checker", "paint_colors"),
 )

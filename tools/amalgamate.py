@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 FOLDERS = ("bitstream", "codec/basis", "codec/blocks", "codec/signal", "codec/sequence")
-FILES = ("codec/geometry/graph.c", "codec/geometry/units.c")
+FILES = ("codec/geometry/graph.c",)
 SHORT = "bitstream/fields/"  # its loops are short, and slower as vectors
 CHOICES = ("bitstream/isa.c", "codec/isa.c")
 INTERFACES, VECTORS = ("library/bsmdec.h", "library/bsmenc.h"), "codec/basis/vectors.h"

@@ -22,7 +22,6 @@ INLINE void cross_of_face(const double *positions, const int32_t *face, double *
     cross3(positions + 3 * (int64_t)face[0], positions + 3 * (int64_t)face[1], positions + 3 * (int64_t)face[2], n);
 }
 
-int64_t back_into_unit(ConstDoubles2 positions, double scale, ConstDoubles center, Doubles2 moved);
 int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second);
 int64_t label_components(ConstInts offsets, ConstInts neighbors, Ints waiting, Ints labels);
 bool reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch);

@@ -112,11 +112,10 @@ bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph 
     double work, widths = 0, n = (double)graph->size;
     int64_t columns = BENDING;
     for (int k = 0; k < count; k++) widths += (double)moving[k].width;
-    if (!find_parts(&gops->parts, faces, first_frame, scratch) || !reserve_dictionaries(&gops->parts, 0, 0, &work)
-        || !reserve(context, TRACK_MEMORY * n * widths, 0)
-        || !reserve(context, 8 * (BENDING + widths) * gops->parts.around, 0))
+    if (!find_parts(&gops->parts, faces, first_frame, scratch) || !reserve_dictionaries(&gops->parts, 0, 0, &work))
         return false;
-    if (!TAKE_ZEROS(&gops->arena, gops->tracks, gops->track)) return false;
+    gops->memory = TRACK_MEMORY * n * widths + 8 * (BENDING + widths) * gops->parts.around;
+    if (!reserve(context, gops->memory, 0) || !TAKE_ZEROS(&gops->arena, gops->tracks, gops->track)) return false;
     for (int k = 0; k <= count; k++) {
         Track *track = gops->track + k;
         track->width = k > 0 ? moving[k - 1].width : 3;

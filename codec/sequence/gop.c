@@ -140,6 +140,8 @@ double gop_memory(int64_t vertices, const Gop *gop, double around) {
     return n * (12 * columns_of_gop(gop) + (16 * (t < BATCH ? t : BATCH) + 32) * width) + bases + left;
 }
 
+double memory_in_use(const Parts *parts, const Gop *gop) { return 48 * (double)parts->largest * columns_of_gop(gop); }
+
 static const double FRAME_WORK = 2.5e4, SHOWN_WORK = 11.0 / 3, PART_WORK = 6e4, ANOTHER_WORK = 2.5e4, LEVEL_WORK = 90;
 static const double LOOP_WORK = 66, AROUND_WORK = 10, INHERITED_LOOP = 90, INHERITED_AROUND = 10, REFERRED = 1.1;
 
@@ -172,7 +174,6 @@ static double gop_work(const Gops *gops, const Gop *gop) {
 
 bool reserve_gop(Gops *gops, const Gop *gop, double received) {
     double work, memory = gop_memory(gops->parts.graph->size, gop, gops->parts.around);
-    double use = 48 * (double)gops->parts.largest * columns_of_gop(gop);
-    return reserve_dictionaries(&gops->parts, memory, use, &work)
+    return reserve_dictionaries(&gops->parts, memory, memory_in_use(&gops->parts, gop), &work)
         && charge(gops->parts.context, work + gop_work(gops, gop), received);
 }

@@ -82,6 +82,8 @@ bool parse_beginning(Cursor *cursor, int64_t longest, int64_t run, Gop *gop);
 bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const MovingAttribute *moving, int count,
     bool tolerant, Arena *arena, Gop *gop);
 double gop_memory(int64_t vertices, const Gop *gop, double around);
+/* Bytes besides, while a part is decoded. */
+double memory_in_use(const Parts *parts, const Gop *gop);
 /* The number of earlier changes between frames that predict those of a GOP, if `kept` are available (S 7.2). */
 INLINE int64_t lags_of(int64_t kept) {
     int64_t count = 0;
@@ -105,7 +107,7 @@ typedef struct {
 
 /* Everything that GOPs of a mesh are decoded with. */
 typedef struct {
-    double given;            /* vertices that the user has */
+    double given, memory;    /* vertices that the user has; bytes that stay besides those of parts */
     bool begun;
     Arena arena, history, levels, frames; /* what stays; what frames refer to; the present GOP */
     Parts parts;

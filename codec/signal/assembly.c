@@ -1,7 +1,6 @@
 #include "codec/signal/decoding.h"
 
 #include "codec/blocks/blocks.h"
-#include "codec/geometry/geometry.h"
 #include "codec/signal/signal.h"
 
 bool begin_assembly(Assembly *assembly, int64_t vertices, int64_t blocks, Arena *arena) {
@@ -71,6 +70,13 @@ bool mark_whole(const Assembly *assembly, const Header *header, const Graph *gra
 }
 
 bool into_unit(Context *context, const Header *header, Doubles2 positions) {
-    return back_into_unit(const_doubles2(positions), header->scale, (ConstDoubles){header->center, 3}, positions)
+    double scale = header->scale, spoiled[3] = {0.0}; /* of a number that is not finite, what it is off itself is none */
+    for (int64_t v = 0; v < positions.rows; v++)
+        for (int d = 0; d < 3; d++) {
+            double *place = positions.data + 3 * v + d;
+            *place = *place * scale + header->center[d];
+            spoiled[d] += *place - *place;
+        }
+    return spoiled[0] + spoiled[1] + spoiled[2] == 0.0
         || FAIL(context, NUMERIC, "positions are not finite in the unit of the mesh");
 }

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bsm._core import codec as _kernels
 from bsm.bitstream.errors import NumericError
 from bsm.codec.arrays import Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
@@ -24,8 +23,10 @@ class Units:
 
     def back(self, positions: Matrix, out: Matrix | None = None) -> Positions:
         """Positions in BSM units, shape (n, 3), as the mesh has them; in `out`, which may be those given."""
-        moved = np.empty(positions.shape) if out is None else out
-        if not _kernels.back_into_unit(np.ascontiguousarray(positions), self.scale, np.array(self.center), moved):
+        with np.errstate(over="ignore", invalid="ignore"):
+            moved = np.multiply(positions, self.scale, out=out)
+            moved += self.center
+        if not np.isfinite(moved).all():
             raise NumericError("positions are not finite in the unit of the mesh")
         return moved
 

@@ -529,6 +529,9 @@ class Steps : public Shared, protected Output {
     Steps() : chain(encoding_chain(encoding)) {
         if (chain == nullptr) throw std::bad_alloc();
     }
+    Steps(ConstInts offsets, ConstInts neighbors) : Steps() {
+        run([&] { return begin_graph(chain, offsets, neighbors); });
+    }
     CodedChain *chain;
 };
 
@@ -536,16 +539,20 @@ class Chain : public Steps {
   public:
     Chain(ConstInts offsets, ConstInts neighbors, ConstInts cores, ConstLongs starts, ConstLongs edges,
         ConstInts members, bool exact, bool springs, int power, int iterations, int key_iterations, int apart,
-        int64_t key_interval, int64_t whole, double shift, int64_t width) {
+        int64_t key_interval, int64_t whole, double shift, int64_t width)
+        : Steps(offsets, neighbors) {
         ChainRules rules = {
             exact, springs, power, iterations, key_iterations, apart, key_interval, whole, width, shift};
-        run([&] { return begin_coded_chain(chain, rules, offsets, neighbors, cores, starts, edges, members); });
+        run([&] { return begin_coded_chain(chain, rules, cores, starts, edges, members); });
     }
     // Hang the parts that blocks grew from on each other, by a first frame; see chaining.h.
-    auto hang(ConstInts2 faces, ConstDoubles2 first_frame, ConstDoubles2 starts, ConstInts widths) {
-        double facts[4] = {};
-        run([&] { return hang_parts(chain, faces, first_frame, starts, widths, facts); });
-        return std::make_tuple(facts[0], facts[1], facts[2], facts[3]);
+    double hang(ConstInts2 faces, ConstDoubles2 first_frame, ConstDoubles2 starts, ConstInts widths) {
+        double memory = 0;
+        run([&] { return hang_parts(chain, faces, first_frame, starts, widths, &memory); });
+        return memory;
+    }
+    double gop_memory(int method, int64_t frames, ConstLongs2 fields) {
+        return memory_for_gop(chain, method, frames, fields);
     }
     // Vertices of the next block, what continues the known ones, and weights in a blend.
     auto begin(int64_t index) {
@@ -561,8 +568,8 @@ class Chain : public Steps {
     }
     auto costs(int64_t width) {
         if (present_block(chain)->vertices.size < 1) throw nb::value_error("no block has begun");
-        return std::make_tuple(dictionary_work_of(chain, width), block_work_of(chain, width),
-            block_memory_of(chain, width));
+        const BlockCosts costs = costs_of_block(chain, width);
+        return std::make_tuple(costs.dictionary, costs.rest, costs.memory);
     }
     auto dictionary(int64_t width) {
         run([&] { return make_coded_dictionary(chain, width); });
@@ -622,40 +629,39 @@ class Track : public Steps {
 // A graph that is cut into parts and blocks.
 class Cut : public Steps {
   public:
-    Cut(ConstInts offsets, ConstInts neighbors) : offsets(offsets), neighbors(neighbors) {}
+    Cut(ConstInts offsets, ConstInts neighbors) : Steps(offsets, neighbors), size(offsets.size - 1) {}
     auto labels(int64_t parts) {
-        Made<int32_t> made = made_of<int32_t>(offsets.size - 1);
-        run([&] { return label_graph(chain, offsets, neighbors, parts, {made.data, offsets.size - 1}); });
+        Made<int32_t> made = made_of<int32_t>(size);
+        run([&] { return label_graph(chain, parts, {made.data, size}); });
         return made;
     }
     // Of blocks in the order of their chain: vertices of their parts, where members begin, edges, and members.
     auto blocks(ConstInts labels, int64_t parts, int64_t size) {
         GrownBlocks grown;
-        run([&] { return grow_parts(chain, offsets, neighbors, labels, parts, size, &grown); });
+        run([&] { return grow_parts(chain, labels, parts, size, &grown); });
         return std::make_tuple(copied(grown.cores), copied(grown.starts), copied(grown.edges),
             copied(grown.members));
     }
     // The payload of parts that are numbered by their first vertices.
     nb::bytes write(ConstInts labels, int64_t parts) {
-        return written(
-            [&](Writing *writing) { return write_labels(chain, offsets, neighbors, labels, parts, writing); });
+        return written([&](Writing *writing) { return write_labels(chain, labels, parts, writing); });
     }
     // Vertices of a block in the order of its rows, and the graph among them.
     auto rows(ConstInts members) {
-        run([&] { return order_rows(chain, offsets, neighbors, members); });
+        run([&] { return order_rows(chain, members); });
         const CodedBlock &block = *present_block(chain);
         return std::make_tuple(copied(block.vertices), copied(block.offsets), copied(block.neighbors));
     }
 
   private:
-    ConstInts offsets, neighbors;
+    int64_t size;
 };
 
 // The graph of a block, and iterations with it.
 class Solver : public Steps {
   public:
-    Solver(ConstInts offsets, ConstInts neighbors, ConstDoubles shift) {
-        run([&] { return begin_solver(chain, offsets, neighbors, shift); });
+    Solver(ConstInts offsets, ConstInts neighbors, ConstDoubles shift) : Steps(offsets, neighbors) {
+        run([&] { return begin_solver(chain, shift); });
     }
     auto iterate(ConstSingles2 start, int64_t power, int64_t iterations, int64_t apart) {
         Made<float> made = made_of<float>(start.rows, start.columns);
@@ -700,7 +706,6 @@ NB_MODULE(_core, m) {
         .def("write", in_turn(&Field::write), "count"_a)
         .def("read", in_turn(&Field::read), "payload"_a, "count"_a)
         .def_prop_ro("order", in_turn(&Field::order));
-    m.def("gop_memory", &memory_of_gop, "method"_a, "frames"_a, "fields"_a, "vertices"_a, "around"_a);
     nb::class_<Chain>(m, "Chain")
         .def(nb::init<ConstInts, ConstInts, ConstInts, ConstLongs, ConstLongs, ConstInts, bool, bool, int, int, int,
                  int, int64_t, int64_t, double, int64_t>(),
@@ -709,6 +714,7 @@ NB_MODULE(_core, m) {
             "shift"_a, "width"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
             nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>())
         .def("hang", in_turn(&Chain::hang), "faces"_a, "first_frame"_a, "starts"_a, "widths"_a)
+        .def("gop_memory", in_turn(&Chain::gop_memory), "method"_a, "frames"_a, "fields"_a)
         .def("begin", in_turn(&Chain::begin), "index"_a)
         .def("site", in_turn(&Chain::site))
         .def("costs", in_turn(&Chain::costs), "width"_a)

@@ -49,23 +49,17 @@ bool are_all_there(Writer *writer, const int32_t *numbers, int64_t count, int64_
     return missing == 0;
 }
 
-static bool is_graph(ConstInts offsets, ConstInts neighbors) {
+bool begin_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors) {
     int64_t n = offsets.size - 1;
     bool fits = n > 0 && offsets.data[0] == 0 && offsets.data[n] == neighbors.size;
     for (int64_t v = 0; fits && v < n; v++) fits = offsets.data[v] <= offsets.data[v + 1];
-    return fits && are_below(neighbors.data, neighbors.size, 0, n);
-}
-
-static bool take_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors) {
-    chain->graph = (Graph){offsets.size - 1, offsets, neighbors};
-    return is_graph(offsets, neighbors)
+    chain->graph = (Graph){n, offsets, neighbors};
+    return (fits && are_below(neighbors.data, neighbors.size, 0, n))
         || FAIL(&chain->writer->context, MISUSED, "the offsets and neighbors do not form a graph");
 }
 
-bool label_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors, int64_t parts, Ints labels) {
-    Writer *writer = chain->writer;
-    return take_graph(chain, offsets, neighbors)
-        && derive_labels(&writer->context, &chain->graph, parts, &writer->scratch, labels);
+bool label_graph(CodedChain *chain, int64_t parts, Ints labels) {
+    return derive_labels(&chain->writer->context, &chain->graph, parts, &chain->writer->scratch, labels);
 }
 
 static bool are_labels(CodedChain *chain, ConstInts labels, int64_t parts) {
@@ -75,27 +69,25 @@ static bool are_labels(CodedChain *chain, ConstInts labels, int64_t parts) {
         || FAIL(&chain->writer->context, MISUSED, "labels do not fit the graph, or a part is empty");
 }
 
-bool write_labels(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts labels, int64_t parts,
-    Writing *writing) {
+bool write_labels(CodedChain *chain, ConstInts labels, int64_t parts, Writing *writing) {
     Context *context = &chain->writer->context;
+    const Graph *graph = &chain->graph;
     Ints own;
-    if (!take_graph(chain, offsets, neighbors) || !are_labels(chain, labels, parts)
-        || !take_ints(&chain->writer->scratch, labels.size, &own))
-        return false;
+    if (!are_labels(chain, labels, parts) || !take_ints(&chain->writer->scratch, labels.size, &own)) return false;
     memcpy(own.data, labels.data, (size_t)labels.size * sizeof *own.data);
     context->writing = writing;
-    bool done = code_partition(context, (Span){0}, offsets, neighbors, parts, &chain->writer->scratch, own);
+    bool done =
+        code_partition(context, (Span){0}, graph->offsets, graph->neighbors, parts, &chain->writer->scratch, own);
     context->writing = NULL;
     return done;
 }
 
-bool grow_parts(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts labels, int64_t parts,
-    int64_t size, GrownBlocks *grown) {
+bool grow_parts(CodedChain *chain, ConstInts labels, int64_t parts, int64_t size, GrownBlocks *grown) {
     Writer *writer = chain->writer;
     Blocks blocks;
     Header header = {.blocks = parts, .block_size = size};
-    if (!take_graph(chain, offsets, neighbors) || !are_labels(chain, labels, parts)) return false;
-    if (!make_blocks(&writer->context, &header, &chain->graph, (Ints){(int32_t *)labels.data, labels.size},
+    if (!are_labels(chain, labels, parts)
+        || !make_blocks(&writer->context, &header, &chain->graph, (Ints){(int32_t *)labels.data, labels.size},
             &writer->arena, &writer->scratch, &blocks))
         return false;
     *grown = (GrownBlocks){const_ints(blocks.cores), const_ints(blocks.members),
@@ -103,9 +95,8 @@ bool grow_parts(CodedChain *chain, ConstInts offsets, ConstInts neighbors, Const
     return true;
 }
 
-bool order_rows(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts members) {
+bool order_rows(CodedChain *chain, ConstInts members) {
     Patch patch;
-    if (!take_graph(chain, offsets, neighbors)) return false;
     if (members.size < 1 || !are_below(members.data, members.size, 0, chain->graph.size))
         return FAIL(&chain->writer->context, MISUSED, "members of a block do not fit the graph");
     if (!order_patch(&chain->graph, members, &chain->writer->scratch, &patch)) return false;
@@ -113,19 +104,17 @@ bool order_rows(CodedChain *chain, ConstInts offsets, ConstInts neighbors, Const
     return true;
 }
 
-bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts offsets, ConstInts neighbors, ConstInts cores,
-    ConstLongs starts, ConstLongs edges, ConstInts members) {
+bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts cores, ConstLongs starts, ConstLongs edges,
+    ConstInts members) {
     Context *context = &chain->writer->context;
-    int64_t count = starts.size - 1, n = offsets.size - 1;
-    bool fits = is_graph(offsets, neighbors) && count > 0 && edges.size == count
-        && cores.size == count && starts.data[0] == 0
+    int64_t count = starts.size - 1;
+    bool fits = count > 0 && edges.size == count && cores.size == count && starts.data[0] == 0
         && starts.data[count] == members.size && rules.power >= 0 && rules.iterations >= 0 && rules.key_iterations >= 0
         && rules.apart >= 0 && rules.key_interval >= 0 && rules.width >= 0;
     for (int64_t i = 0; fits && i < count; i++)
         fits = cores.data[i] > 0 && starts.data[i] + cores.data[i] <= starts.data[i + 1];
-    if (!fits || !are_below(members.data, members.size, 0, n))
+    if (!fits || !are_below(members.data, members.size, 0, chain->graph.size))
         return FAIL(context, MISUSED, "blocks do not fit their graph");
-    chain->graph = (Graph){n, offsets, neighbors};
     /* Only read. */
     chain->blocks = (Blocks){.count = count, .cores = {(int32_t *)cores.data, count},
         .starts = {(int64_t *)starts.data, count + 1}, .edges = {(int64_t *)edges.data, count},
@@ -157,18 +146,13 @@ bool begin_coded_block(CodedChain *chain, int64_t index) {
     return true;
 }
 
-double dictionary_work_of(const CodedChain *chain, int64_t width) {
+BlockCosts costs_of_block(const CodedChain *chain, int64_t width) {
     const Patch *patch = &chain->block.patch;
-    return work_of_dictionary(&chain->header, patch, chain->chains.subspace.rows == patch->size, width);
-}
-
-double block_work_of(const CodedChain *chain, int64_t width) {
-    double rows = (double)chain->block.patch.size, edges = (double)chain->blocks.edges.data[chain->index];
-    return block_work(rows, edges, 3.0 * (double)width) + ground_work(&chain->block.patch.fronts, width);
-}
-
-double block_memory_of(const CodedChain *chain, int64_t width) {
-    return patch_memory(&chain->block.patch.fronts, width);
+    double rows = (double)patch->size, edges = (double)chain->blocks.edges.data[chain->index];
+    bool follows = chain->chains.subspace.rows == patch->size;
+    return (BlockCosts){work_of_dictionary(&chain->header, patch, follows, width),
+        block_work(rows, edges, 3.0 * (double)width) + ground_work(&patch->fronts, width),
+        patch_memory(&patch->fronts, width)};
 }
 
 static Arena *room_for_dictionary(CodedChain *chain) {
@@ -231,7 +215,7 @@ bool commit_coded_block(CodedChain *chain, int64_t width, ConstDoubles2 position
 }
 
 bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame, ConstDoubles2 starts, ConstInts widths,
-    double *facts) {
+    double *memory) {
     Writer *writer = chain->writer;
     Arena *scratch = &writer->scratch;
     int64_t n = chain->graph.size, columns = 0;
@@ -252,11 +236,8 @@ bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame, 
             n, moving, (int)widths.size, scratch))
         return false;
     release_all(scratch);
-    const Parts *parts = &chain->gops.parts;
-    for (int64_t i = 0; i < parts->count; i++) facts[0] += parts->part[i].memory;
-    facts[1] = parts->around;
-    facts[2] = (double)parts->largest;
-    facts[3] = parts->making;
+    *memory = chain->gops.memory;
+    for (int64_t i = 0; i < chain->gops.parts.count; i++) *memory += chain->gops.parts.part[i].memory;
     return true;
 }
 
@@ -299,16 +280,16 @@ bool write_track(CodedChain *track, int method, int64_t frames, double step, int
     return true;
 }
 
-bool begin_solver(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstDoubles shift) {
+bool begin_solver(CodedChain *chain, ConstDoubles shift) {
     Context *context = &chain->writer->context;
     Arena *arena = &chain->writer->arena;
-    int64_t n = offsets.size - 1;
+    const Graph *graph = &chain->graph;
+    int64_t n = graph->size;
     Patch *patch = &chain->block.patch;
-    if (!take_graph(chain, offsets, neighbors)) return false;
     if (shift.size != n) return FAIL(context, MISUSED, "# shifts for # rows", shift.size, n);
-    *patch = (Patch){.size = n, .offsets = offsets, .neighbors = neighbors};
+    *patch = (Patch){.size = n, .offsets = graph->offsets, .neighbors = graph->neighbors};
     if (!take_doubles(arena, n, &patch->diagonal)) return false;
-    for (int64_t r = 0; r < n; r++) patch->diagonal.data[r] = offsets.data[r + 1] - offsets.data[r];
+    for (int64_t r = 0; r < n; r++) patch->diagonal.data[r] = graph->offsets.data[r + 1] - graph->offsets.data[r];
     return find_patch_fronts(context, arena, patch) && factorize_patch(patch, shift, 0.0, arena, &chain->block.factor);
 }
 
@@ -326,13 +307,15 @@ bool solve_iterations(CodedChain *chain, ConstSingles2 start, int64_t power, int
         &chain->writer->scratch, subspace);
 }
 
-double memory_of_gop(int method, int64_t frames, ConstLongs2 fields, int64_t vertices, double around) {
+double memory_for_gop(const CodedChain *chain, int method, int64_t frames, ConstLongs2 fields) {
+    const Parts *parts = &chain->gops.parts;
     GopField field[MOST_ATTRIBUTES + 1] = {{0}};
     Gop gop = {.method = method, .frames = frames, .count = (int)fields.rows, .field = field};
-    if (fields.columns != 2 || fields.rows > MOST_ATTRIBUTES + 1 || vertices < 1) return -1.0;
+    if (fields.columns != 2 || fields.rows > MOST_ATTRIBUTES + 1 || !chain->gops.begun) return -1.0;
     for (int k = 0; k < gop.count; k++) {
         field[k].width = fields.data[2 * k];
         field[k].components = fields.data[2 * k + 1];
     }
-    return gop_memory(vertices, &gop, around);
+    return gop_memory(chain->graph.size, &gop, parts->around) + memory_in_use(parts, &gop) + parts->making
+        + SPARE_MEMORY;
 }

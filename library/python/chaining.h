@@ -15,17 +15,16 @@ void close_chain(CodedChain *chain);
 
 /* Of a graph: the part of each vertex; blocks of `size` vertices at most that grow from parts; and the rows of some of
  * its vertices in order, which `present_block` has. */
-bool label_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors, int64_t parts, Ints labels);
+bool begin_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors);
+bool label_graph(CodedChain *chain, int64_t parts, Ints labels);
 typedef struct {
     ConstInts cores, members;
     ConstLongs starts, edges;
 } GrownBlocks;
-bool grow_parts(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts labels, int64_t parts,
-    int64_t size, GrownBlocks *grown);
+bool grow_parts(CodedChain *chain, ConstInts labels, int64_t parts, int64_t size, GrownBlocks *grown);
 /* The payload of parts that are numbered by their first vertices (C 10). */
-bool write_labels(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts labels, int64_t parts,
-    struct Writing *writing);
-bool order_rows(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts members);
+bool write_labels(CodedChain *chain, ConstInts labels, int64_t parts, struct Writing *writing);
+bool order_rows(CodedChain *chain, ConstInts members);
 
 /* The header's rules of dictionaries and chains; columns beyond half of `whole` rows are completed (M 8.7). Blocks have
  * levels for `width` columns at most. */
@@ -36,8 +35,8 @@ typedef struct {
     double shift;
 } ChainRules;
 /* All arrays stay with the caller, as long as the chain is used. */
-bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts offsets, ConstInts neighbors, ConstInts cores,
-    ConstLongs starts, ConstLongs edges, ConstInts members);
+bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts cores, ConstLongs starts, ConstLongs edges,
+    ConstInts members);
 
 /* A block that is not coded yet: its graph, the springs at its rows and their pulls, what continues those, and how much
  * its rows count in a blend. */
@@ -49,9 +48,10 @@ typedef struct {
 bool begin_coded_block(CodedChain *chain, int64_t index);
 const CodedBlock *present_block(const CodedChain *chain);
 /* Decoders' work for a dictionary of so many columns, for the rest of this block, and their memory. */
-double dictionary_work_of(const CodedChain *chain, int64_t width);
-double block_work_of(const CodedChain *chain, int64_t width);
-double block_memory_of(const CodedChain *chain, int64_t width);
+typedef struct {
+    double dictionary, rest, memory;
+} BlockCosts;
+BlockCosts costs_of_block(const CodedChain *chain, int64_t width);
 /* U of this block, or one of the caller's: what the next functions take, until it is made again. */
 bool make_coded_dictionary(CodedChain *chain, int64_t width);
 bool give_dictionary(CodedChain *chain, ConstSingles2 own);
@@ -63,10 +63,11 @@ bool write_coded_block(CodedChain *chain, ConstDoubles2 prediction, ConstDoubles
 bool commit_coded_block(CodedChain *chain, int64_t width, ConstDoubles2 positions);
 
 /* What all GOPs of a mesh share: the parts that blocks grew from, and the first values of attributes that move, side by
- * side in `starts`. Facts: bytes that decoders keep of parts, besides their dictionaries; rows around them; rows of the
- * largest part; bytes for making a dictionary. */
+ * side in `starts`. `memory`: bytes that decoders keep, besides the dictionaries that they have room for. */
 bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame, ConstDoubles2 starts, ConstInts widths,
-    double *facts);
+    double *memory);
+/* Bytes for decoding a GOP whose fields have these widths and components. */
+double memory_for_gop(const CodedChain *chain, int method, int64_t frames, ConstLongs2 fields);
 /* Positions, or an attribute that moves, of a chain that stays, before the first GOP; or as another one is now. */
 bool begin_track(CodedChain *track, const CodedChain *from, int64_t k);
 /* Write a basis, of what is free in it, or the levels of a field (codec/sequence/gops.h); without rows it is not
@@ -76,10 +77,7 @@ bool write_track_basis(CodedChain *track, ConstInts exponents, ConstDoubles2 spe
 bool write_track(CodedChain *track, int method, int64_t frames, double step, int64_t back, ConstDoubles2 wanted,
     struct Writing *writing, ConstDoubles2 *field);
 
-/* Bytes for decoding a GOP whose fields have these widths and components; `around`: rows around parts. */
-double memory_of_gop(int method, int64_t frames, ConstLongs2 fields, int64_t vertices, double around);
-
 /* A graph whose L + shift is factorized, row by row; U after iterations of Algorithm 1 from a start. */
-bool begin_solver(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstDoubles shift);
+bool begin_solver(CodedChain *chain, ConstDoubles shift);
 bool solve_iterations(CodedChain *chain, ConstSingles2 start, int64_t power, int64_t iterations, int64_t apart,
     Singles2 subspace);

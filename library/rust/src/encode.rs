@@ -1,10 +1,10 @@
 //! Meshes to streams: a safe interface to bsmenc.
 use std::ffi::{c_char, c_int, c_void, CString};
-use std::mem::size_of;
+use std::mem::{size_of, zeroed};
 use std::{ptr, slice};
 
 use crate::raw::{self, bsmenc_attribute, bsmenc_mesh, bsmenc_options, bsmenc_stream};
-use crate::{misused, string_of, Attribute, Domain, Entry, Error, Mesh, Semantic, Status, Values};
+use crate::{misused, string_of, Attribute, Entry, Error, Mesh, Status, Values};
 
 /// How exactly an attribute is kept. By default integers and labels are exact, and floats have 12 to 20 bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,17 +137,8 @@ fn given(
     let (quality, amount) = options.quality_of(&attribute.name);
     Ok(bsmenc_attribute {
         name: name.as_ptr(),
-        domain: match attribute.domain {
-            Domain::Vertex => 0,
-            Domain::Corner => 1,
-            Domain::Face => 2,
-        },
-        semantic: match attribute.semantic {
-            Semantic::Generic => 0,
-            Semantic::Color => 1,
-            Semantic::Normal => 2,
-            Semantic::Texcoord => 3,
-        },
+        domain: attribute.domain as c_int,
+        semantic: attribute.semantic as c_int,
         kind,
         components: attribute.components as c_int,
         rows: (count / attribute.components) as i64,
@@ -190,13 +181,12 @@ pub fn encode(mesh: &Mesh, options: &EncodeOptions) -> Result<Vec<u8>, Error> {
         vertices: mesh.positions.len() as i64,
         faces: mesh.faces.len() as i64,
         positions: mesh.positions.as_ptr().cast(),
-        positions_single: ptr::null(),
         corners: mesh.faces.as_ptr().cast(),
         attributes: attributes.as_ptr(),
         attribute_count: attributes.len(),
         metadata: metadata.as_ptr(),
         metadata_count: metadata.len(),
-        frames: 0,
+        ..unsafe { zeroed() }
     };
     let (positions, bits, cell, origin) = match options.positions {
         Positions::Bits(bits) => (0, bits.min(255).max(1) as c_int, 0.0, [0.0; 3]),
@@ -211,10 +201,7 @@ pub fn encode(mesh: &Mesh, options: &EncodeOptions) -> Result<Vec<u8>, Error> {
         origin,
         keep_order: options.keep_order.into(),
         quick: options.quick.into(),
-        limits: ptr::null(),
-        allocator: ptr::null(),
-        progress: None,
-        host: ptr::null_mut(),
+        ..unsafe { zeroed() }
     };
     let mut stream: *mut bsmenc_stream = ptr::null_mut();
     // The arrays that `whole` points to live until the call returns; the stream is released after its bytes are copied.

@@ -15,7 +15,7 @@ mod encode;
 pub mod raw;
 
 use std::ffi::{c_char, c_int, CStr, CString};
-use std::mem::{size_of, size_of_val, MaybeUninit};
+use std::mem::{size_of, size_of_val, zeroed, MaybeUninit};
 use std::{error, fmt, ptr, slice};
 
 pub use encode::{encode, EncodeOptions, Positions, Quality};
@@ -353,15 +353,9 @@ impl Decoder {
         let given = raw::bsmdec_options {
             size: size_of::<raw::bsmdec_options>(),
             limits: limits.as_ref().map_or(ptr::null(), ptr::from_ref),
-            allocator: ptr::null(),
             tolerant: options.tolerant.into(),
             start: i64::try_from(options.start).map_err(|_| misused("start is more than i64::MAX"))?,
-            fields: ptr::null(),
-            field_count: 0,
-            stride: 0,
-            index_size: 0,
-            parallel: ptr::null(),
-            layers: 0,
+            ..unsafe { zeroed() }
         };
         let no_memory = Error { status: Status::NoMemory, ..misused("there is no memory for a decoder") };
         let own = ptr::NonNull::new(unsafe { raw::bsmdec_open(&given) }).ok_or(no_memory)?;
@@ -433,8 +427,7 @@ impl Decoder {
         &mut self,
         call: unsafe extern "C" fn(*mut raw::bsmdec, *mut raw::bsmdec_changes) -> c_int,
     ) -> Result<Changes<'_>, Error> {
-        let mut found =
-            raw::bsmdec_changes { count: 0, vertices: ptr::null(), positions: ptr::null(), last: ptr::null() };
+        let mut found: raw::bsmdec_changes = unsafe { zeroed() };
         self.done(unsafe { call(self.own.as_ptr(), &mut found) })?;
         let count = found.count as usize;
         Ok(unsafe {
