@@ -207,7 +207,7 @@ class SequenceEncoder:
         self.run_starts, self.samples, self._checksum, self._drawn = [], 0, 0, 0.0
         splitter = RunSplitter(frames, self._faces, allowed=options.runs, attributes=self._attributes)
         runs = joined_runs(
-            self._with_attributes(splitter), options.together, keep_order=options.keep_order, allowed=options.runs
+            self._as_sent(splitter), options.together, keep_order=options.keep_order, allowed=options.runs
         )
         for index, run in enumerate(runs):
             if not index:
@@ -228,7 +228,7 @@ class SequenceEncoder:
         self.notes = tuple(dict.fromkeys((*self.notes, *self.losses)))
         yield verifier.take(writer.end(self._checksum), last=True)
 
-    def _with_attributes(self, splitter: RunSplitter) -> Iterator[Run]:
+    def _as_sent(self, splitter: RunSplitter) -> Iterator[Run]:
         """Runs with the attributes that each is sent with."""
         for run in splitter.runs():
             attributes = tuple(attribute for attribute in run.mesh.attributes if attribute.semantic != "normal")

@@ -100,11 +100,6 @@ def read_cut(
         return found
     path, name = (given.name if given.is_file else None), given.name
     folder = Path(path).parent if path else None
-    head = plain_text(given.peek(_HEAD))
-    suffix = file_format or format_of_name(name)
-    other = other_kind(head, suffix) if suffix in ("obj", "off", "ply", "glb") else ""
-    if other and (suffix, other) != ("glb", "JSON"):
-        raise FormatError(f"this is {other}, not .{suffix}; give it the right name, or name its format")
     data = given.read_all()
     if data.startswith(b"\x1f\x8b"):
         path, name, data = None, name.removesuffix(".gz"), gunzipped(data, limits)
@@ -113,7 +108,11 @@ def read_cut(
         raise FormatError("the file is empty")
     if data.startswith(MAGIC):
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
-    kind = file_format or format_of_name(name) or format_of_bytes(data) or Path(name).suffix[1:].lower()
+    suffix = file_format or format_of_name(name)
+    other = other_kind(data, suffix) if suffix in ("obj", "off", "ply", "glb") else ""
+    if other and (suffix, other) != ("glb", "JSON"):
+        raise FormatError(f"this is {other}, not .{suffix}; give it the right name, or name its format")
+    kind = suffix or format_of_bytes(data) or Path(name).suffix[1:].lower()
     row = FORMATS.get(kind)
     if row is None or not row.reader or (kind in USD_FORMATS and not path):
         way = next((way for kinds, way in _FOREIGN.items() if kind in kinds), _WAY)
