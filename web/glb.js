@@ -1,5 +1,5 @@
 /** A decoded mesh, with its materials and images, or a sequence, each frame a morph target, as GLB; what `bsm decode` writes has the same places. */
-import { dressed } from "bsm-decoder";
+import { dressed, linearOf, numbersOf } from "bsm-decoder";
 
 const [FLOAT, UINT] = [5126, 5125];
 const TYPES = ["", "SCALAR", "VEC2", "VEC3", "VEC4"];
@@ -57,7 +57,6 @@ class Scene {
     }
 }
 
-const linear = (share) => (share <= 0.04045 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4);
 const numbersIn = (value) => String(value ?? "").split(/\s+/).filter(Boolean).map(Number);
 
 /** Rows of numbers, one for each of `rows`, or as they are. */
@@ -93,10 +92,10 @@ function addMaterial(scene, words, images, isClear) {
         return texture === undefined ? [] : [[name, { index: texture }]];
     });
     const { baseColorTexture, metallicRoughnessTexture, ...textures } = Object.fromEntries(found);
-    const kd = numbersIn(words.get("Kd")).map(linear);
+    const kd = numbersIn(words.get("Kd")).map(linearOf);
     const [r = 1, g = 1, b = 1, a = 1] = words.has("baseColorFactor") ? numbersIn(words.get("baseColorFactor")) : baseColorTexture && !kd.some(Boolean) ? [] : kd; // programs write black beside an image
     const opacity = a * Number(words.get("d") ?? 1);
-    const light = words.has("emissiveFactor") ? numbersIn(words.get("emissiveFactor")) : numbersIn(words.get("Ke")).map(linear);
+    const light = words.has("emissiveFactor") ? numbersIn(words.get("emissiveFactor")) : numbersIn(words.get("Ke")).map(linearOf);
     const emissive = textures.emissiveTexture && !light.some(Boolean) ? [1, 1, 1] : light;
     const most = Math.max(1, ...emissive);
     if (most > 1) scene.use("KHR_materials_emissive_strength", "extensionsUsed");
@@ -129,12 +128,10 @@ function addImages(scene, metadata) {
 }
 
 /** What glTF calls the numbers of vertices, and those in its sense. */
-function arrayOf({ name, source, components, values }, attributes) {
-    const { kind } = attributes.find((attribute) => attribute.name === source);
+function arrayOf({ name, source, components, values }) {
     const [, base, count] = /^(uv|color)(\d*)$/.exec(name) ?? [];
     if (base === "uv") return [`TEXCOORD_${Number(count)}`, Float32Array.from({ length: 2 * (values.length / components) }, (_, i) => (i % 2 ? 1 - values[components * (i >> 1) + 1] : values[components * (i >> 1)])), 2];
-    if (base !== "color" || components < 3) return [`_${source}`, values, components];
-    return [`COLOR_${Number(count)}`, /^float/.test(kind) ? values : values.map((share, i) => (i % components < 3 ? linear(share) : share)), components];
+    return [base === "color" && components > 2 ? `COLOR_${Number(count)}` : `_${source}`, values, components];
 }
 
 /** The middle of places that single precision, which GLB has, would round visibly; else the origin. */
@@ -152,7 +149,7 @@ export function glbOf({ faces, attributes, metadata, frames, colors, rate, isMov
     const { index, vertices, pieces, attributes: drawn, own } = dressed(faces, all, attributes, frames[0].length / 3);
     const middle = middleOf(frames[0]);
     const places = frames.map((frame) => spread(frame.map((x, i) => x - middle[i % 3]), 3, vertices));
-    const arrays = drawn.map((each) => arrayOf(each, attributes));
+    const arrays = drawn.map(arrayOf);
     const normals = isMoving ? normalsOf(places[0], index) : own && unitOf(own);
     if (normals) arrays.unshift(["NORMAL", normals, 3]);
     const given = { POSITION: scene.numbers(Float32Array.from(places[0]), 3, true), ...Object.fromEntries(arrays.map(([name, values, width]) => [name, scene.numbers(Float32Array.from(values), width)])) };
@@ -161,9 +158,7 @@ export function glbOf({ faces, attributes, metadata, frames, colors, rate, isMov
         const delta = (values, before) => Float32Array.from(values, (value, k) => value - before[k]);
         const found = { POSITION: scene.numbers(delta(place, places[0]), 3, true), NORMAL: scene.numbers(delta(normalsOf(place, index), normals), 3) };
         if (!color || !colors[i + 1]) return found;
-        const { values, components } = colors[i + 1];
-        const shares = arrayOf({ name: "color", source: colors[i + 1].name, components, values: spread(values, components, vertices).map((value) => value / ({ uint8: 255, uint16: 65535 }[colors[i + 1].kind] ?? 1)) }, attributes)[1];
-        return { ...found, COLOR_0: scene.numbers(delta(shares, color[1]), components) };
+        return { ...found, COLOR_0: scene.numbers(delta(numbersOf(colors[i + 1], vertices), color[1]), color[2]) };
     });
     const images = addImages(scene, metadata);
     const isClear = drawn.some(({ name, components, values }) => name === "color" && components === 4 && values.some((value, i) => i % 4 === 3 && value < 1));

@@ -5,6 +5,7 @@ import copy
 import io
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ import bsm
 from bsm.cli import main
 from bsm.files.images import ImageRule, smaller
 from bsm.files.inspection import inspect_stream
-from bsm.gltf.coding import EXTENSION, drawn
+from bsm.gltf.coding import EXTENSION, array_of, drawn
 from bsm.gltf.compress import compress, count_primitives
 from bsm.gltf.document import Document, read_document
 from tests.gltf import Built, glb, scene
@@ -99,6 +100,11 @@ def test_accessors_say_what_the_stream_holds(source):
     assert (weights.values.sum(axis=1) == 255).all()
     sizes = [v["byteLength"] for v in after.tree["bufferViews"] if v["buffer"] == 1]
     assert after.tree["buffers"][1]["byteLength"] == max(sizes)
+
+
+def test_colors_of_a_stream_of_a_mesh_become_linear():
+    mesh = replace(torus(8, 6), attributes=(bsm.Attribute("color", np.full((48, 3), 188, np.uint8), semantic="color"),))
+    np.testing.assert_allclose(array_of((mesh, drawn(mesh)), "COLOR_0", None), 0.5029, atol=1e-4)
 
 
 def test_quantized_geometry_becomes_floats():

@@ -6,6 +6,7 @@ export const KINDS = ["uint8", "int8", "uint16", "int16", "uint32", "int32", "fl
 /** An attribute of a mesh, whole. */
 export interface Attribute {
     name: string;
+    /** Colors are sRGB, as in PLY files; those called `COLOR_0` are linear, as in glTF. */
     semantic: (typeof SEMANTICS)[number];
     /** What has a value: each vertex, each corner by way of `indices`, or each face. */
     domain: (typeof DOMAINS)[number];

@@ -1,6 +1,7 @@
 /** What three.js draws, as a mesh for the encoder: `web/README.md` has a table of what is kept, refused and noted. */
-import { BufferAttribute, Matrix3, type BufferGeometry, type InterleavedBufferAttribute, type Material, type Matrix4, type Mesh, type Object3D, type Texture } from "three";
+import { BufferAttribute, Color, Matrix3, type BufferGeometry, type InterleavedBufferAttribute, type Material, type Matrix4, type Mesh, type Object3D, type Texture } from "three";
 import { kindOf, refuse, wholes, type AttributeInput, type MeshInput } from "./encoding";
+import { linearOf } from "./parting";
 
 type Values = Float32Array | Float64Array;
 interface Part {
@@ -13,6 +14,7 @@ interface Part {
 const REFUSED = { isSkinnedMesh: "skins", isInstancedMesh: "instances", isBatchedMesh: "batches", isLOD: "levels of detail" };
 const GETTERS = ["getX", "getY", "getZ", "getW"] as const;
 const LABELS = ["part", "material"];
+const ROUNDED = 0.51 / 65535; // by which colors of glTF are off
 type Given = BufferAttribute | InterleavedBufferAttribute;
 
 const semanticOf = (name: string): AttributeInput["semantic"] => (name === "normal" ? "normal" : name.startsWith("color") ? "color" : /^(uv|texcoord)\d*$/.test(name) ? "texcoord" : "generic");
@@ -25,7 +27,7 @@ export function meshOf(given: BufferGeometry | Object3D, note: (text: string) =>
     const materials = [...new Set(parts.flatMap(({ material = [] }: Part) => material))];
     const faces = parts.map((part) => facesOf(part, materials));
     if (faces.every(({ labels }) => labels.length === 0)) refuse("no face is drawn: see the index, the draw range, the groups and the materials");
-    const places = parts.map((part) => valuesOf(part, "position", false) as Values);
+    const places = parts.map((part) => valuesOf(part, "position") as Values);
     const starts = places.map((_, i) => places.slice(0, i).reduce((sum, { length }) => sum + length / 3, 0));
     const names = [...new Set(parts.flatMap(({ geometry }) => Object.keys(geometry.attributes)))].filter((name) => name !== "position");
     const attributes = names.flatMap((name): AttributeInput[] => {
@@ -33,9 +35,10 @@ export function meshOf(given: BufferGeometry | Object3D, note: (text: string) =>
         const components = own[0].itemSize;
         const isTaken = ({ array, itemSize }: Given): boolean => kindOf(array ?? []) !== undefined && itemSize === components && itemSize <= GETTERS.length;
         if (own.length < parts.length || LABELS.includes(name) || !own.every(isTaken)) return left.add(name), [];
-        const kinds = [...new Set(own.map(({ array, normalized }) => `${kindOf(array)} ${normalized}`))].join();
-        const asShares = semanticOf(name) === "color" && /^uint(8|16) true$/.test(kinds);
-        return [{ name, components, semantic: semanticOf(name), values: joined(parts.map((part) => valuesOf(part, name, asShares))) }];
+        const values = joined(parts.map((part) => valuesOf(part, name)));
+        if (semanticOf(name) !== "color" || components < 3) return [{ name, components, semantic: semanticOf(name), values }];
+        const isBright = Array.prototype.some.call(values, (share: number) => share < 0 || share > 1); // more than a screen shows
+        return [isBright ? { name, components, values } : { name, components, semantic: "color", values: filed(values, components, own.every(({ array }) => array.BYTES_PER_ELEMENT === 1)) }];
     });
     const labels = LABELS.map((name, which) => ({ name, components: 1, domain: "face" as const, values: Uint16Array.from(faces.flatMap(({ labels }, part) => (which ? labels : labels.map(() => part)))) }));
     const metadata: MeshInput["metadata"] = Object.fromEntries(materials.length > 1 ? materials.map(({ name }, i) => [`material.${i}.name`, name]) : []);
@@ -78,14 +81,22 @@ function facesOf({ geometry, material, matrix }: Part, materials: Material[]): {
     return { corners, labels: firsts.map((first) => labels[first]) };
 }
 
-/** The numbers that an attribute stands for, where its object is; `asShares`: integers stay shares of their range. */
-function valuesOf({ geometry, matrix }: Part, name: string, asShares: boolean): ArrayLike<number> {
+/** Linear colors, which three.js draws, in sRGB, which streams have: bytes where these are the same to 16 bits, or else floats, or words if linear bytes were given. */
+function filed(linear: ArrayLike<number>, components: number, ofBytes: boolean): Uint8Array | Uint16Array | Float32Array {
+    const [color, shares] = [new Color(), Float32Array.from(linear)];
+    for (let i = 0; i < shares.length; i += components) color.fromArray(linear as number[], i).convertLinearToSRGB().toArray(shares, i);
+    const bytes = Uint8Array.from(shares, (share) => Math.round(255 * share));
+    return bytes.every((byte, i) => Math.abs((i % components < 3 ? linearOf(byte / 255) : byte / 255) - linear[i]) <= ROUNDED) ? bytes : ofBytes ? Uint16Array.from(shares, (share) => Math.round(65535 * share)) : shares;
+}
+
+/** The numbers that an attribute stands for, where its object is. */
+function valuesOf({ geometry, matrix }: Part, name: string): ArrayLike<number> {
     const attribute = geometry.attributes[name] as Given;
     const { array, itemSize, normalized } = attribute;
     const isPlace = name === "position";
     const [count, width] = [geometry.attributes.position.count, isPlace ? 3 : itemSize];
     const isMoved = matrix !== undefined && (isPlace || /^(normal|tangent)$/.test(name)) && !matrix.equals(matrix.clone().identity());
-    const isPlain = !("data" in attribute || "isFloat16BufferAttribute" in attribute) && (asShares || !normalized) && kindOf(array) !== undefined;
+    const isPlain = !("data" in attribute || "isFloat16BufferAttribute" in attribute) && !normalized && kindOf(array) !== undefined;
     if (isPlain && !isMoved && width === itemSize && (!isPlace || /^float/.test(kindOf(array)!))) return array.subarray(0, width * count);
     const read = (i: number): number => (i % width < itemSize ? attribute[GETTERS[i % width]](Math.floor(i / width)) : 0);
     const moved = new BufferAttribute(Float64Array.from({ length: width * Math.min(count, attribute.count) }, (_, i) => read(i)), width);

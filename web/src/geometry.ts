@@ -47,6 +47,7 @@ export class BSMGeometry extends BufferGeometry {
     private worn?: Shape;
     private normals = new Float32Array(0);
     private drawn = 0;
+    private hidden = (_: Piece): boolean => false;
 
     constructor(private readonly progress: Progress = {}) {
         super();
@@ -90,6 +91,21 @@ export class BSMGeometry extends BufferGeometry {
             attribute.array = values;
             attribute.needsUpdate = true;
         }
+    }
+
+    /** Draw some pieces no longer, in all frames. */
+    hide(hidden: (piece: Piece) => boolean): void {
+        this.hidden = hidden;
+        const index = this.getIndex();
+        if (index && this.worn) [index.array, index.needsUpdate] = [this.cornersOf(this.worn), true];
+    }
+
+    /** The corners of faces, those of hidden ones in one point. */
+    private cornersOf({ index, pieces }: Shape): Uint32Array {
+        const hidden = pieces.filter(this.hidden);
+        const corners = hidden.length > 0 ? index.slice() : index;
+        for (const { start, count } of hidden) corners.fill(0, start, start + count);
+        return corners;
     }
 
     private begin({ vertices, corners, loose }: PictureOf<"begun">): void {
@@ -139,7 +155,7 @@ export class BSMGeometry extends BufferGeometry {
         this.clearGroups();
         this.parted = vertices;
         this.pieces = pieces;
-        this.setIndex(new BufferAttribute(index, 1));
+        this.setIndex(new BufferAttribute(this.cornersOf(shape), 1));
         this.setAttribute("position", new BufferAttribute(positions, 3));
         this.setAttribute("normal", new BufferAttribute(normals, 3));
         for (const { name, values, components } of attributes) this.setAttribute(name, new BufferAttribute(values, components));

@@ -45,11 +45,7 @@ async function imagesOf(metadata: Metadata): Promise<Map<number, Texture>> {
 async function textureOf(data: Uint8Array): Promise<Texture | undefined> {
     try {
         const image = await createImageBitmap(new Blob([data as Uint8Array<ArrayBuffer>]), { imageOrientation: "flipY", colorSpaceConversion: "none" });
-        const texture = new Texture(image);
-        texture.flipY = false;
-        texture.wrapS = texture.wrapT = RepeatWrapping;
-        texture.needsUpdate = true;
-        return texture;
+        return Object.assign(new Texture(image), { flipY: false, wrapS: RepeatWrapping, wrapT: RepeatWrapping, needsUpdate: true });
     } catch {
         return undefined;
     }
@@ -101,10 +97,7 @@ function materialOf(words: Words, images: Map<number, Texture>): MeshStandardMat
 function inSpace(texture: Texture, colored: boolean): Texture {
     const space = colored ? SRGBColorSpace : NoColorSpace;
     if (texture.colorSpace === space) return texture;
-    if (texture.userData.taken) {
-        texture = texture.clone();
-        texture.needsUpdate = true;
-    }
+    if (texture.userData.taken) texture = Object.assign(texture.clone(), { needsUpdate: true });
     texture.userData.taken = true;
     texture.colorSpace = space;
     return texture;

@@ -4,6 +4,7 @@ import { cornersOf, spread, type Dress, type Piece } from "./dress";
 
 /** Attributes of faces that say what belongs together, and are not drawn. */
 const [MATERIAL, PART] = ["material", "part"];
+const LINEAR = "COLOR_0"; // what streams in glTF call colors: others are sRGB
 const BASES = { texcoord: "uv", color: "color", normal: "normal" } as const;
 
 /** Faces `whole`, which are sorted, of a mesh of `size` vertices, with all that it carries. */
@@ -81,10 +82,13 @@ function parted(faces: Int32Array, chosen: Int32Array, attributes: Attribute[], 
     return { index, vertices: used, rows };
 }
 
-/** Numbers of the drawn vertices; integers of colors are shares of their range. */
-export function numbersOf({ semantic, kind, components, values }: Attribute, rows?: Int32Array): Float32Array {
-    const most = semantic === "color" ? { uint8: 255, uint16: 65535 }[kind as string] ?? 1 : 1;
+/** The linear color of one in sRGB. */
+export const linearOf = (share: number): number => (share <= 0.04045 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4);
+
+/** Numbers of the drawn vertices; colors are linear, and their integers are shares of their range. */
+export function numbersOf({ name, semantic, kind, components, values }: Attribute, rows?: Int32Array): Float32Array {
     const numbers = spread(values, components, rows);
-    if (most > 1) for (let i = 0; i < numbers.length; i++) numbers[i] /= most;
+    const most = { uint8: 255, uint16: 65535 }[kind as string] ?? 1;
+    if (semantic === "color" && components > 2) for (let i = 0; i < numbers.length; i++) numbers[i] = name !== LINEAR && i % components < 3 ? linearOf(numbers[i] / most) : numbers[i] / most;
     return numbers;
 }

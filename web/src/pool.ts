@@ -89,14 +89,10 @@ export class Pool {
         if (!this.asked.has(named.build)) await Promise.race([Promise.all([...this.streams].map(({ said }) => said)), new Promise((go) => setTimeout(go, MOMENT))]);
         if (stream.closed) return;
         const need = { ...named, build: this.buildFor(named.build) };
-        let kernels: WebAssembly.Module;
-        try {
-            kernels = await this.source.kernels(need.build);
-        } catch (error) {
-            return stream.fail(error instanceof Error ? error : new Error(`${error}`));
-        }
-        stream.prepare(kernels, need);
-        if (!stream.closed) this.place(stream);
+        const kernels = await this.source.kernels(need.build).catch((error: unknown) => stream.fail(error instanceof Error ? error : new Error(`${error}`)));
+        if (!kernels || stream.closed) return;
+        [stream.kernels, stream.need] = [kernels, need];
+        this.place(stream);
     }
 
     /** A build that was asked for and reads a stream, or the smallest that also reads all streams which no such build reads. */
@@ -216,13 +212,13 @@ class PooledStream {
     begun = false;
     task = -1;
     need: Need = { build: "whole", vertices: 0 };
+    kernels?: WebAssembly.Module;
     /** Whether its need is known; `said` waits for that, or for its end. */
     known = false;
     private tell = (): void => {};
     readonly said = new Promise<void>((go) => (this.tell = go));
     private readonly pieces: (Uint8Array | null)[] = [];
     private reported = 0;
-    private kernels?: WebAssembly.Module;
     private say?: (message: Message, moved: Transferable[]) => void;
 
     constructor(
@@ -232,13 +228,22 @@ class PooledStream {
         private readonly end: () => void,
     ) {}
 
-    /** Take a piece, which nobody may change any more. */
-    receiveData(data: Uint8Array): void {
-        this.take(data);
+    /** Take a piece, which nobody may change any more; null says that no more will come. */
+    receiveData(data: Uint8Array | null): void {
+        if (this.closed) return;
+        this.pieces.push(data);
+        if (this.say) this.say({ task: this.task, data }, []);
+        else if (!this.known) {
+            const need = this.wishes.tolerant ? { build: "whole" as const, vertices: 0 } : needOf(joined(this.pieces));
+            this.known = need !== undefined || data === null;
+            if (!this.known) return;
+            this.tell();
+            this.begin(need ?? this.need);
+        }
     }
 
     receiveEof(): void {
-        this.take(null);
+        this.receiveData(null);
     }
 
     /** Stop at once; nothing more is heard. */
@@ -255,10 +260,6 @@ class PooledStream {
         if (this.closed) return;
         this.close();
         this.listener.onError(error);
-    }
-
-    prepare(kernels: WebAssembly.Module, need: Need): void {
-        [this.kernels, this.need] = [kernels, need];
     }
 
     work(say: (message: Message, moved: Transferable[]) => void, helpers: MessagePort[]): void {
@@ -295,19 +296,6 @@ class PooledStream {
         else if ("over" in report) {
             this.close();
             listener.onEnd?.();
-        }
-    }
-
-    private take(data: Uint8Array | null): void {
-        if (this.closed) return;
-        this.pieces.push(data);
-        if (this.say) this.say({ task: this.task, data }, []);
-        else if (!this.known) {
-            const need = this.wishes.tolerant ? { build: "whole" as const, vertices: 0 } : needOf(joined(this.pieces));
-            this.known = need !== undefined || data === null;
-            if (!this.known) return;
-            this.tell();
-            this.begin(need ?? this.need);
         }
     }
 

@@ -1,11 +1,12 @@
 /** Mesh files, read with the loaders of three.js: for the page without a server, and for `bsm-encode`. */
-import { type AnimationClip, BufferAttribute, BufferGeometry, Color, Group, type InstancedMesh, LoadingManager, type Material, Mesh, MeshBasicMaterial, type Object3D } from "three";
+import { type AnimationClip, Box3, BufferAttribute, BufferGeometry, Group, type InstancedMesh, LoadingManager, type Material, Mesh, MeshBasicMaterial, type Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
 import { meshOf } from "./content";
 import type { MeshInput } from "./encoding";
+import { linearOf } from "./parting";
 import { isPosed, posesOf } from "./poses";
 
 /** A file by its name or its path in a folder. */
@@ -29,10 +30,9 @@ export const suffixOf = ({ name }: Given): string => /\.(\w+)$/.exec(name)?.[1].
 
 /** Whether vertices are so far from the origin that single precision may round them visibly. */
 function isFar(positions: ArrayLike<number>): boolean {
-    const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-    for (let i = 0; i < positions.length; i++) [low[i % 3], high[i % 3]] = [Math.min(low[i % 3], positions[i]), Math.max(high[i % 3], positions[i])];
-    const far = Math.max(...[...low, ...high].map(Math.abs));
-    return far > FAR * Math.hypot(...low.map((x, d) => high[d] - x)) && far < Infinity;
+    const { min, max } = new Box3().setFromArray(positions as number[]);
+    const far = Math.max(...[...min, ...max].map(Math.abs));
+    return far > FAR * min.distanceTo(max) && far < Infinity;
 }
 
 /** The text of a file whose loader rounds to single precision and parts vertices, with their numbers as x, and where they are. */
@@ -92,27 +92,20 @@ function readPly(bytes: ArrayBuffer, lost: Set<string>): BufferGeometry {
     const faces = Number(/^element face (\d+)/m.exec(header)?.[1] ?? 0);
     for (const [, name] of header.matchAll(/^property (?:list \w+ \w+|\w+) (\w+)/gm)) if (!PLY.test(name)) lost.add(name);
     const loader = new PLYLoader();
-    const fine = /^property (uchar|uint8) red$/m.test(header); // the loader would round these as linear numbers
-    if (fine) loader.setCustomPropertyNameMapping({ bytes: ["red", "green", "blue"] });
+    if (/^property (uchar|uint8) red$/m.test(header)) loader.setCustomPropertyNameMapping({ bytes: ["red", "green", "blue"] }); // it would round these as linear numbers
     const geometry = loader.parse(bytes);
     if (/^property (double|float64) x$/m.test(header) && geometry.attributes.position?.array instanceof Float32Array) lost.add("digits beyond single precision"); // by three.js of before
     if ((geometry.index?.count ?? 0) / 3 < faces) throw new Error("It has faces of more than four corners, which are not read here.");
     return geometry.index ? geometry : new BufferGeometry(); // points
 }
 
-/** A geometry with what streams of files have: colors in sRGB, texture coordinates from the bottom. */
+/** A geometry with what streams of files have: texture coordinates from the bottom. */
 function plainOf(geometry: BufferGeometry, flipped: boolean, lost: Set<string>): BufferGeometry {
-    const plain = new BufferGeometry().setIndex(geometry.index);
-    plain.groups = geometry.groups;
-    const color = new Color();
+    const plain = Object.assign(new BufferGeometry().setIndex(geometry.index), { groups: geometry.groups });
     for (const [name, attribute] of Object.entries(geometry.attributes)) {
-        if (name === "bytes") plain.setAttribute("color", new BufferAttribute(Uint8Array.from(attribute.array), 3, true));
+        if (name === "bytes") plain.setAttribute("color", new BufferAttribute(Float32Array.from(attribute.array, (byte) => linearOf(byte / 255)), 3));
         else if (name !== "position" && !NAMES[name]) lost.add(name);
-        else if (name === "color") {
-            const values = Float32Array.from({ length: attribute.count * attribute.itemSize }, (_, i) => attribute.getComponent(Math.floor(i / attribute.itemSize), i % attribute.itemSize));
-            for (let i = 0; i < values.length; i += attribute.itemSize) color.fromArray(values, i).convertLinearToSRGB().toArray(values, i);
-            plain.setAttribute(name, new BufferAttribute(Uint8Array.from(values, (share) => Math.round(255 * Math.min(Math.max(share, 0), 1))), attribute.itemSize, true));
-        } else plain.setAttribute(NAMES[name] ?? name, name === "uv" && flipped ? new BufferAttribute(Float32Array.from({ length: 2 * attribute.count }, (_, i) => (i % 2 ? 1 - attribute.getY(i >> 1) : attribute.getX(i >> 1))), 2) : attribute);
+        else plain.setAttribute(NAMES[name] ?? name, name === "uv" && flipped ? new BufferAttribute(Float32Array.from({ length: 2 * attribute.count }, (_, i) => (i % 2 ? 1 - attribute.getY(i >> 1) : attribute.getX(i >> 1))), 2) : attribute);
     }
     return plain;
 }

@@ -4,13 +4,14 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import test, { describe } from "node:test";
 import {
-    BoxGeometry, BufferAttribute, BufferGeometry, Float16BufferAttribute, Group, InstancedBufferAttribute, InstancedBufferGeometry, InstancedMesh, InterleavedBuffer,
-    InterleavedBufferAttribute, LOD, Mesh, MeshBasicMaterial, Points, SkinnedMesh, SphereGeometry, Texture,
+    BoxGeometry, BufferAttribute, BufferGeometry, Color, Float16BufferAttribute, Group, InstancedBufferAttribute, InstancedBufferGeometry, InstancedMesh, InterleavedBuffer,
+    InterleavedBufferAttribute, LOD, Mesh, MeshBasicMaterial, Points, SkinnedMesh, SphereGeometry, SRGBColorSpace, Texture,
 } from "three";
 import { encodeHere, EncodeError, type EncodeOptions, type Drawn, type MeshInput } from "../src/encode";
 import type { BSMGeometry } from "../src/geometry";
 import { decode, type Attribute } from "../src/index";
 import { materialsOf } from "../src/materials";
+import { numbersOf } from "../src/parting";
 import { kernels, WEB } from "./shared";
 
 const wasm = await WebAssembly.compile(readFileSync(join(WEB, "built/encode.wasm")));
@@ -70,14 +71,22 @@ describe("kept", () => {
         });
     }
 
-    test("other attributes as the numbers that they stand for, colors of bytes as bytes", async () => {
-        const geometry = box();
-        const { count } = geometry.getAttribute("position");
+    test("other attributes as the numbers that they stand for", async () => {
+        const [geometry, count] = [box(), 24];
         geometry.setAttribute("uv", new BufferAttribute(Uint16Array.from({ length: 2 * count }, () => 65535), 2, true));
-        geometry.setAttribute("color", new BufferAttribute(Uint8Array.from({ length: 4 * count }, () => 200), 4, true));
         geometry.setAttribute("heat", new BufferAttribute(Float32Array.from({ length: count }, (_, i) => i), 1));
         const { attribute } = await back(geometry);
-        assert.deepEqual([attribute("uv")!.values[0], attribute("color")!.kind, attribute("color")!.values[0], attribute("heat")!.kind], [1, "uint8", 200, "float32"]);
+        assert.deepEqual([attribute("uv")!.values[0], attribute("heat")!.kind], [1, "float32"]);
+    });
+
+    test("colors, which are linear in three.js and glTF, and sRGB in streams", async () => {
+        const [bytes, color] = [Uint8Array.from({ length: 72 }, (_, i) => (37 * i) & 255), new Color()];
+        const linear = Float32Array.from(bytes, (byte) => color.setRGB(byte / 255, 0, 0, SRGBColorSpace).r);
+        const colored = async (values: Float32Array | Uint8Array): Promise<Attribute> => (await back(box().setAttribute("color", new BufferAttribute(values, 3, true)), { lossless: true, keepOrder: true })).attribute("color")!;
+        const [exact, coarse, bright] = [await colored(linear), await colored(bytes), await colored(linear.map((share) => 2 * share))];
+        assert.deepEqual([exact.values, exact.kind, coarse.kind, bright.semantic], [Float64Array.from(bytes), "uint8", "uint16", "generic"]);
+        const given = [...linear, ...[...bytes, ...bytes].map((byte) => byte / 255)];
+        [exact, { ...exact, name: "COLOR_0" }, coarse].flatMap((each) => [...numbersOf(each)]).forEach((share, i) => assert.ok(Math.abs(share - given[i]) < 2e-5));
     });
 
     test("the draw range, and the materials of groups", async () => {

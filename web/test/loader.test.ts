@@ -121,7 +121,6 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const [{ values, indices }] = mesh.attributes.filter(({ semantic }) => semantic === "texcoord");
             const [index, uv, position] = [textured.index.array, textured.getAttribute("uv"), textured.getAttribute("position")];
             const same = mesh.faces.every((vertex, i) => Math.abs(position.getX(index[i]) - mesh.positions[3 * vertex]) < 1e-5 && Math.abs(uv.getX(index[i]) - values[2 * indices[i]]) < 1e-5);
-            const pairs = new Set(mesh.faces.map((vertex, i) => vertex * 1e6 + indices[i]).map(String).map((_, i) => mesh.faces[i] + " " + indices[i])).size;
             const colors = colored.getAttribute("color");
             return { same, expected: new Set([...mesh.faces].map((vertex, i) => vertex + " " + indices[i])).size, drawn: position.count, corners: index.length, colors: colors.count === colored.getAttribute("position").count, brightest: Math.max(...colors.array) };`);
         assert.equal(seen.same, true);
@@ -273,27 +272,20 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         for (const text of seen.parses as string[]) assert.match(text, /^AbortError /);
     });
 
-    test("is used as other loaders are", async () => {
+    test("is used as other loaders are, and finds a relative path from the base of the page", async () => {
         const seen = await found(`
             const { LoadingManager } = await import("three");
             const manager = new LoadingManager();
             const urls = [];
             manager.setURLModifier((url) => (urls.push(url), "/stream/" + url + ".bsm"));
             const loaded = new Promise((keep) => (manager.onLoad = () => keep(true)));
-            const loader = new BSMLoader(manager).setDecoderPath("/bsm/").preload();
+            document.head.append(Object.assign(document.createElement("base"), { href: "/bsm/page.html" }));
+            const loader = new BSMLoader(manager).setDecoderPath("./").preload();
             const geometry = await loader.loadAsync("${STREAM}");
             const parsed = await new Promise((keep, fail) => bytesOf("${STREAM}").then((bytes) => loader.parse(bytes, keep, fail)));
             loader.dispose();
             return { urls, loaded: await loaded, same: parsed.index.count === geometry.index.count };`);
         assert.deepEqual(seen, { urls: [STREAM], loaded: true, same: true });
-    });
-
-    test("finds a relative path from the base of the page", async () => {
-        const seen = await found(`
-            document.head.append(Object.assign(document.createElement("base"), { href: "/bsm/page.html" }));
-            const geometry = await new BSMLoader().setDecoderPath("./").loadAsync("/stream/${STREAM}.bsm");
-            return { faces: geometry.index.count > 0 };`);
-        assert.deepEqual(seen, { faces: true });
     });
 
     test("plays a sequence", async () => {
@@ -327,9 +319,11 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             while (!sequence.complete) await new Promise((go) => setTimeout(go, 5));
             const { geometry } = sequence;
             const drawn = (frame) => (sequence.seek(frame), [geometry.index.count / 3, geometry.getAttribute("position").count, geometry.getAttribute("normal").count, geometry.drawRange.count / 3]);
-            return { length: sequence.length, faces: [0, 2, 3, 5, 9, 4, 0].map(drawn) };`);
+            const [faces, seen] = [[0, 2, 3, 5, 9, 4, 0].map(drawn), () => [0, 5].map((frame) => (sequence.seek(frame), geometry.index.array.some(Boolean)))];
+            const [hidden, shown] = [true, false].map((isHidden) => (geometry.hide(() => isHidden), seen()));
+            return { length: sequence.length, faces, hidden, shown };`);
         const [large, small, least] = [[64, 32, 32, 64], [48, 24, 24, 48], [40, 20, 20, 40]];
-        assert.deepEqual(seen, { length: 10, faces: [large, large, small, large, least, small, large] });
+        assert.deepEqual(seen, { length: 10, faces: [large, large, small, large, least, small, large], hidden: [false, false], shown: [true, true] });
     });
 
     test("makes scenes with textures", async () => {

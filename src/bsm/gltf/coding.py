@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import DependencyError, FormatError, UnsupportedError, imported
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.conventions import shares_of
+from bsm.files.conventions import shares_of, to_linear
 from bsm.files.formats.appearance import Texture
 from bsm.files.room import as_library_error
 
@@ -83,7 +83,10 @@ def array_of(found: tuple[TriangleMesh, Drawn], name: str, component: int | None
         return stored(name, shape.index, component or UINT)
     if held not in shape.arrays:
         raise FormatError(f"a stream of this glTF has no {name[:80]}")
-    return stored(name, shape.arrays[held], component or FLOAT)
+    values = shape.arrays[held]
+    if name == "COLOR_0" != held:  # a stream of a mesh has colors in sRGB
+        values = to_linear(shares_of(values))
+    return stored(name, values, component or FLOAT)
 
 
 def unpack_meshopt(data: bytes, how: Tree) -> bytes:

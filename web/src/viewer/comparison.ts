@@ -27,6 +27,7 @@ export class Comparison {
     /** The distance that has the last color, once it is known. */
     private top?: number;
     private readonly dressed = new Set<number>();
+    private hidden: Parameters<BSMGeometry["hide"]>[0] = () => false;
     private readonly scheme: HTMLSelectElement;
 
     constructor(private readonly form: Form, private readonly stage: Stage) {
@@ -42,7 +43,7 @@ export class Comparison {
     open(content: Content): void {
         const { form } = this;
         const { layers, main } = (this.content = content);
-        [this.geometries, this.offs, this.accompanied, this.top] = [[], [], false, undefined];
+        [this.geometries, this.offs, this.accompanied, this.top, this.hidden] = [[], [], false, undefined, () => false];
         this.dressed.clear();
         delete form.root.dataset.layers;
         form.part("parts").hidden = true;
@@ -66,6 +67,7 @@ export class Comparison {
     begin(geometry: BSMGeometry): void {
         const { main } = this.content;
         this.geometries[main] = geometry;
+        geometry.hide(this.hidden);
         this.dressed.delete(main);
         if (this.dressed.size === 0) this.allow("own", false);
         this.shown = false;
@@ -106,8 +108,11 @@ export class Comparison {
         }
         await this.measure(mine);
         if (!mine()) return;
-        const found = geometries.flatMap((geometry) => geometry ?? []);
-        listParts(form, geometries[main]!, found, () => (stage.shadow(geometries[main]!), stage.redraw()));
+        listParts(form, geometries[main]!, (hidden) => {
+            for (const geometry of this.geometries) geometry?.hide(hidden);
+            this.hidden = hidden;
+            stage.shadow(this.geometries[main]!);
+        });
         form.root.dataset.layers = String(layers.length);
     }
 
