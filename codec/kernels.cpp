@@ -18,12 +18,6 @@ BSM_STRUCT(Creases, ConstInts2, ConstInts2, ConstBytes, ConstDoubles, ConstInts,
 
 using namespace nb::literals;
 
-template <typename T, size_t count> static nb::tuple tuple_of(const T (&numbers)[count]) {
-    nb::list all;
-    for (T number : numbers) all.append(number);
-    return nb::tuple(all);
-}
-
 void bind_codec(nb::module_ &m) {
     KERNEL(vertex_faces) KERNEL(normals_apart) KERNEL(geometric_laplacian) KERNEL(build_tree)
     KERNEL(nearest_distances) CHECKED(shown_normals) CHECKED(draw_shaded) CHECKED(paint_colors) CHECKED(paint_checker)
@@ -35,7 +29,6 @@ void bind_codec(nb::module_ &m) {
     m.attr("BATCH") = static_cast<int>(BATCH);
     m.attr("LEAST_KEPT") = static_cast<int>(LEAST_KEPT);
     m.def("frames_kept", &frames_kept, "vertices"_a);
-    m.def("quarters", [] { return tuple_of(QUARTERS); }, nb::sig("def quarters() -> tuple[float, ...]"));
     CHECKED(label_components) KERNEL(weighted_angle)
     CHECKED(local_frames) CHECKED(tangent_steps) CHECKED(add_heights) CHECKED(add_slides)
     CHECKED(collect_flaps) CHECKED(shape_levels) CHECKED(collect_creases)

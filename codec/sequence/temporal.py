@@ -94,7 +94,7 @@ def time_cosines(frames: int) -> Matrix:
 
 def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
     """Quantization step of each component of a learnt basis, shape (r,): 2^(-exponent / OCTAVE)."""
-    return np.asarray(np.ldexp(np.array(_kernels.quarters())[exponents % OCTAVE], -(exponents // OCTAVE)))
+    return np.asarray(np.exp2(-exponents / OCTAVE))
 
 
 def spectrum_of(basis: Matrix, exponents: npt.NDArray[np.int32], width: int) -> Matrix:

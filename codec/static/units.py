@@ -21,10 +21,10 @@ class Units:
         """Positions of the mesh, shape (n, 3), in BSM units."""
         return np.asarray((positions - np.array(self.center)) / self.scale)
 
-    def back(self, positions: Matrix, out: Matrix | None = None) -> Positions:
-        """Positions in BSM units, shape (n, 3), as the mesh has them; in `out`, which may be those given."""
+    def back(self, positions: Matrix) -> Positions:
+        """Positions in BSM units, shape (n, 3), as the mesh has them."""
         with np.errstate(over="ignore", invalid="ignore"):
-            moved = np.multiply(positions, self.scale, out=out)
+            moved = np.multiply(positions, self.scale)
             moved += self.center
         if not np.isfinite(moved).all():
             raise NumericError("positions are not finite in the unit of the mesh")
