@@ -47,8 +47,8 @@ for (const path of process.argv.slice(1)) {
         const surfaces = [], low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
         gltf.scene.traverse((node) => {
             if (!node.isMesh) return;
-            const { color, opacity, transparent, metalness = 0, roughness = 0, side, map, normalMap } = node.material;
-            const sets = [map, normalMap].map((image) => (image ? 1 + image.channel + image.rotation / 10 : 0));
+            const { color, opacity, transparent, metalness, roughness, side, map, normalMap } = node.material;
+            const sets = [map, normalMap].map((image) => (image ? 1 + image.channel : 0));
             surfaces.push([...color.toArray(), transparent ? opacity : 1, metalness, roughness, side ? 1 : 0, ...sets]);
             const shades = node.geometry.attributes.color;
             for (let row = 0; row < (shades ? shades.count : 0); row++)
@@ -120,7 +120,7 @@ def wanted_of(mesh: bsm.TriangleMesh, *, faces: bool = False) -> Seen:
     shown = [a for a in mesh.attributes if a.components in (3, 4) and (faces or a.domain != "face")]
     color = next((a for a in shown if a.semantic == "color"), None)
     bright = next((a for a in shown if a.name == "color" and a.values.dtype == np.float32), None)  # above 1, and linear
-    kinds = {n: words | ({"unlit": 0} if faces else {}) for n, words in materials_in(mesh.metadata).items()}
+    kinds = materials_in(mesh.metadata)
     images = {number for number, (_, data) in images_in(mesh.metadata).items() if re.match(SHOWN, data, re.DOTALL)}
     surfaces = np.array([_surface(kinds.get(number, {}), images)[: OF_USD if faces else None] for number in used])
     shades = np.zeros(0)
@@ -141,7 +141,7 @@ def wanted_of(mesh: bsm.TriangleMesh, *, faces: bool = False) -> Seen:
 
 
 def _surface(words: dict[str, Any], images: set[int]) -> list[float]:
-    """Color, opacity, metal, roughness, sides, and 1 + set + rotation / 10 of images; unlit ones are not metal."""
+    """Color, opacity, metal, roughness, double sides, and one more than the set of the images of color and normals."""
     known = ["Kd", "d", "Tr", "Pm", "Pr", "baseColorFactor", "metallicFactor", "roughnessFactor"]
     numbers = {n: [float(word) for word in str(words[n]).removeprefix("-halo").split()] for n in known if n in words}
     of_gltf = any(re.match("name|base|metal|rough|emissive|normalT|occl|alpha|double", name) for name in words)
@@ -150,10 +150,8 @@ def _surface(words: dict[str, Any], images: set[int]) -> list[float]:
     metal = numbers.get("metallicFactor", numbers.get("Pm", [float(both or (of_gltf and not of_mtl))]))
     rough = numbers.get("roughnessFactor", numbers.get("Pr", [1.0 if of_gltf or of_mtl else 0.9]))
     maps = (("baseColorTexture", "map_Kd"), ("normalTexture", "norm", "map_Bump"))
-    used = [next((n for n in names if words.get(n, -1) in images), "") for names in maps]
-    sets = [(1.0 + words.get(f"{n}.set", 0) + words.get(f"{n}.rotation", 0.0) / 10) * bool(n) for n in used]
-    shine = np.clip([*metal, *rough], 0.0, 1.0) * (not words.get("unlit"))
-    rest = [*shine.tolist(), float(bool(words.get("doubleSided"))), *sets]
+    sets = [float(any(words.get(name, -1) in images for name in names)) for names in maps]
+    rest = [*np.clip([*metal, *rough], 0.0, 1.0).tolist(), float(bool(words.get("doubleSided"))), *sets]
     if "baseColorFactor" in numbers:
         *color, opacity = numbers["baseColorFactor"]
         return [*color, opacity if words.get("alphaMode", "BLEND") == "BLEND" else 1.0, *rest]
@@ -183,7 +181,8 @@ def by_usd(path: Path) -> Seen:
         if prim.IsA(shade.Material):
             surface = shade.Material(prim).ComputeSurfaceSource()[0]
             given = map(surface.GetInput, ("diffuseColor", "opacity", "metallic", "roughness"))
-            color, opacity, *rough = (v.Get() if v and not v.HasConnectedSource() else None for v in given)
+            said = (value.Get() if value and not value.HasConnectedSource() else None for value in given)
+            color, opacity, *rough = said
             surfaces.append([*(color or [1.0] * 3), 1.0 if opacity is None else opacity, *rough])
         elif prim.IsA(geom.Mesh) and (var := geom.Mesh(prim).GetDisplayColorPrimvar()) and var.HasValue():
             values = np.array(var.ComputeFlattened(code))
@@ -223,8 +222,10 @@ class Acts:
                 continue
             seen = by_usd(path)
             wanted = wanted_of(mesh, faces=True)
-            rows = np.reshape(seen.surfaces, (-1, OF_USD))
-            near = [(np.abs(wanted.surfaces - row).max(axis=1) < NEAR).any() for row in rows]
+            near = [
+                (np.abs(wanted.surfaces - row).max(axis=1) < NEAR).any()
+                for row in np.reshape(seen.surfaces, (-1, OF_USD))
+            ]
             seen.surfaces = seen.surfaces[near] if any(near) else seen.surfaces  # it also has those that no face has
             numbers, kinds = face_numbers(mesh, "material"), materials_in(mesh.metadata)
             if not all(map(kinds.get, [0] if numbers is None else np.unique(numbers.values).tolist())):

@@ -165,10 +165,9 @@ class Bounds:
         return name if shares[name] > 1.0 - 4.0 * SLACK else "step"
 
     def quality(self, candidate: Trial) -> float:
-        """How good positions are where as good ones as possible are wanted: less is better."""
-        if (metric := self.measures.look) is None:
-            return self.measures.original.angle(candidate.positions)
-        return metric.distance(self._decoded(candidate))
+        """How far off positions are where the nearest ones are wanted, as a logarithm."""
+        metric, angle = self.measures.look, self.measures.original.angle
+        return math.log(max(metric.distance(self._decoded(candidate)) if metric else angle(candidate.positions), LEAST))
 
     @cached_property
     def first_step(self) -> float:

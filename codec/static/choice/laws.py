@@ -28,7 +28,7 @@ class Law:
     """Logarithms of a value at steps: a line through known trials, of which far ones tell less."""
 
     def __init__(self, steps: Matrix, first: float, guess: float, slope: float, doubt: float, luck: float) -> None:
-        self._steps, self._slope, self._luck = steps, slope, luck**2
+        self._steps, self.slope, self._luck = steps, slope, luck**2
         self.mean: Matrix = steps
         self.spread: Matrix = steps
         self.known, self.off = [(first, guess, doubt)], 0.0  # steps, values, and their doubts; and what all are more
@@ -48,9 +48,9 @@ class Law:
         """The expected value at each step, and the scale of the logistic distribution around it."""
         places, values, doubts = np.array(self.known).T
         self._squares, self._luck = squares, squares / (TRUST + len(places) - 1)
-        apart, unsure = self._steps[:, None] - places, (DOUBT * self._slope) ** 2
+        apart, unsure = self._steps[:, None] - places, (DOUBT * self.slope) ** 2
         own = places[1:] - places[1:].sum() / max(len(places) - 1, 1)
-        slope = self._slope + own @ (values[1:] - self._slope * own) / (own @ own + self._luck / (4.0 * unsure))
+        slope = self.slope + own @ (values[1:] - self.slope * own) / (own @ own + self._luck / (4.0 * unsure))
         trust = 1.0 / (doubts**2 + self._luck + unsure * apart**2)
         total = trust.sum(axis=1)
         self.mean = (trust * (values + slope * apart)).sum(axis=1) / total
@@ -78,10 +78,12 @@ class Hopes:
         self.left = np.full(len(self.steps), 2)  # stages
 
     def begin(self, made: Trial, size: float) -> None:
-        """Take in a trial that is coded already, and its bytes."""
+        """Take in a trial that is coded, and its bytes."""
         at = int(np.abs(self.steps - math.log(made.step)).argmin())
-        self.coded[at], self.left[at] = made, 1
         self.bytes.learn(at, size)
+        self.left[at] = not (self.fitting and self.bytes.mean[at] > 0.0)
+        if self.left[at]:
+            self.coded[at] = made
 
     def next(self, least: float, price: float) -> tuple[float, int]:
         """Expected saving of the next stage, less its price, in logarithms; and the number of its step."""
@@ -121,18 +123,14 @@ def search(
             return
         try:
             if hopes.left[at] > 1:
-                made = hopes.coded[at] = hopes.way.at(math.exp(hopes.steps[at]))
-                hopes.bytes.learn(at, coded(hopes.way, made, False) + hopes.bytes.off)
-                hopes.left[at] = 1
-                if hopes.fitting and hopes.bytes.mean[at] > 0.0:
-                    hopes.left[at] = 0
-                    del hopes.coded[at]
+                made = hopes.way.at(math.exp(hopes.steps[at]))
+                hopes.begin(made, coded(hopes.way, made, False) + hopes.bytes.off)
             else:
                 made, hopes.left[at] = hopes.coded.pop(at), 0
                 hopes.errors.learn(at, seen(made))
                 if hopes.bound.mean[at] <= 0.0 and hopes.low.mean[at] < least:
                     hopes.bytes.move(coded(hopes.way, made, True) - hopes.bytes.mean[at])
-                    if hopes.low.mean[at] < least:
+                    if hopes.bound.mean[at] <= 0.0 and hopes.low.mean[at] < least:
                         least = float(hopes.low.mean[at])
                         yield hopes.way, made
             if len(hopes.bytes.known) > 3 * TRIES or not hopes.left.any():

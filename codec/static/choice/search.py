@@ -12,8 +12,8 @@ from dataclasses import replace
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.blocks import Plain, Refined
-from bsm.codec.static.choice.bounds import LEAST, Bounds, Measures, Trial
-from bsm.codec.static.choice.grids import Gridded, may_repeat, paying, rounded
+from bsm.codec.static.choice.bounds import Bounds, Measures, Trial
+from bsm.codec.static.choice.grids import Gridded, paying, rounded
 from bsm.codec.static.choice.laws import DOUBT, Hopes, Law, Way, search, steps_of
 from bsm.codec.static.choice.settling import RATIO
 from bsm.codec.static.options import LARGE_BLOCKS, WORTH, EncodeOptions
@@ -66,7 +66,7 @@ class Search:
                     ways.append(larger)
                     sizes[larger] = made.size - refined.base.coded + larger.base.coded
         smaller = min(made.size for made in begun.values()) < first.size * (1.0 - grid.covered(first.step))
-        if may_repeat(self._prepared) and not smaller:
+        if not smaller:
             begun[grid] = grid.repeat(first)
         queue = []
         for way in ways:
@@ -97,26 +97,30 @@ class Search:
             point = rounded(self._prepared, 1)
             return point if self._size(point) <= most_bytes else None
         kept, near = Bounds(self._measures, contract), Bounds(self._measures, replace(contract, look=1.0))
-        first = (usual := Gridded(self._prepared, near)).at(usual.first)
-        first = usual.repeat(first) if may_repeat(self._prepared) else first
+        usual = Gridded(self._prepared, near).in_frame()
+        first = usual.repeat(usual.at(usual.first))
+        room = most_bytes * first.size / self._size(paying(self._prepared, first.congruent))  # for drafts
         # A step twice as wide, which looks about twice as far off, saves three bits of a vertex.
         octaves = min(max(8.0 * (first.size - most_bytes) / (3.0 * self._prepared.graph.size), -12.0), 6.0)
         bounds = Bounds(self._measures, replace(contract, look=2.0**octaves))
-        grid = Gridded(self._prepared, bounds).in_frame()
+        grid = Gridded(self._prepared, bounds, turn=usual.turn) if abs(octaves) > 1.0 else usual
         grid.transforms = usual.transforms
-        found, ways = [*grid.made()], self._ways(bounds, grid, Refined(self._prepared, self._options, bounds))
+        found, ways = [first, *grid.made()], self._ways(bounds, grid, Refined(self._prepared, self._options, bounds))
         queue = [self._hopes(way, bounds, first, most_bytes, most_bytes) for way in ways]
 
-        def coded(_: Way, made: Trial, exactly: bool) -> float:
-            return math.log(self._size(made.draft) / most_bytes)
+        def coded(way: Way, made: Trial, exactly: bool) -> float:
+            size = self._size(paying(self._prepared, made.congruent) if exactly else made.draft)
+            return math.log(size / (room if isinstance(way, Gridded) and not exactly else most_bytes))
 
-        def off(made: Trial) -> float:
-            return math.log(max(kept.quality(made), LEAST))
-
-        found += [made for _, made in search(queue, coded, off, self._price)]
-        drafts = (candidate.congruent for candidate in sorted(filter(kept.keeps, found), key=kept.quality))
-        draft = next((draft for draft in drafts if self._size(draft) <= most_bytes), None)
-        return None if draft is None else paying(self._prepared, draft)
+        if grid is usual:
+            queue[0] = self._hopes(grid, near, first, first.size, most_bytes)
+            queue[0].begin(first, coded(grid, first, False))
+        least = min((kept.quality(made) for made in found if coded(grid, made, True) <= 0.0), default=math.inf)
+        price = self._price / -queue[0].bytes.slope  # of bytes, in looks
+        found += [made for _, made in search(queue, coded, kept.quality, price, least)]
+        best = sorted(filter(kept.keeps, found), key=kept.quality)
+        drafts = (paying(self._prepared, made.congruent) for made in best)
+        return next((draft for draft in drafts if self._size(draft) <= most_bytes), None)
 
     def _hopes(self, way: Way, bounds: Bounds, like: Trial, size: float, most_bytes: float = 0.0) -> Hopes:
         """What to expect of a way if it takes about so many bytes at its first step, and others as a trial does."""
@@ -130,9 +134,7 @@ class Search:
 
     def seen(self, draft: Draft) -> str:
         metric = self._measures.look
-        if metric is None:
-            return "nothing is visible"
-        return f"look {metric.distance(draft.decoded):.3g}"
+        return "nothing is visible" if metric is None else f"look {metric.distance(draft.decoded):.3g}"
 
     def _ways(self, bounds: Bounds, grid: Gridded, refined: Refined) -> list[Way]:
         """Ways that may be smallest."""

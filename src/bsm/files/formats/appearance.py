@@ -93,7 +93,7 @@ _GLTF, _MTL = fields_of("glTF"), fields_of("MTL")
 _OF_MTL = {word.lower(): word for word in {**_MTL, **dict.fromkeys(_ROWS[-1]["MTL"].split())} if word != "name"}
 """Words of MTL as most files write them, by those in lower case."""
 MTL_IMAGES = re.compile(r"map_\w+|bump|disp|decal|norm|refl")
-_MOVE = r"\s*-([so])((?:\s+[-+]?[\d.]+(?:e[-+]?\d+)?){1,3})|\s*-clamp\s+(on)\b|\s*-(?:clamp\s+off|blend[uv]\s+on)\b"
+_MOVE = r"\s*-([so])((?:\s+[-+]?[\d.]+(?:e[-+]?\d+)?){1,3})|\s*-clamp\s+(on)\b"
 WAYS = ("repeat", "clamp", "mirror")
 _MTL_COLORS = ("Ka", "Kd", "Ks", "Ke", "Tf")
 _MTL_OPTIONS = re.compile(
@@ -176,11 +176,10 @@ def _about(words: Material, word: str) -> dict[str, dict[str, Any]]:
     found: dict[str, dict[str, Any]] = {"wrap": {"wrap": wrap}} if len(wrap) == 2 and {*wrap} <= {*WAYS} else {}
     found |= {"rotation": {"rotation": rotation[0]}} if len(rotation) == 1 else {}
     found |= {"set": {"set": which}} if isinstance(which, int) and which >= 0 else {}
-    if re.fullmatch(f"(?:{_MOVE})+", options, re.IGNORECASE):
-        said = re.findall(_MOVE, options, re.IGNORECASE)
-        given = {name.lower(): tuple(as_numbers(numbers)[:2]) for name, numbers, _ in said}
+    if re.fullmatch(f"(?:{_MOVE})+", options):
+        given = {name: tuple(as_numbers(numbers)[:2]) for name, numbers, _ in re.findall(_MOVE, options)}
         moved = {"scale": (*given.get("s", ()), 1.0, 1.0)[:2], "offset": (*given.get("o", ()), 0.0, 0.0)[:2]}
-        found["options"] = moved | ({"wrap": ("clamp", "clamp")} if any(on for *_, on in said) else {})
+        found["options"] = moved | ({"wrap": ("clamp", "clamp")} if "" in given else {})
     return found
 
 
