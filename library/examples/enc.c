@@ -32,12 +32,14 @@ static char *next_line(FILE *file) {
     return line;
 }
 
-/* Read vertices and faces; polygons become fans. Returns the number of the wrong line, or 0. */
-static long read_obj(FILE *file, bsmenc_mesh *mesh, double **positions, uint32_t **corners) {
+/* Read vertices and faces; polygons become fans. Returns the number of the wrong line, or 0. `more`: whether the OBJ has
+ * texture coordinates, normals or materials. */
+static long read_obj(FILE *file, bsmenc_mesh *mesh, double **positions, uint32_t **corners, int *more) {
     long number = 1;
     for (char *line; (line = next_line(file)) != NULL; number++) {
         double place[3];
         char *text = line + strspn(line, " \t"), kind = *text, *end;
+        if (strncmp(text, "vt", 2) == 0 || strncmp(text, "vn", 2) == 0 || strncmp(text, "usemtl", 6) == 0) *more = 1;
         if (kind == '\0' || !isspace((unsigned char)text[1])) continue;
         text++;
         if (kind == 'v') {
@@ -77,10 +79,11 @@ int main(int count, char **arguments) {
     bsmenc_stream *stream;
     double *positions = NULL;
     uint32_t *corners = NULL;
+    int more = 0;
     if (count < 3 || count > 4) return fprintf(stderr, "usage: bsmenc IN.obj OUT.bsm [BITS]\n"), BSMENC_MISUSED;
     FILE *file = fopen(arguments[1], "rb");
     if (file == NULL) return perror(arguments[1]), FILES;
-    long wrong = read_obj(file, &mesh, &positions, &corners);
+    long wrong = read_obj(file, &mesh, &positions, &corners, &more);
     fclose(file);
     if (wrong != 0) return fprintf(stderr, "%s: line %ld is not one of an OBJ\n", arguments[1], wrong), FORMAT;
     mesh.positions = positions;
@@ -94,6 +97,8 @@ int main(int count, char **arguments) {
                || fclose(file) != 0) {
         perror(arguments[2]);
         status = FILES;
+    } else if (more) {
+        fprintf(stderr, "%s: left out: texture coordinates, normals and materials\n", arguments[2]);
     }
     bsmenc_release(stream);
     free(positions);

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bsm import __version__
 from bsm.bitstream.errors import ArgumentError, BsmWarning, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.arrays import as_array
@@ -84,15 +85,15 @@ PROVENANCE = "provenance"
 """The entry of metadata that says how a stream was made."""
 
 
-def has_provenance(metadata: Metadata) -> bool:
-    return str(metadata.get(PROVENANCE, "")).startswith("bsm ")
+def as_decoded(metadata: Metadata) -> Metadata:
+    """The metadata of a file whose mesh is not exact, so that encoding it says which generation it is."""
+    return {PROVENANCE: f"bsm {__version__}", **metadata}
 
 
 def without_provenance(mesh: TriangleMesh) -> TriangleMesh:
     """The mesh without how the stream was made that it was decoded from: the next one is made otherwise."""
-    if not has_provenance(mesh.metadata):
-        return mesh
-    return replace(mesh, metadata={name: value for name, value in mesh.metadata.items() if name != PROVENANCE})
+    own = PROVENANCE if str(mesh.metadata.get(PROVENANCE, "")).startswith("bsm ") else None
+    return replace(mesh, metadata={name: value for name, value in mesh.metadata.items() if name != own})
 
 
 def with_metadata(mesh: TriangleMesh, options: "EncodeOptions | None", metadata: Metadata) -> TriangleMesh:

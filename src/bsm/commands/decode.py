@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from bsm import __version__
 from bsm.bitstream.errors import BsmError, OptionError, counted
 from bsm.codec.arrays import Faces, Order
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -37,7 +36,7 @@ from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Job, Task, anywhere, came_to
 from bsm.lengths import metres, unit_of
-from bsm.libraries import PROVENANCE
+from bsm.libraries import as_decoded
 
 WITH_FLOATS = 2  # of `Header.light`
 NO_FRAMES = "the stream does not contain these frames; they count from 0, and bsm info says how many there are"
@@ -147,10 +146,8 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
 
 def _as_asked(args: DecodeJob, console: Console, mesh: TriangleMesh, kind: str, *, exact: bool) -> TriangleMesh:
     """A mesh in the requested unit and precision, which says that it was decoded if it is not exact."""
-    metadata, scale = {n: value for n, value in mesh.metadata.items() if kind == "obj" or not is_link(n)}, 1.0
-    metadata.pop("source_name", None)
-    if not exact:
-        metadata.setdefault(PROVENANCE, f"bsm {__version__}")
+    said = mesh.metadata if exact else as_decoded(mesh.metadata)
+    metadata, scale = {n: v for n, v in said.items() if n != "source_name" and (kind == "obj" or not is_link(n))}, 1.0
     if args.unit_out:
         own, wanted = metres(unit_of(metadata)), metres(args.unit_out)
         if wanted is None:
@@ -224,7 +221,8 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
         raise OptionError(NO_FRAMES)
     expected = min(last, header.frames) - first if header.frames and not args.tolerant else 0
     order, faces = _ordered(stream.faces, args.permutation)
-    shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: stream.metadata, first=first)
+    said = as_decoded(stream.metadata)
+    shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: said, first=first)
     how: dict[str, Any] = {"overwrite": args.may_replace(output), "follow": args.follow, "shared": shared}
     with sequence_writer(output, kind, faces, expected, **how) as write, console.progress("decoding") as progress:
         for count, (number, frame) in enumerate(takewhile(lambda found: found[0] < last, chain(ahead, frames)), 1):

@@ -79,11 +79,11 @@ def within(least: int, most: float = math.inf) -> Callable[[str], int]:
 
 
 def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
-    """A type of options that are numbers with commas between them."""
+    """A type of options that are finite numbers with commas between them."""
 
     def parsed(text: str) -> tuple[float, ...]:
         found = tuple(map(float, text.split(",")))
-        if len(found) != count:
+        if len(found) != count or not all(map(math.isfinite, found)):
             raise ValueError(text)
         return found
 

@@ -28,7 +28,7 @@ from bsm.files.sequence import open_frames, open_sequence
 from bsm.jobs.report import digest_of
 from bsm.jobs.task import Facts, Task, came_to
 from bsm.lengths import asked_unit, in_own_unit
-from bsm.libraries import PROVENANCE, has_provenance, with_metadata, with_texels
+from bsm.libraries import PROVENANCE, with_metadata, with_texels
 from bsm.options import encode_options, sequence_options
 from bsm.simplification import Chosen, encode_source
 
@@ -239,17 +239,15 @@ def with_provenance(
     metadata: Metadata, asked: bool | None, path: str, given: Mapping[str, Any], options: Any
 ) -> tuple[Metadata, list[str]]:
     """Return metadata with a provenance entry, if it is requested or the input has one, and notes."""
-    if not has_provenance(metadata):
+    said = str(metadata.get(PROVENANCE, ""))
+    if not said.startswith("bsm "):
         return {**metadata, **({PROVENANCE: _words(path, given, options, 1)} if asked else {})}, []
-    found = _GENERATION.search(str(metadata[PROVENANCE]))
+    found = _GENERATION.search(said)
     generation = 1 + int(found[1] if found else 1)
-    exact = getattr(options, "is_grid", False)
-    notes = [
-        f"the mesh was decoded from a stream, so this is generation {generation}"
-        + ("" if exact else ": errors add up, so encode the original if you have it")
-    ]
+    more = "" if getattr(options, "is_grid", False) else ": errors add up, so encode the original if you have it"
+    notes = [f"the mesh was decoded from a stream, so this is generation {generation}{more}"]
     kept = {name: value for name, value in metadata.items() if name != PROVENANCE}
-    whole = asked or " sha256=" in str(metadata[PROVENANCE])
+    whole = asked or " sha256=" in said
     words = _words(path, given, options, generation) if whole else f"bsm {__version__} generation={generation}"
     return kept if asked is False else {**kept, PROVENANCE: words}, notes
 

@@ -25,7 +25,7 @@ from bsm.gltf.write import vertex_normals, write_glb
 from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Ints
 from bsm.tiles.manifest import Tile
-from bsm.tiles.reading import ABOUT, CARRIED
+from bsm.tiles.reading import CARRIED
 from bsm.tiles.shards import Table, Tiles
 
 _COPIED = 1 << 24
@@ -75,8 +75,7 @@ def write_joined(
             points.write(rows.tobytes())
             of_faces, rows = table_of([("vertex_indices", given[triangles].astype(np.uint32))])
             corners.write(rows.tobytes())
-        about = {name: tiles.manifest[name] for name in ABOUT if name in tiles.manifest}
-        comments = [f"comment {line}" for line in remarks(about)[0]]
+        comments = [f"comment {line}" for line in remarks(tiles.about)[0]]
         lines = ["ply", "format binary_little_endian 1.0", *comments, f"element vertex {vertices}", *of_points]
         lines += [f"element face {total}", *of_faces, "end_header"]
         with open_output(output, overwrite=overwrite) as file, console.progress("writing"):
@@ -143,7 +142,7 @@ def _ends(tiles: Iterable[Tile]) -> dict[str, Ints]:
 
 def _tree(tiles: Tiles, errors: Mapping[str, float], ends: Mapping[str, Ints]) -> Facts:
     """The nodes of a tileset, of which those with an error have contents."""
-    placed = placement({name: tiles.manifest[name] for name in ABOUT if name in tiles.manifest}, "tileset")
+    placed = placement(tiles.about, "tileset")
     diagonal = tiles.lattice.cell * float(np.linalg.norm(np.ptp(ends["r"], axis=0)))
 
     def node(name: str, around: Ints) -> Facts:

@@ -28,7 +28,7 @@ from bsm.files.table import format_of_bytes
 Array: TypeAlias = npt.NDArray[Any]
 Pieces: TypeAlias = Iterator[tuple[str, Array]]  # some rows of "positions", "faces", "color", "normal" or "texcoord"
 Kinds: TypeAlias = Mapping[str, tuple[str, int]]  # of numbers in a table, and how many a row has
-ABOUT = ("unit", "up")
+ABOUT = ("unit", "up", "provenance")
 CARRIED = {"color": ("red", "green", "blue", "alpha"), "normal": ("nx", "ny", "nz")}
 _CORNERS = ("vertex_indices", "vertex_index")
 _KNOWN = ("x", "y", "z", "length", "corners")
@@ -51,7 +51,7 @@ class Raw:
     low: tuple[float, ...] = ()
     high: tuple[float, ...] = ()
     left_out: dict[str, None] = field(default_factory=dict)  # names of contents that tiles do not have, in order
-    about: dict[str, str] = field(default_factory=dict)  # the unit, and the axis that points up
+    about: dict[str, str] = field(default_factory=dict)  # the entries of ABOUT
     metadata: dict[str, Value] = field(default_factory=dict)  # with materials and images, of a file read as a whole
     libraries: dict[str, None] = field(default_factory=dict)
     materials: dict[str, int] = field(default_factory=dict)  # their numbers, by their names

@@ -16,16 +16,17 @@ from bsm.bitstream.container.wire import MAJOR
 from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, FormatError, OptionError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.output import open_output, write_output
 from bsm.files.pipes import about, inside, is_pipe, is_url, named, place_of, read_range
 from bsm.files.stream import decode_whole
 from bsm.jobs.task import Facts
+from bsm.libraries import as_decoded
 from bsm.tiles.cutting import Lattice, Plan, Root
 from bsm.tiles.making import Faces
 from bsm.tiles.manifest import FOOT, MANIFEST, NO_JSON, Tile, json_of, parse_index, read_manifest
-from bsm.tiles.reading import Kinds
+from bsm.tiles.reading import ABOUT, Kinds
 
 Table: TypeAlias = npt.NDArray[np.float64]
 SHARD, MOST_TILES = 64_000_000, 1 << 14  # bytes, and tiles, from which on a shard takes no more
@@ -184,6 +185,10 @@ class Tiles:
     kinds: Kinds = field(default_factory=dict)
     _held: dict[str, list[Tile]] = field(default_factory=dict, init=False, repr=False)
 
+    @property
+    def about(self) -> Metadata:
+        return as_decoded({name: self.manifest[name] for name in ABOUT if name in self.manifest})
+
     def region(
         self, low: Sequence[float], high: Sequence[float], error: float = 0.0, *, level: int | None = None
     ) -> TriangleMesh:
@@ -213,7 +218,7 @@ class Tiles:
         used, rows = np.unique(np.concatenate(triangles), return_inverse=True)
         different, numbers = np.unique(np.concatenate(tables)[used], axis=0, return_inverse=True)
         joined = numbers.reshape(-1)[rows].reshape(-1, 3).astype(np.int32)
-        return TriangleMesh(self.lattice.positions(different[:, :3]), joined, self.attributes(different))
+        return TriangleMesh(self.lattice.positions(different[:, :3]), joined, self.attributes(different), self.about)
 
     def attributes(self, table: Table) -> tuple[Attribute, ...]:
         """Return the attributes of vertices, shape (n, 3 and more), as those of a mesh."""

@@ -678,6 +678,7 @@ class _Stage:
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         of_materials, absent = materials.metadata(self._limits)
         metadata = {"up": up, "unit": conventions.unit_named(unit), **named, **found.metadata, **of_materials}
+        metadata |= {"provenance": said} if (said := self.stage.GetRootLayer().comment).startswith("bsm ") else {}
         own = self.parts[0].prim.GetPath()
         metadata |= {"prim": str(own)} if len(self.parts) == 1 and own.pathElementCount > 1 else {}
         left = dict.fromkeys((*(name for part in self.parts for name in part.shape.left_out), *materials.left))
@@ -806,7 +807,8 @@ def _begun(
     materials, written = write_materials(pxr, mesh, first, images)
     others = _others(first, materials, parts := name_parts(pxr, mesh, first))
     shared.loses(attribute.name for attribute in others if not _written(pxr, mesh, attribute))
-    written |= {"up", "name", "prim"} | ({"unit"} if size else set())
+    stage.GetRootLayer().comment = str(metadata.get("provenance", ""))
+    written |= {"up", "name", "prim", "provenance"} | ({"unit"} if size else set())
     written |= {"part.names", *(f"part.{n}.name" for n in formats.names_in(metadata, "part"))} if parts else set()
     shared.loses(formats.in_words((name for name in first.metadata if name not in written), first.metadata))
     return mesh, materials
