@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bsm import Attribute, FormatError, MeshError, TriangleMesh, read_mesh
+from bsm import Attribute, FormatError, MeshError, TriangleMesh, __version__, read_mesh
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.cli import main
 from bsm.files.conventions import placement, unit_named
@@ -304,5 +304,6 @@ def test_tiles_keep_the_unit_and_the_axis(tmp_path):
     tree = json.loads((tmp_path / "tileset.json").read_text())["root"]
     center = np.array(tree["transform"]).reshape(4, 4).T @ [*tree["boundingVolume"]["box"][:3], 1]
     assert center[:3] == pytest.approx([0.005, -0.015, 0.01], abs=1e-6)
-    assert main(["untile", str(tmp_path / "t"), "-o", str(tmp_path / "b.ply")]) == 0
-    assert {**read_mesh(tmp_path / "b.ply").mesh.metadata} == {"unit": "mm", "up": "y"}
+    for name in ("b.ply", "b.obj"):
+        assert main(["untile", str(tmp_path / "t"), "-o", str(tmp_path / name)]) == 0
+        assert read_mesh(tmp_path / name).mesh.metadata == {"provenance": f"bsm {__version__}", "unit": "mm", "up": "y"}
