@@ -32,8 +32,8 @@ static char *next_line(FILE *file) {
     return line;
 }
 
-/* Read vertices and faces; polygons become fans. Returns the number of the wrong line, or 0. `more`: whether the OBJ has
- * texture coordinates, normals or materials. */
+/* Read vertices and faces; polygons become fans. Returns the number of the wrong line, or 0.
+ * `more`: whether the OBJ has texture coordinates, normals or materials. */
 static long read_obj(FILE *file, bsmenc_mesh *mesh, double **positions, uint32_t **corners, int *more) {
     long number = 1;
     for (char *line; (line = next_line(file)) != NULL; number++) {

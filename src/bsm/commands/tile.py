@@ -37,8 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    cell = 1.0 if args.grid_cell is None else args.grid_cell
-    EncodeOptions(grid_cell=cell, grid_origin=args.grid_origin)  # refuses what makes no grid
+    EncodeOptions(grid_cell=1.0 if args.grid_cell is None else args.grid_cell, grid_origin=args.grid_origin)
     if not is_url(args.input) and args.input != "-":
         os.stat(args.input)
     beside = f"{name_in(args.output) or 'tiles'}.work" if is_url(args.output) else os.path.join(args.output, ".work")
