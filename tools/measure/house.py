@@ -30,12 +30,12 @@ BOUND = re.compile(r"(?:KERNEL|CHECKED)\((\w+)\)")
 CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
-    "codec proper, lines": 36_046,
+    "codec proper, lines": 35_963,
     "rest of the product, lines": 31_166,
-    "tests, lines": 30_836,
+    "tests, lines": 30_834,
     "tools, lines": 17_375,
     "tuned constants of the search": 55,
-    "kernels driven by both Python and C": 12,
+    "kernels driven by both Python and C": 11,
 }
 
 
