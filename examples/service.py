@@ -175,7 +175,7 @@ class Handler(BaseHTTPRequestHandler):
 
     def setup(self) -> None:
         """From now on there is so much time for head and body together, however slowly they come."""
-        self.timeout = 2.0 * self.server.seconds  # for an answer to be taken; what comes late gets one first
+        self.timeout = 2.0 * self.server.seconds  # more than for reading, so that a late upload gets its answer
         super().setup()
         self.patience = Timer(self.server.seconds, self.stop_reading)
         self.patience.daemon = True
