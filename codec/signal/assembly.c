@@ -70,7 +70,7 @@ bool mark_whole(const Assembly *assembly, const Header *header, const Graph *gra
 }
 
 bool into_unit(Context *context, const Header *header, Doubles2 positions) {
-    double scale = header->scale, spoiled[3] = {0.0}; /* infinity less itself is no number */
+    double scale = header->scale, spoiled[3] = {0.0}; /* infinity minus itself is not a number */
     for (int64_t v = 0; v < positions.rows; v++)
         for (int d = 0; d < 3; d++) {
             double *place = positions.data + 3 * v + d;

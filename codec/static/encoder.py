@@ -185,7 +185,7 @@ class Encoder:
         _ = self._input.carried  # raises what is wrong with attributes first
         promise, near = self.options.promise, self._begun(progress)
         if promise is None:
-            return self._verified(self._input.dressed(self._bare(near)), near)
+            return self._verified(self._input.completed(self._bare(near)), near)
         self._input, draft = smallest(self._input, promise, near)
         return self._verified(draft, near, promise)
 
@@ -251,8 +251,8 @@ class Encoder:
 
         def best(sent: Sent) -> Draft | None:
             found = sent.search.best(promise or anything, most)
-            dressed = None if found is None else sent.dressed(found)
-            return None if dressed and promise and sent.measured(dressed, promise)[0] else dressed
+            completed = None if found is None else sent.completed(found)
+            return None if completed and promise and sent.measured(completed, promise)[0] else completed
 
         if (found := best(given)) is not None:
             return self._judged(found)
@@ -272,7 +272,7 @@ class Encoder:
         if promise is None:
             if (found := best(self._input)) is not None:
                 return self._judged(found)
-            smaller = self._input.dressed(self._input.search.smallest(anything))
+            smaller = self._input.completed(self._input.search.smallest(anything))
         text, least = f"{target.worded(target.value)} at most cannot be", self._judged(smaller)
         had = target.worded(target.reached(least))
         if promise is None:
@@ -293,7 +293,7 @@ class Encoder:
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
         """Encode blocks with a given quantization step, and compare the decoded mesh."""
         with as_of_decoders(self.options.limits):
-            return self._judged(self._input.dressed(self._spectral.base(step, progress).draft))
+            return self._judged(self._input.completed(self._spectral.base(step, progress).draft))
 
     def seen(self, attempt: Attempt) -> str:
         """Return the look of an attempt, in words."""

@@ -5,7 +5,7 @@
 #ifdef BSMDEC_WRITES
 
 enum { MOST = 256 };
-/* Of the page: is told how far the work is; other than 0 ends it. */
+/* Of the page: receives the finished part of the work; other than 0 ends it. */
 __attribute__((import_module("page"), import_name("progress"))) extern int page_progress(double part);
 
 static bsmenc_mesh mesh;

@@ -23,8 +23,8 @@ from bsm.files.formats.with_meshio import columns_of, of_meshio
 from bsm.files.formats.with_trimesh import joined, polygons_of
 from bsm.files.images import largest_side, with_linked_images
 from bsm.files.mesh import read_mesh
+from bsm.files.parsing import PRECISION, Ints, is_single_and_far, ranges
 from bsm.files.pipes import Input, as_input
-from bsm.files.room import PRECISION, Ints, is_single_and_far, ranges
 from bsm.files.stream import decode_whole, is_stream
 
 if TYPE_CHECKING:

@@ -1,6 +1,6 @@
 /** What the decoder of light grids leaves out: it takes the place of `parting.ts`, as `scripts/build.mjs` says. */
-export function dressed(): never {
+export function drawnFaces(): never {
     throw new TypeError("this build draws no attributes");
 }
 
-export const numbersOf = dressed;
+export const numbersOf = drawnFaces;

@@ -15,11 +15,11 @@ const REFUSED = { isSkinnedMesh: "skins", isInstancedMesh: "instances", isBatche
 const GETTERS = ["getX", "getY", "getZ", "getW"] as const;
 const LABELS = ["part", "material"];
 const ROUNDED = 0.51 / 65535; // by which colors of glTF are off
-type Given = BufferAttribute | InterleavedBufferAttribute;
+type ThreeAttribute = BufferAttribute | InterleavedBufferAttribute;
 
 const semanticOf = (name: string): AttributeInput["semantic"] => (name === "normal" ? "normal" : name.startsWith("color") ? "color" : /^(uv|texcoord)\d*$/.test(name) ? "texcoord" : "generic");
 
-/** One mesh of all that a geometry, or an object with all that is in it, draws; `note` is told what is left out. */
+/** One mesh of all that a geometry, or an object with all that is in it, draws; `note` receives what is left out. */
 export function meshOf(given: BufferGeometry | Object3D, note: (text: string) => void = console.warn): MeshInput & { positions: Values; faces: Uint32Array } {
     const left = new Set<string>();
     const parts = "attributes" in given ? [{ geometry: given, name: "" }] : partsOf(given, left);
@@ -33,7 +33,7 @@ export function meshOf(given: BufferGeometry | Object3D, note: (text: string) =>
     const attributes = names.flatMap((name): AttributeInput[] => {
         const own = parts.flatMap(({ geometry }) => geometry.attributes[name] ?? []);
         const components = own[0].itemSize;
-        const isTaken = ({ array, itemSize }: Given): boolean => kindOf(array ?? []) !== undefined && itemSize === components && itemSize <= GETTERS.length;
+        const isTaken = ({ array, itemSize }: ThreeAttribute): boolean => kindOf(array ?? []) !== undefined && itemSize === components && itemSize <= GETTERS.length;
         if (own.length < parts.length || LABELS.includes(name) || !own.every(isTaken)) return left.add(name), [];
         const values = joined(parts.map((part) => valuesOf(part, name)));
         if (semanticOf(name) !== "color" || components < 3) return [{ name, components, semantic: semanticOf(name), values }];
@@ -66,7 +66,7 @@ function partsOf(object: Object3D, left: Set<string>): Part[] {
 /** The drawn faces, and the material of each: with several, what is in no group is not drawn. */
 function facesOf({ geometry, material, matrix }: Part, materials: Material[]): { corners: Uint32Array; labels: number[] } {
     const { index, attributes, groups, drawRange: { start, count }, morphAttributes } = geometry;
-    if (!(attributes.position as Given)?.array) refuse("the geometry has no positions");
+    if (!(attributes.position as ThreeAttribute)?.array) refuse("the geometry has no positions");
     if (Object.values(morphAttributes).some(({ length }) => length > 0)) refuse("no stream has morph targets: delete geometry.morphAttributes, or encode each shape");
     if ("instanceCount" in geometry || Object.values(attributes).some((each) => "isInstancedBufferAttribute" in each)) refuse("no stream has instances: encode the geometry without them");
     const all = index ? wholes(index.array, "an index") : Uint32Array.from({ length: attributes.position.count }, (_, i) => i);
@@ -91,7 +91,7 @@ function filed(linear: ArrayLike<number>, components: number, ofBytes: boolean):
 
 /** The numbers that an attribute stands for, where its object is. */
 function valuesOf({ geometry, matrix }: Part, name: string): ArrayLike<number> {
-    const attribute = geometry.attributes[name] as Given;
+    const attribute = geometry.attributes[name] as ThreeAttribute;
     const { array, itemSize, normalized } = attribute;
     const isPlace = name === "position";
     const [count, width] = [geometry.attributes.position.count, isPlace ? 3 : itemSize];

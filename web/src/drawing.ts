@@ -1,14 +1,14 @@
 /** What is drawn of a stream, made in the thread that decodes: arrays that a page hands to its graphics as they are. */
 import type { Attribute } from "./attributes";
 import type { Event, Loose, EventOf } from "./events";
-import { cornersOf, spread, type DrawnAttribute, type Dress, type Piece } from "./dress";
+import { cornersOf, spread, type DrawnAttribute, type DrawnFaces, type Piece } from "./drawn";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
-import { dressed, numbersOf } from "./parting";
+import { drawnFaces, numbersOf } from "./parting";
 
 export type { DrawnAttribute, Piece };
 
 /** A whole mesh as it is drawn: `vertices` says which vertex of the stream each drawn one is, if that is not the same. */
-export interface Shape extends Omit<Dress, "own"> {
+export interface Shape extends Omit<DrawnFaces, "own"> {
     positions: Float32Array;
     normals: Float32Array;
     center: [number, number, number];
@@ -205,7 +205,7 @@ export class Drawing {
         const isThere = (corner: number): boolean => origin[faces[corner]] >= 0;
         const all = new Int32Array(faces.length / 3).map((_, face) => face);
         const whole = origin.includes(-1) ? all.filter((face) => isThere(3 * face) && isThere(3 * face + 1) && isThere(3 * face + 2)) : all;
-        const { index, vertices, pieces, attributes, own } = carried.length > 0 ? dressed(faces, whole, carried, points.length / 3) : this.bare(whole);
+        const { index, vertices, pieces, attributes, own } = carried.length > 0 ? drawnFaces(faces, whole, carried, points.length / 3) : this.bare(whole);
         const positions = spread(points, 3, vertices);
         const normals = own ?? spread(normalsOf(faces, origin, points), 3, vertices);
         const shape = (this.shape = { index, positions, normals, attributes, vertices, pieces, ...boundsOf(positions) });
@@ -214,7 +214,7 @@ export class Drawing {
         this.show({ type: "whole", shape, run: this.run }, buffers);
     }
 
-    private bare(faces: Int32Array): Dress {
+    private bare(faces: Int32Array): DrawnFaces {
         const index = 3 * faces.length === this.faces.length ? new Uint32Array(this.faces) : cornersOf(this.faces, faces);
         return { index, pieces: index.length > 0 ? [{ part: 0, material: 0, start: 0, count: index.length }] : [], attributes: [] };
     }

@@ -43,9 +43,9 @@ export interface EncodeOptions {
     quick?: boolean;
     /** Of attributes by name. */
     qualities?: Record<string, Quality>;
-    /** Is told what of a geometry or an object is left out; without it, the console is. */
+    /** Receives a note for each thing of a geometry or an object that is left out; without it, the console does. */
     onNote?: (note: string) => void;
-    /** Is told the finished part, from 0 to 1. */
+    /** Receives the finished part, from 0 to 1. */
     onProgress?: (part: number) => void;
     signal?: AbortSignal;
     /** Where encode.wasm is, or encode-moving.wasm for sequences; by default beside this module. */

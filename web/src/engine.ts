@@ -11,14 +11,14 @@ import type { Share, SharedBlock } from "./share";
 /** Events in the order of library/bsmdec.h, and one of decoders with helpers. */
 export const [NEED, HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, OVER, FAILED, , AWAITED] = Array.from({ length: 14 }, (_, i) => i);
 
-const VIEWS: Kind<ArrayLike<number> & { slice(): ArrayLike<number> }>[] = [Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array, Float64Array];
+const VIEWS: ViewType<ArrayLike<number> & { slice(): ArrayLike<number> }>[] = [Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array, Float64Array];
 const [WHOLE, NUMBER, TEXT] = [1, 2, 3];
 const TEXTS = new TextDecoder("utf-8", { ignoreBOM: true });
 const LAST_ATTRIBUTE = 255;
 const [ENTRY_BYTES, ATTRIBUTE_BYTES] = [48, 56];
 const [MOST_KEY, MOST_LIST] = [25, 8];
 
-interface Kind<View> {
+interface ViewType<View> {
     BYTES_PER_ELEMENT: number;
     new (buffer: ArrayBuffer, at: number, length: number): View;
 }
@@ -184,7 +184,7 @@ export class Engine extends Memory {
     }
 
     /** An array that a function fills, which takes the decoder, `given`, the place and the size. */
-    private filled<View>(kind: Kind<{ slice(): View }>, count: number, name: string, ...given: number[]): View {
+    private filled<View>(kind: ViewType<{ slice(): View }>, count: number, name: string, ...given: number[]): View {
         return this.lent(Math.max(1, count) * kind.BYTES_PER_ELEMENT, (at) => {
             if (this.call(name, this.decoder, ...given, at, count) !== 0) throw this.error();
             return new kind(this.buffer, at, count).slice();

@@ -1,4 +1,4 @@
-/** What a decoder tells, and what it is asked for. */
+/** What a decoder reports, and what it is asked for. */
 import type { Attribute } from "./attributes";
 import type { Described } from "./errors";
 import type { Header } from "./header";
@@ -16,7 +16,7 @@ export interface Changes {
 /** Positions of vertices that no face uses. */
 export type Loose = Pick<Changes, "vertices" | "positions">;
 
-/** What a decoder tells. */
+/** What a decoder reports. */
 export type Event =
     | { type: "header"; header: Header }
     /** Nothing that is decoded depends on them. */

@@ -60,7 +60,7 @@ class Light extends Memory {
 }
 
 /** Takes the bytes of a stream as they come, and gives events as soon as they can be known. */
-export class Decoder {
+export class GridDecoder {
     private readonly reader: Reader;
     private readonly light: Light;
     private readonly queue: GridEvent[] = [];
@@ -155,7 +155,7 @@ export class Decoder {
 
 /** Decode a complete stream. */
 export function decode(kernels: Kernels, data: Uint8Array, limits: Partial<Limits> = {}): Mesh {
-    const decoder = new Decoder(kernels, limits);
+    const decoder = new GridDecoder(kernels, limits);
     decoder.receiveData(data);
     return decoder.finish();
 }

@@ -1,6 +1,6 @@
 /** Vertices parted where attributes part them, and faces sorted by parts and materials. */
 import type { Attribute } from "./attributes";
-import { cornersOf, spread, type Dress, type Piece } from "./dress";
+import { cornersOf, spread, type DrawnFaces, type Piece } from "./drawn";
 
 /** Attributes of faces that say what belongs together, and are not drawn. */
 const [MATERIAL, PART] = ["material", "part"];
@@ -8,7 +8,7 @@ const LINEAR = "COLOR_0"; // what streams in glTF call colors: others are sRGB
 const BASES = { texcoord: "uv", color: "color", normal: "normal" } as const;
 
 /** Faces `whole`, which are sorted, of a mesh of `size` vertices, with all that it carries. */
-export function dressed(faces: Int32Array, whole: Int32Array, carried: Attribute[], size: number): Dress {
+export function drawnFaces(faces: Int32Array, whole: Int32Array, carried: Attribute[], size: number): DrawnFaces {
     const labels = [PART, MATERIAL].map((name) => carried.find((attribute) => attribute.name === name && attribute.domain === "face" && attribute.components === 1));
     const [part, material] = labels.map((attribute) => (face: number): number => attribute?.values[face] ?? 0);
     if (labels.some(Boolean)) whole.sort((a, b) => part(a) - part(b) || material(a) - material(b) || a - b);

@@ -228,7 +228,7 @@ class PooledStream {
         private readonly end: () => void,
     ) {}
 
-    /** Take a piece, which nobody may change any more; null says that no more will come. */
+    /** Take a piece, which must not change afterwards; null: the data has ended. */
     receiveData(data: Uint8Array | null): void {
         if (this.closed) return;
         this.pieces.push(data);

@@ -2,5 +2,5 @@
 export * from "./errors";
 export { DEFAULT_LIMITS, type Limits } from "./limits";
 export { Kernels } from "./kernels";
-export * from "./grids";
+export { decode, END_OF_STREAM, GridDecoder as Decoder, type GridEvent, NEED_DATA } from "./grids";
 export { openDesk, serve } from "./workerFast";

@@ -102,7 +102,7 @@ class Sent:
         corners = self.prepared.of_coded(given[self.joined.kept])
         return own.reshape(-1, 3)[corners].reshape(-1, 9)
 
-    def dressed(self, draft: Draft) -> Draft:
+    def completed(self, draft: Draft) -> Draft:
         """The draft with attributes and metadata."""
         if not self.carried and not self.given.metadata:
             return draft
@@ -121,7 +121,7 @@ class Sent:
 
     @property
     def search(self) -> Search:
-        return Search(self.measures, self.options, lambda draft: self.dressed(draft).size, self.saved)
+        return Search(self.measures, self.options, lambda draft: self.completed(draft).size, self.saved)
 
     def saved(self, candidate: Trial) -> int:
         """Return how many bytes the attributes save if positions are on a grid."""
@@ -219,7 +219,7 @@ def _shaded(given: Sent, contract: Contract) -> tuple[Sent, Draft]:
     """The smallest stream that keeps a contract; normals without a quality get as many bits as the look needs."""
     bare, metric, free = given.search.smallest(contract), given.measures.look, given.free_normals
     if free is None or metric is None or contract.look == math.inf:
-        return given, given.dressed(bare)
+        return given, given.completed(bare)
     decoded, asked = bare.decoded, contract.look
 
     def seen(carried: tuple[PreparedAttribute, ...], positions: Positions) -> float:
@@ -231,7 +231,7 @@ def _shaded(given: Sent, contract: Contract) -> tuple[Sent, Draft]:
         return seen(given.carry_with(free, finer[at]), decoded) <= 1.0
 
     sent = given.but(carried=given.carry_with(free, finer[bisect_left(range(len(finer) - 1), True, key=enough)]))
-    kept = sent, sent.dressed(bare)
+    kept = sent, sent.completed(bare)
     recomputed = given.but(carried=given.carry_with(free, Quality("recompute")))
     if metric.against_faces or seen(recomputed.carried, given.prepared.mesh.positions) > 1.0 - SLACK:
         return kept
@@ -241,7 +241,7 @@ def _shaded(given: Sent, contract: Contract) -> tuple[Sent, Draft]:
 
     recomputed = recomputed.but(measures=given.measures.painting(shown))
     with suppress(TargetError):
-        other = recomputed.dressed(recomputed.search.smallest(contract))
+        other = recomputed.completed(recomputed.search.smallest(contract))
         return (recomputed, other) if other.size < kept[1].size else kept
     return kept
 

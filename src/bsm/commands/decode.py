@@ -26,9 +26,9 @@ from bsm.files.mesh import by_name, format_of_name, save_written, unknown_suffix
 from bsm.files.motion.folder import is_numbered, mesh_files, names_many
 from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, no_link, output_inside, refuse_collisions, refuse_to_overwrite
+from bsm.files.parsing import PRECISION
 from bsm.files.partial import decode_blocks, decode_what_is_left
 from bsm.files.pipes import about, read_chunks, size_of
-from bsm.files.room import PRECISION
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
 from bsm.files.table import MESH_SUFFIXES, WRITTEN_FORMATS

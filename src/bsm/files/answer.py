@@ -19,7 +19,7 @@ from bsm.codec.geometry.attributes import KINDS, Attribute
 from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.motion.frames import Frames
-from bsm.files.room import require_count
+from bsm.files.parsing import require_count
 
 _COUNT = struct.Struct("<Q")
 _ROW = struct.Struct("<IIQQ")  # a kind, columns, rows, and the first byte after the table

@@ -374,11 +374,11 @@ def _calls() -> dict[int, tuple[str, bool]]:
 def _named(words: str) -> str:
     """A message with the names of refused calls in place of the numbers of their errors."""
 
-    def told(found: re.Match[str]) -> str:
+    def named(found: re.Match[str]) -> str:
         name, _ = _calls().get(int(found[1]) - _REFUSED, (f"number {int(found[1]) - _REFUSED}", False))
         return f"reading may not call {name} of the kernel"
 
-    return re.sub(r"Unknown error (3\d\d\d)", told, words)
+    return re.sub(r"Unknown error (3\d\d\d)", named, words)
 
 
 @cache

@@ -23,8 +23,8 @@ from bsm.files import pipes
 from bsm.files.formats.metadata import Beside, Written, fetched, images_in
 from bsm.files.formats.polygons import Cut, MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
+from bsm.files.parsing import PRECISION, gunzipped, plain_text
 from bsm.files.pipes import Input, Source, as_input, is_url
-from bsm.files.room import PRECISION, gunzipped, plain_text
 from bsm.files.table import FORMATS, GLTF, MESH_FORMATS, USD_FORMATS, WRITTEN_FORMATS, format_of_bytes, other_kind
 
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does

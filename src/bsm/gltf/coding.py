@@ -12,7 +12,7 @@ from bsm.bitstream.errors import DependencyError, FormatError, UnsupportedError,
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of, to_linear
 from bsm.files.formats.appearance import Texture
-from bsm.files.room import as_library_error
+from bsm.files.parsing import as_library_error
 
 Array = npt.NDArray[Any]
 Tree = dict[str, Any]

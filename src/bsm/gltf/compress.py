@@ -10,7 +10,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, UnsupportedError
 from bsm.codec.threads import ordered_map
 from bsm.files.images import ImageRule
-from bsm.files.room import as_format_error
+from bsm.files.parsing import as_format_error
 from bsm.gltf import document as gltf
 from bsm.gltf.bundles import Bundle, BundleStream, as_mesh, bundles_of, code_bundle
 from bsm.gltf.coding import EXTENSION, Array, Tree

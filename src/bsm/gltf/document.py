@@ -22,8 +22,8 @@ from bsm.codec.decoding import decode
 from bsm.codec.geometry.welding import degenerate
 from bsm.files.formats.metadata import kind_of_image
 from bsm.files.images import side_of_image
+from bsm.files.parsing import in_words, require_count
 from bsm.files.pipes import Input, file_beside, is_url
-from bsm.files.room import in_words, require_count
 from bsm.files.unread import Said, Taken, rows_of
 from bsm.gltf import coding
 from bsm.gltf.coding import DRACO, EXTENSION, KINDS, MESHOPT, STRIP, TRIANGLES, Array, Tree

@@ -19,7 +19,7 @@ from bsm.files.formats import polygons as shapes
 from bsm.files.formats.appearance import Material, appearance
 from bsm.files.formats.metadata import Value, described
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, between, painted_like, rate_of_times
-from bsm.files.room import Doubles, Ints, as_format_error, require_count
+from bsm.files.parsing import Doubles, Ints, as_format_error, require_count
 from bsm.gltf.coding import INSTANCING, MATTE, STRENGTH, TRIANGLES, TRIANGULAR, UNLIT, Array, Tree, texture_of
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, Document, read_document, triangles_of
 

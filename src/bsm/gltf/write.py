@@ -22,7 +22,7 @@ from bsm.files import conventions
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import Material, Texture, appearance, as_numbers, held_by, in_gltf, lost, within
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
-from bsm.files.room import NO_DOUBLES, Doubles, Ints, single_suffices
+from bsm.files.parsing import NO_DOUBLES, Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream
 from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, MATTE, STRENGTH, UINT, UNLIT, Array, Tree, drawn, words_of
 from bsm.gltf.document import WEBP, Growing, bounds_of, mime_of

@@ -26,7 +26,7 @@ export class Comparison {
     private offs: (Float32Array | undefined)[] = [];
     /** The distance that has the last color, once it is known. */
     private top?: number;
-    private readonly dressed = new Set<number>();
+    private readonly withMaterials = new Set<number>();
     private hidden: Parameters<BSMGeometry["hide"]>[0] = () => false;
     private readonly scheme: HTMLSelectElement;
 
@@ -44,7 +44,7 @@ export class Comparison {
         const { form } = this;
         const { layers, main } = (this.content = content);
         [this.geometries, this.offs, this.accompanied, this.top, this.hidden] = [[], [], false, undefined, () => false];
-        this.dressed.clear();
+        this.withMaterials.clear();
         delete form.root.dataset.layers;
         form.part("parts").hidden = true;
         this.stage.clear();
@@ -68,8 +68,8 @@ export class Comparison {
         const { main } = this.content;
         this.geometries[main] = geometry;
         geometry.hide(this.hidden);
-        this.dressed.delete(main);
-        if (this.dressed.size === 0) this.allow("own", false);
+        this.withMaterials.delete(main);
+        if (this.withMaterials.size === 0) this.allow("own", false);
         this.shown = false;
     }
 
@@ -84,7 +84,7 @@ export class Comparison {
     async accompany(pool: Pool, mine: () => boolean): Promise<void> {
         const { layers, main } = this.content;
         const { form, geometries, offs, stage } = this;
-        await this.dress(main);
+        await this.showMaterials(main);
         for (const [i, layer] of layers.entries()) {
             const off = layer.off && new Float32Array((await bytesOf(layer.off)).buffer);
             const geometry = i === main ? undefined : layer.pictures ? new BSMGeometry() : await wholeOf(pool, await bytesOf(layer));
@@ -97,7 +97,7 @@ export class Comparison {
             if (!geometry) continue;
             geometries[i] = geometry;
             stage.show(i, geometry);
-            await this.dress(i);
+            await this.showMaterials(i);
             this.recolor(); // before it is first drawn
             form.root.querySelector<HTMLInputElement>(`[name=layer][value="${i}"]`)!.disabled = false;
             if (i > 0) continue;
@@ -138,7 +138,7 @@ export class Comparison {
     }
 
     /** Make materials from the metadata and images; offer them and the colors. */
-    async dress(index = this.content.main): Promise<void> {
+    async showMaterials(index = this.content.main): Promise<void> {
         const { geometries, scheme } = this;
         const geometry = geometries[index]!;
         const { attributes, metadata, color } = geometry;
@@ -148,8 +148,8 @@ export class Comparison {
         if (named) {
             const materials = await materialsOf(geometry);
             if (geometry !== this.geometries[index]) return; // another mesh has taken its place
-            this.stage.dress(index, materials);
-            this.dressed.add(index);
+            this.stage.setMaterials(index, materials);
+            this.withMaterials.add(index);
         }
         if (!named && !color) return;
         this.allow("own", true);
@@ -159,7 +159,7 @@ export class Comparison {
 
     /** Show errors in colors, or no longer. */
     toggleErrors(): void {
-        const own = this.dressed.size > 0 || this.geometries[this.content.main]?.color;
+        const own = this.withMaterials.size > 0 || this.geometries[this.content.main]?.color;
         const scheme = this.scheme.value !== "error" ? "error" : own ? "own" : "plain";
         if (!this.option(scheme).disabled) this.scheme.value = scheme;
         this.stale = true;
@@ -201,7 +201,7 @@ export class Comparison {
             const vertices = geometry.header?.vertices ?? 0; // of each frame
             const off = offs[i]?.subarray(...(geometry.frames.length > 1 ? [geometry.shown * vertices, (geometry.shown + 1) * vertices] : []));
             const colors = colorsOf(geometry, scheme, off, top, field);
-            stage.color(i, own ? geometry.color : colors && new BufferAttribute(colors, 3), own && this.dressed.has(i));
+            stage.color(i, own ? geometry.color : colors && new BufferAttribute(colors, 3), own && this.withMaterials.has(i));
         });
         form.part("scale").hidden = !LEGENDS[scheme] && !field;
         form.say("legend", `${LEGENDS[scheme] ?? scheme.slice(3)}${scheme === "error" && content.facts.apart !== undefined ? "'s surface" : ""}`);

@@ -22,7 +22,7 @@ type AnyMesh = Mesh<BufferGeometry, Material | Material[]>;
 class Figure {
     readonly holder = new Group();
     readonly clay = new MeshStandardMaterial({ color: CLAY, roughness: 0.6, side: DoubleSide });
-    clothes: MeshStandardMaterial[] = [];
+    own: MeshStandardMaterial[] = [];
 
     /** Draw these geometries, and no others. */
     put(geometries: BufferGeometry[]): void {
@@ -37,8 +37,8 @@ class Figure {
             mesh.frustumCulled = geometries.length > 1; // one alone may grow and move out of its bounds
             this.holder.add(mesh);
         }
-        for (const material of this.clothes) material.dispose();
-        this.clothes = [];
+        for (const material of this.own) material.dispose();
+        this.own = [];
     }
 
     get meshes(): AnyMesh[] {
@@ -46,7 +46,7 @@ class Figure {
     }
 
     get materials(): MeshStandardMaterial[] {
-        return [this.clay, ...this.clothes, ...this.meshes.flatMap(({ geometry }) => geometry.userData.material ?? [])];
+        return [this.clay, ...this.own, ...this.meshes.flatMap(({ geometry }) => geometry.userData.material ?? [])];
     }
 }
 
@@ -179,8 +179,8 @@ export class Stage {
         return (camera.position.distanceTo(camera.controls.target) * devicePixelRatio) / camera.pixels / turned.scale.x;
     }
 
-    dress(index: number, clothes: MeshStandardMaterial[]): void {
-        this.drawn[index].clothes = clothes;
+    setMaterials(index: number, own: MeshStandardMaterial[]): void {
+        this.drawn[index].own = own;
         this.shade(this.shading);
     }
 
@@ -199,10 +199,10 @@ export class Stage {
     }
 
     /** Color the drawn vertices of a mesh; or none of them; or draw the materials that it has. */
-    color(index: number, colors?: BufferAttribute, dressed = false): void {
-        const { meshes, clay, clothes } = this.drawn[index];
+    color(index: number, colors?: BufferAttribute, withOwn = false): void {
+        const { meshes, clay, own } = this.drawn[index];
         for (const mesh of meshes) {
-            mesh.material = mesh.geometry.userData.material ?? (dressed && clothes.length > 0 ? (clothes.length > 1 ? clothes : clothes[0]) : clay);
+            mesh.material = mesh.geometry.userData.material ?? (withOwn && own.length > 0 ? (own.length > 1 ? own : own[0]) : clay);
             if (colors) mesh.geometry.setAttribute("color", colors);
         }
         this.whiten(clay, colors !== undefined);

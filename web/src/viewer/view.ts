@@ -302,8 +302,8 @@ export class View {
         this.fill();
         if (geometry.getIndex()) stage.shadow(geometry);
         this.headline();
-        const told = (error: unknown): void => this.form.say("problem", `The original cannot be compared. ${error instanceof Error ? error.message : error}`);
-        void (meshes.accompanied ? meshes.dress() : this.accompany()).catch(told);
+        const complain = (error: unknown): void => this.form.say("problem", `The original cannot be compared. ${error instanceof Error ? error.message : error}`);
+        void (meshes.accompanied ? meshes.showMaterials() : this.accompany()).catch(complain);
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
     }
 

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from bsm.files.conventions import to_linear, to_srgb
-from bsm.files.room import continued, plain_text
+from bsm.files.parsing import continued, plain_text
 
 Material: TypeAlias = dict[str, "str | int | float"]
 Numbers: TypeAlias = tuple[float, ...]

@@ -18,7 +18,7 @@ from bsm.files.conventions import unit_named
 from bsm.files.formats.appearance import Material, Texture, as_text
 from bsm.files.formats.metadata import Beside, Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, cut_holes, joined_parts
-from bsm.files.room import Doubles, Ints, as_library_error, in_words
+from bsm.files.parsing import Doubles, Ints, as_library_error, in_words
 from bsm.files.unread import Taken, rows_of
 
 _SEMANTICS: dict[str, Semantic] = {"NORMAL": "normal", "TEXCOORD": "texcoord", "COLOR": "color"}

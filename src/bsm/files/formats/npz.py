@@ -32,8 +32,8 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import Written
 from bsm.files.formats.polygons import Array, Column, Polygons, attributes_of, meaning_of
 from bsm.files.motion.frames import Frames
+from bsm.files.parsing import AS_NUMBERS, TREE, require_count, require_inflated
 from bsm.files.pipes import Input, about
-from bsm.files.room import AS_NUMBERS, TREE, require_count, require_inflated
 
 # What numpy raises of a header, which it parses as Python.
 _NO_HEADER = (ValueError, TypeError, KeyError, SyntaxError, RecursionError, MemoryError, OverflowError, TokenError)

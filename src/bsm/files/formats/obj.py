@@ -16,7 +16,7 @@ from bsm.files.conventions import shares_of
 from bsm.files.formats import metadata as materials
 from bsm.files.formats.appearance import is_mtl, one_line, text_of, write_mtl
 from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact, grouped, polygon_normals
-from bsm.files.room import Doubles, Ints, Rows, as_integers, continued, point_row, require_count, text_table
+from bsm.files.parsing import Doubles, Ints, Rows, as_integers, continued, point_row, require_count, text_table
 
 STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
 """The value of a keyword for the faces after it, and the keyword."""

@@ -11,7 +11,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.metadata import Written, first, left_out, parse_remarks, remarks, unsaid
 from bsm.files.formats.polygons import Column, Polygons, color_column, compact
-from bsm.files.room import Doubles, Ints, Rows, point_row, require_count, require_lines, text_table
+from bsm.files.parsing import Doubles, Ints, Rows, point_row, require_count, require_lines, text_table
 
 _OFF_HEADER = re.compile(
     rb"\s*(?P<extras>(?:ST|C|N)*)(?P<dimension>4?n?)OFF"

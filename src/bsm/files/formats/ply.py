@@ -16,7 +16,7 @@ from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import appearance, one_line, refers_to_image
 from bsm.files.formats.polygons import PLURALS, Array, Column, Polygons, color_column, meaning_of, unused_name
-from bsm.files.room import Doubles, Ints, Rows, as_integers, ranges, require_count, require_lines, single_suffices
+from bsm.files.parsing import Doubles, Ints, Rows, as_integers, ranges, require_count, require_lines, single_suffices
 
 _WRITTEN_TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
@@ -157,7 +157,7 @@ def tables_of(header: Header, body: bytes) -> "dict[str, _Table]":
         tables[element.name] = table = _Table(element, header.order, raw, begin, text)
         begin = table.walk(0)[2]
     if text is not None and begin < raw.size:
-        raise MeshError(f"the rows of this PLY file have {(raw.size - begin) // 8} numbers more than its header tells")
+        raise MeshError(f"the rows of this PLY file have {(raw.size - begin) // 8} numbers more than its header says")
     return tables
 
 

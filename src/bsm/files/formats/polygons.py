@@ -17,7 +17,7 @@ from bsm.codec.geometry.attributes import MOST_NAME_BYTES, Attribute, Domain, Se
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.conventions import shares_of
 from bsm.files.formats.metadata import fitting, named
-from bsm.files.room import Doubles, Ints, require_count, single_suffices
+from bsm.files.parsing import Doubles, Ints, require_count, single_suffices
 
 Array = npt.NDArray[Any]
 PLURALS = {"color": "colors", "normal": "normals", "texcoord": "texture coordinates"}

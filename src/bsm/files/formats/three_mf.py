@@ -22,7 +22,7 @@ from bsm.files.conventions import placement, unit_named
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import Material, appearance, as_text, held_by, lost, one_line, within
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
-from bsm.files.room import NO_DOUBLES, Doubles, Ints, as_format_error, as_library_error, single_suffices
+from bsm.files.parsing import NO_DOUBLES, Doubles, Ints, as_format_error, as_library_error, single_suffices
 from bsm.files.unread import Taken, rows_of
 from bsm.lengths import metres
 

@@ -22,7 +22,7 @@ from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats.metadata import Written, first, in_words, plain_fields, unsaid
 from bsm.files.formats.polygons import Array, Column, Polygons, named_column
-from bsm.files.room import AS_NUMBERS, TAG, Ints, require_count, require_inflated, single_suffices
+from bsm.files.parsing import AS_NUMBERS, TAG, Ints, require_count, require_inflated, single_suffices
 
 _WHOLE = [(sign, kind, bits) for sign, kind in (("Int", "i"), ("UInt", "u")) for bits in (8, 16, 32, 64)]
 _TYPES = {f"{sign}{bits}": f"{kind}{bits // 8}" for sign, kind, bits in _WHOLE} | {"Float32": "f4", "Float64": "f8"}

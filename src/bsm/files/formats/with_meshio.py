@@ -21,8 +21,8 @@ from bsm.codec.geometry.welding import row_numbers
 from bsm.files.formats.polygons import Column, CutAlike, MeshFile, Polygons, named_column
 from bsm.files.motion.folder import read_files
 from bsm.files.motion.frames import Frames, Wanted
+from bsm.files.parsing import Doubles, Ints, as_library_error, ranges
 from bsm.files.pipes import about, file_beside
-from bsm.files.room import Doubles, Ints, as_library_error, ranges
 
 _SHAPES = {
     "triangle": ("012", "01 12 20", 7),
@@ -142,8 +142,8 @@ def _found(read: Callable[[], Any]) -> Polygons:
     with as_library_error("meshio"), redirect_stderr(said), warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")
         found = of_meshio(read())
-    told = (" ".join(words.split()) for words in re.split(r"\b(?:Warning|Info|Error): ", said.getvalue())[1:])
-    return replace(found, dropped=(*found.dropped, *dict.fromkeys(told)))
+    warned = (" ".join(words.split()) for words in re.split(r"\b(?:Warning|Info|Error): ", said.getvalue())[1:])
+    return replace(found, dropped=(*found.dropped, *dict.fromkeys(warned)))
 
 
 def _meshio() -> Any:

@@ -13,7 +13,7 @@ from bsm.codec.geometry.attributes import Domain
 from bsm.files.formats.appearance import Material, as_text
 from bsm.files.formats.metadata import Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, joined_parts, meaning_of
-from bsm.files.room import Doubles
+from bsm.files.parsing import Doubles
 
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")

@@ -19,8 +19,8 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import USUAL_RATE, Frames, Wanted, timing_of
+from bsm.files.parsing import Doubles, require_count
 from bsm.files.pipes import about
-from bsm.files.room import Doubles, require_count
 from bsm.files.table import MESH_SUFFIXES, START, STEP
 
 CACHES = ("pc2", "mdd")

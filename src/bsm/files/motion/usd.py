@@ -30,7 +30,7 @@ from bsm.files.formats import appearance as looks
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, between, painted_like
-from bsm.files.room import Doubles, Ints, as_format_error, as_library_error, require_count, single_suffices
+from bsm.files.parsing import Doubles, Ints, as_format_error, as_library_error, require_count, single_suffices
 from bsm.files.unread import Said, Taken, rows_of
 from bsm.lengths import metres, unit_of
 

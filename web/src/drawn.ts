@@ -13,7 +13,7 @@ export interface DrawnAttribute {
 }
 
 /** Faces as they are drawn, which vertex each drawn one is if that is not the same, and what they carry; `own`: normals. */
-export interface Dress {
+export interface DrawnFaces {
     index: Uint32Array;
     vertices?: Int32Array;
     pieces: Piece[];

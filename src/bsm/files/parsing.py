@@ -66,7 +66,7 @@ def _numbers(lines: Sequence[bytes], what: str, first: int) -> Doubles:
     try:
         return np.array(text.split(), dtype=np.float64)
     except ValueError as error:
-        word = str(error).partition(": ")[2]  # as numpy tells it
+        word = str(error).partition(": ")[2]  # as numpy quotes it
         row = next(number for number, line in enumerate(lines, first) if word in map(repr, line.split()))
         raise MeshError(f"{what} {row} is not made of numbers: {word[1:61]}") from None
 

@@ -18,7 +18,7 @@ from bsm import CorruptError, FormatError, LimitError, Limits, MeshError, Trunca
 from bsm.bitstream import errors
 from bsm.cli import main
 from bsm.files.mesh import read_mesh, written_mesh
-from bsm.files.room import gunzipped
+from bsm.files.parsing import gunzipped
 from bsm.files.sequence import open_sequence
 from bsm.files.table import format_of_bytes
 from tests.bsm.program import bound, python
