@@ -94,7 +94,7 @@ BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
 # The kernels of `bitstream`, writers that it calls, and the words of the public header: statuses, limits, memory.
 OF_BYTES = ("bsm._core.bitstream", "bsm._core.write_", "library.bsmdec")
 # What encoders call of the library.
-OF_ENCODERS = ("Chain", "Cut", "Field", "Place", "Solver", "Track", "gop_memory", "rounded")
+OF_ENCODERS = ("Chain", "Cut", "Field", "Place", "Track", "gop_memory", "rounded")
 CODEC_LIBRARIES = {"numpy": "bsm.codec", "scipy": "bsm.codec.denoise", "pymetis": "bsm.codec.blocks.overlap"}
 
 

@@ -3,7 +3,7 @@
 
 #include "bitstream/kernel.h"
 
-/* The fronts of a block of n rows, in the order of elimination: see laplacian.py. */
+/* The fronts of a block of n rows, in the order of elimination: see fronts.c. */
 typedef struct {
     ConstWords rows, steps, owners, firsts, starts, borders, places;
     ConstDoubles sums;

@@ -1,5 +1,6 @@
-/* Edges weighted by cotangents (Pinkall and Polthier 1993; specification, S 3.1), and parts that hang on others (S
- * 3.2). */
+/* Edges weighted by cotangents (U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates",
+ * 1993, section 4; specification, S 3.1), and parts that hang on others (S 3.2). Decoders know the first frame to
+ * rounding, so weights are smooth functions of it, above zero: else L is indefinite where a triangle is obtuse. */
 #include "codec/basis/basis.h"
 
 /* Index of the first entry that is not below `value`, in an ascending list from `low` to before `high`. */

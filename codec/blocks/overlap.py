@@ -20,7 +20,7 @@ import numpy as np
 from bsm._core import Cut
 from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Indices, Matrix, Order
+from bsm.codec.arrays import Basis, Indices, Matrix, Order
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.welding import group_rows
 
@@ -78,6 +78,13 @@ class Block:
     def degrees(self) -> Indices:
         """Neighbors of each row inside the block, shape (n_i,): the weights of the blend."""
         return self.offsets[1:] - self.offsets[:-1]
+
+    def iterated(
+        self, start: Matrix | Basis, shift: float, power: int = 1, iterations: int = 1, apart: int = 0
+    ) -> Basis:
+        """U of L + `shift` after orthogonal iterations from a start, shape (n_i, c)."""
+        cut, begin = Cut(self.offsets, self.neighbors), np.ascontiguousarray(start, np.float32)
+        return cut.iterate(shift, begin, power, iterations, apart)
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,6 @@ import numpy as np
 
 from bsm._core import codec as _kernels
 from bsm.codec.arrays import Basis, Matrix
-from bsm.codec.basis.laplacian import solver_of
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blocks
 
@@ -85,8 +84,7 @@ class MeasuredSpectrum:
         """The lowest `width` frequencies, not rising; the first columns of a dictionary do not depend on later ones."""
         energy, count = np.zeros(width), np.zeros(width)
         for block in self._samples:
-            start = cosine_columns(block.size, min(width, block.size)).astype(np.float32)
-            subspace = solver_of(block, self._shift).iterate(start, 1, 1)
+            subspace = block.iterated(cosine_columns(block.size, min(width, block.size)), self._shift)
             coefficients = project(subspace, self._positions[block.vertices], subspace.shape[1])
             energy[: block.size] += np.square(coefficients).mean(axis=1)
             count[: block.size] += 1

@@ -626,7 +626,7 @@ class Track : public Steps {
     }
 };
 
-// A graph that is cut into parts and blocks.
+// A graph that is cut into parts and blocks, or is one itself.
 class Cut : public Steps {
   public:
     Cut(ConstInts offsets, ConstInts neighbors) : Steps(offsets, neighbors), size(offsets.size - 1) {}
@@ -652,23 +652,16 @@ class Cut : public Steps {
         const CodedBlock &block = *present_block(chain);
         return std::make_tuple(copied(block.vertices), copied(block.offsets), copied(block.neighbors));
     }
+    // Orthogonal iterations from a start.
+    auto iterate(double shift, ConstSingles2 start, int64_t power, int64_t iterations, int64_t apart) {
+        Made<float> made = made_of<float>(start.rows, start.columns);
+        Singles2 subspace = {made.data, start.rows, start.columns};
+        run([&] { return iterate_graph(chain, shift, start, power, iterations, apart, subspace); });
+        return made;
+    }
 
   private:
     int64_t size;
-};
-
-// The graph of a block, and iterations with it.
-class Solver : public Steps {
-  public:
-    Solver(ConstInts offsets, ConstInts neighbors, ConstDoubles shift) : Steps(offsets, neighbors) {
-        run([&] { return begin_solver(chain, shift); });
-    }
-    auto iterate(ConstSingles2 start, int64_t power, int64_t iterations, int64_t apart) {
-        Made<float> made = made_of<float>(start.rows, start.columns);
-        Singles2 subspace = {made.data, start.rows, start.columns};
-        run([&] { return solve_iterations(chain, start, power, iterations, apart, subspace); });
-        return made;
-    }
 };
 
 }  // namespace
@@ -733,11 +726,8 @@ NB_MODULE(_core, m) {
         .def("labels", in_turn(&Cut::labels), "parts"_a)
         .def("blocks", in_turn(&Cut::blocks), "labels"_a, "parts"_a, "size"_a)
         .def("write", in_turn(&Cut::write), "labels"_a, "parts"_a)
-        .def("rows", in_turn(&Cut::rows), "members"_a);
-    nb::class_<Solver>(m, "Solver")
-        .def(nb::init<ConstInts, ConstInts, ConstDoubles>(), "offsets"_a, "neighbors"_a, "shift"_a,
-            nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
-        .def("iterate", in_turn(&Solver::iterate), "start"_a, "power"_a, "iterations"_a, "apart"_a = 0);
+        .def("rows", in_turn(&Cut::rows), "members"_a)
+        .def("iterate", in_turn(&Cut::iterate), "shift"_a, "start"_a, "power"_a, "iterations"_a, "apart"_a);
     nb::class_<DecoderState>(m, "DecoderState")
 #define NUMBER(name) .def_ro(#name, &DecoderState::name)
         NUMBER(offset) NUMBER(vertices) NUMBER(shown) NUMBER(present) NUMBER(work) NUMBER(received) NUMBER(memory);

@@ -280,31 +280,24 @@ bool write_track(CodedChain *track, int method, int64_t frames, double step, int
     return true;
 }
 
-bool begin_solver(CodedChain *chain, ConstDoubles shift) {
+bool iterate_graph(CodedChain *chain, double shift, ConstSingles2 start, int64_t power, int64_t iterations,
+    int64_t apart, Singles2 subspace) {
     Context *context = &chain->writer->context;
-    Arena *arena = &chain->writer->arena;
+    Arena *scratch = &chain->writer->scratch;
     const Graph *graph = &chain->graph;
     int64_t n = graph->size;
-    Patch *patch = &chain->block.patch;
-    if (shift.size != n) return FAIL(context, MISUSED, "# shifts for # rows", shift.size, n);
-    *patch = (Patch){.size = n, .offsets = graph->offsets, .neighbors = graph->neighbors};
-    if (!take_doubles(arena, n, &patch->diagonal)) return false;
-    for (int64_t r = 0; r < n; r++) patch->diagonal.data[r] = graph->offsets.data[r + 1] - graph->offsets.data[r];
-    return find_patch_fronts(context, arena, patch) && factorize_patch(patch, shift, 0.0, arena, &chain->block.factor);
-}
-
-bool solve_iterations(CodedChain *chain, ConstSingles2 start, int64_t power, int64_t iterations, int64_t apart,
-    Singles2 subspace) {
-    Context *context = &chain->writer->context;
-    int64_t n = chain->block.patch.size;
-    if (failed(context)) return false;
-    if (start.rows != n || subspace.rows != n || subspace.columns > start.columns || start.columns < 1 || power < 0
-        || iterations < 0 || apart < 0)
+    Patch patch = {.size = n, .offsets = graph->offsets, .neighbors = graph->neighbors};
+    Doubles springs;
+    Factor factor;
+    if (start.rows != n || start.columns < 1 || power < 0 || iterations < 0 || apart < 0)
         return FAIL(context, MISUSED, "# rows of a start for # of a graph", start.rows, n);
-    release_all(&chain->writer->scratch);
-    return iterate_columns(context, &chain->block.patch, &chain->block.factor,
-        (Singles2){(float *)start.data, n, start.columns}, (Schedule){power, iterations, n, apart},
-        &chain->writer->scratch, subspace);
+    release_all(scratch);
+    if (!zero_doubles(scratch, n, &springs) || !take_doubles(scratch, n, &patch.diagonal)) return false;
+    for (int64_t r = 0; r < n; r++) patch.diagonal.data[r] = graph->offsets.data[r + 1] - graph->offsets.data[r];
+    return find_patch_fronts(context, scratch, &patch)
+        && factorize_patch(&patch, const_doubles(springs), shift, scratch, &factor)
+        && iterate_columns(context, &patch, &factor, (Singles2){(float *)start.data, n, start.columns},
+            (Schedule){power, iterations, n, apart}, scratch, subspace);
 }
 
 double memory_for_gop(const CodedChain *chain, int method, int64_t frames, ConstLongs2 fields) {

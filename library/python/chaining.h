@@ -25,6 +25,9 @@ bool grow_parts(CodedChain *chain, ConstInts labels, int64_t parts, int64_t size
 /* The payload of parts that are numbered by their first vertices (C 10). */
 bool write_labels(CodedChain *chain, ConstInts labels, int64_t parts, struct Writing *writing);
 bool order_rows(CodedChain *chain, ConstInts members);
+/* U of its L + shift after iterations of Algorithm 1 from a start. */
+bool iterate_graph(CodedChain *chain, double shift, ConstSingles2 start, int64_t power, int64_t iterations,
+    int64_t apart, Singles2 subspace);
 
 /* The header's rules of dictionaries and chains; columns beyond half of `whole` rows are completed (M 8.7). Blocks have
  * levels for `width` columns at most. */
@@ -76,8 +79,3 @@ bool write_track_basis(CodedChain *track, ConstInts exponents, ConstDoubles2 spe
     ConstDoubles2 *basis);
 bool write_track(CodedChain *track, int method, int64_t frames, double step, int64_t back, ConstDoubles2 wanted,
     struct Writing *writing, ConstDoubles2 *field);
-
-/* A graph whose L + shift is factorized, row by row; U after iterations of Algorithm 1 from a start. */
-bool begin_solver(CodedChain *chain, ConstDoubles shift);
-bool solve_iterations(CodedChain *chain, ConstSingles2 start, int64_t power, int64_t iterations, int64_t apart,
-    Singles2 subspace);

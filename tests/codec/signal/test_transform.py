@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 
-from bsm.codec.basis.laplacian import solver_of
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blocks, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
@@ -20,7 +19,7 @@ def blocks_of(side: int, parts: int) -> Blocks:
 def waves(blocks: Blocks, count: int, amplitude: float) -> np.ndarray:
     """Positions of a single block whose first `count` coefficients in x, y and z are all `amplitude`, and no others."""
     block = blocks.block(0)
-    subspace = solver_of(block, SHIFT).iterate(cosine_columns(block.size, count).astype(np.float32), 1, 1)
+    subspace = block.iterated(cosine_columns(block.size, count), SHIFT)
     positions = np.zeros((block.size, 3))
     positions[block.vertices] = amplitude * subspace.sum(axis=1)[:, None]
     return positions

@@ -11,7 +11,6 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec.arrays import Basis, Indices, Positions
-from bsm.codec.basis.laplacian import solver_of
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blend, Block
 from bsm.codec.geometry.metrics import decibel
@@ -42,9 +41,8 @@ def eigenvectors(block: Block, width: int) -> Floats:
 
 def iterated(block: Block, start: Floats | Basis, power: int, iterations: int = 1, shift: float = SHIFT) -> Floats:
     """U after orthogonal iterations from `start`, by the kernel of the codec."""
-    begin = np.ascontiguousarray(start, np.float32)
     apart = min(power, MOST_APART) if power > 1 else 0
-    return solver_of(block, shift).iterate(begin, power, iterations, apart).astype(np.float64)
+    return block.iterated(start, shift, power, iterations, apart).astype(np.float64)
 
 
 @dataclass(frozen=True, eq=False)

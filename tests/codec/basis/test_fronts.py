@@ -5,7 +5,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from bsm.codec.basis.laplacian import solver_of
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import graph_of_faces
 from tools.laplacians import dense_laplacian
@@ -21,5 +20,5 @@ def test_any_graph_can_be_solved(faces, shift):
     block = Block(np.arange(70, dtype=np.int32), graph.offsets, graph.neighbors)
     start = np.random.default_rng(0).uniform(-1.0, 1.0, (70, 3)).astype(np.float32)
     expected, upper = np.linalg.qr(np.linalg.solve(dense_laplacian(block) + shift * np.eye(70), start))
-    found = solver_of(block, shift).iterate(start, 1, 1)
+    found = block.iterated(start, shift)
     assert np.allclose(found, expected * np.sign(np.diag(upper)), rtol=0, atol=1e-4 / shift**0.5)
