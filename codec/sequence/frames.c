@@ -485,22 +485,25 @@ static int64_t coded_rows(const Gops *gops) {
     return rows;
 }
 
-/* The levels of all parts in a field, whose references are the parts before (no `before`) or the same parts there. */
-static bool code_levels_of(Gops *gops, const Bank *bank, const GopField *field, const int32_t *before, int64_t columns,
-    Arena *scratch, Ints levels) {
+/* The levels of all parts in a field, whose references are the parts before, or the same parts of frames before. */
+static bool code_levels_of(Gops *gops, const GopContext *decoding, int k, Arena *scratch) {
+    Track *track = gops->track + k;
+    bool learned = has_basis(decoding->gop);
+    int64_t begin = 0, columns = gops->basis[k].columns;
     Mark mark = mark_of(scratch);
     Matrix *matrices;
-    if (!TAKE(scratch, gops->parts.count, matrices)) return false;
-    int64_t begin = 0;
+    Bank bank = track->bank;
+    if (!TAKE(scratch, gops->parts.count, matrices) || (learned && !make_bank(scratch, MATRIX_BANK, &bank)))
+        return false;
     for (int64_t i = 0; i < gops->parts.count; i++) {
-        int64_t rows = gops->parts.part[i].width, earlier = i > 0 && before == NULL ? gops->parts.part[i - 1].width : 0;
-        int32_t *own = levels.data + begin * columns;
-        matrices[i] = (Matrix){rows, 0, own, before != NULL ? before + begin * columns : own - earlier * columns,
-            before != NULL ? rows : earlier};
+        int64_t rows = gops->parts.part[i].width, earlier = i > 0 ? gops->parts.part[i - 1].width : 0;
+        int32_t *own = decoding->levels[k].data + begin * columns;
+        matrices[i] = learned ? (Matrix){rows, 0, own, own - earlier * columns, earlier}
+                              : (Matrix){rows, 0, own, track->levels.data + begin * columns, rows};
         begin += rows;
     }
-    bool done =
-        code_matrices(gops->parts.context, bank, field->levels, matrices, gops->parts.count, columns, 0, scratch);
+    bool done = code_matrices(gops->parts.context, &bank, decoding->gop->field[k].levels, matrices, gops->parts.count,
+        columns, 0, scratch);
     release_to(scratch, mark);
     return done;
 }
@@ -517,37 +520,52 @@ static bool begin_field(Gops *gops, const Gop *gop) {
     return true;
 }
 
-static bool code_learned(Gops *gops, const Gop *gop, Arena *scratch) {
-    Context *context = gops->parts.context;
-    bool follows = gop->method == LEARNED_NEXT, choosing = chooses(gops);
-    Bank bank;
-    if (follows && !gops->can_inherit) return FAIL(context, CORRUPT, "a GOP refers to a missing GOP");
-    forget_frames(gops);
-    GopContext decoding = {.gop = gop};
-    if (!TAKE(scratch, gops->tracks, decoding.levels) || !TAKE(scratch, gops->tracks, decoding.found)) return false;
+/* The basis of low-delay frames: each cosine by itself in one number after the other. */
+static bool hold_cosines(int64_t width, ConstDoubles2 time, Arena *arena, Doubles2 *basis) {
+    if (!zero_doubles2(arena, width * time.rows, width * time.rows, basis)) return false;
+    for (int64_t d = 0; d < width; d++)
+        for (int64_t t = 0; t < time.rows; t++)
+            for (int64_t f = 0; f < time.rows; f++)
+                basis->data[(d * time.rows + t) * basis->columns + f * width + d] = time.data[t * time.rows + f];
+    return true;
+}
+
+static bool find_basis(Gops *gops, const GopContext *decoding, int k, Arena *scratch) {
+    const Gop *gop = decoding->gop;
+    const GopField *field = gop->field + k;
+    Doubles2 *basis = gops->basis + k;
+    if (!has_basis(gop)) return hold_cosines(field->width, const_doubles2(decoding->time), &gops->frames, basis);
+    *basis = (Doubles2){NULL, field->width * gop->coded, field->components};
+    return field->step == 0 || chooses(gops)
+        || code_basis(gops->parts.context, field, gop->coded, (ConstDoubles2){NULL, 0, 0}, &gops->frames, scratch,
+            basis);
+}
+
+/* Code the fields of a GOP: the positions come last in the payload. */
+static bool code_fields(Gops *gops, GopContext *decoding, Arena *scratch) {
+    const Gop *gop = decoding->gop;
+    bool learned = has_basis(gop), choosing = chooses(gops);
+    if (!TAKE(scratch, gops->tracks, decoding->levels) || !TAKE(scratch, gops->tracks, decoding->found)) return false;
     for (int i = 1; i <= gops->tracks; i++) {
-        int k = i % gops->tracks; /* the positions come last in the payload */
-        const GopField *field = gop->field + k;
-        if (field->step > 0 && !choosing) {
-            const ConstDoubles2 none = {NULL, 0, 0};
-            if (!code_basis(context, field, gop->coded, none, &gops->frames, scratch, gops->basis + k)) return false;
-        } else {
-            gops->basis[k] = (Doubles2){NULL, field->width * gop->coded, field->components};
-        }
-        if (!zero_ints(scratch, coded_rows(gops) * field->components, decoding.levels + k)
-            || !take_doubles2(scratch, gops->parts.rows, least(field->components, INHERITED), decoding.found + k))
+        int k = i % gops->tracks;
+        if (!find_basis(gops, decoding, k, scratch)) return false;
+        int64_t columns = gops->basis[k].columns;
+        if (!zero_ints(scratch, coded_rows(gops) * columns, decoding->levels + k)
+            || !take_doubles2(scratch, gops->parts.rows, learned ? least(columns, INHERITED) : columns,
+                decoding->found + k)
+            || (gop->field[k].step > 0 && !choosing && !code_levels_of(gops, decoding, k, scratch)))
             return false;
-        Mark mark = mark_of(scratch);
-        if (!make_bank(scratch, MATRIX_BANK, &bank)
-            || (field->step > 0 && !choosing
-                && !code_levels_of(gops, &bank, field, NULL, field->components, scratch, decoding.levels[k])))
-            return false;
-        if (!choosing) release_to(scratch, mark);
     }
-    if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)
-        || (choosing
-            && !code_levels_of(gops, &bank, gop->field, NULL, gop->field->components, scratch, *decoding.levels)))
-        return false;
+    return begin_field(gops, gop) && place_parts(gops, decoding, scratch)
+        && (!choosing || code_levels_of(gops, decoding, 0, scratch));
+}
+
+static bool code_learned(Gops *gops, const Gop *gop, Arena *scratch) {
+    GopContext decoding = {.gop = gop};
+    if (gop->method == LEARNED_NEXT && !gops->can_inherit)
+        return FAIL(gops->parts.context, CORRUPT, "a GOP refers to a missing GOP");
+    forget_frames(gops);
+    if (!code_fields(gops, &decoding, scratch)) return false;
     release_all(&gops->history);
     for (int k = 0; k < gops->tracks; k++) {
         Doubles2 found = decoding.found[k], *inherited = &gops->track[k].inherited;
@@ -596,18 +614,9 @@ static bool keep_frames(Gops *gops, Track *track, ConstDoubles2 time, ConstDoubl
     return true;
 }
 
-/* The basis of low-delay frames: each cosine by itself in one number after the other. */
-static bool hold_cosines(int64_t width, ConstDoubles2 time, Arena *arena, Doubles2 *basis) {
-    if (!zero_doubles2(arena, width * time.rows, width * time.rows, basis)) return false;
-    for (int64_t d = 0; d < width; d++)
-        for (int64_t t = 0; t < time.rows; t++)
-            for (int64_t f = 0; f < time.rows; f++)
-                basis->data[(d * time.rows + t) * basis->columns + f * width + d] = time.data[t * time.rows + f];
-    return true;
-}
-
 static bool code_next(Gops *gops, const Gop *gop, Arena *scratch) {
     Context *context = gops->parts.context;
+    GopContext decoding = {.gop = gop};
     if (gop->method == KEY_FRAMES) {
         if (!begin_history(gops)) return false;
     } else if (!gops->can_follow) {
@@ -615,36 +624,17 @@ static bool code_next(Gops *gops, const Gop *gop, Arena *scratch) {
         return FAIL(context, CORRUPT, "a frame refers to a missing frame");
     }
     forget_frames(gops);
-    GopContext decoding = {.gop = gop};
-    int64_t rows = coded_rows(gops);
-    bool choosing = chooses(gops);
-    if (!TAKE(scratch, gops->tracks, decoding.levels) || !TAKE(scratch, gops->tracks, decoding.found)
-        || !time_cosines(gop->frames, &gops->frames, &decoding.time))
-        return false;
     if (gops->together != gop->frames) release_all(&gops->levels);
-    for (int i = 1; i <= gops->tracks; i++) {
-        int k = i % gops->tracks;
-        const GopField *field = gop->field + k;
+    for (int k = 0; k < gops->tracks; k++) {
         Track *track = gops->track + k;
-        int64_t columns = track->width * gop->frames;
-        if (field->back > track->count)
-            return FAIL(context, CORRUPT, "a frame refers # frames back, where # are kept", field->back,
-                track->count);
-        if (gops->together != gop->frames && !zero_ints(&gops->levels, rows * columns, &track->levels)) return false;
-        if (!zero_ints(scratch, rows * columns, decoding.levels + k)
-            || !take_doubles2(scratch, gops->parts.rows, columns, decoding.found + k)
-            || !hold_cosines(track->width, const_doubles2(decoding.time), &gops->frames, gops->basis + k))
-            return false;
-        if (field->components > 0 && !choosing
-            && !code_levels_of(gops, &track->bank, field, track->levels.data, columns, scratch, decoding.levels[k]))
-            return false;
+        int64_t back = gop->field[k].back, size = coded_rows(gops) * track->width * gop->frames;
+        if (back > track->count)
+            return FAIL(context, CORRUPT, "a frame refers # frames back, where # are kept", back, track->count);
+        if (gops->together != gop->frames && !zero_ints(&gops->levels, size, &track->levels)) return false;
     }
-    gops->together = gop->frames;
-    if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)
-        || (choosing
-            && !code_levels_of(gops, &gops->track->bank, gop->field, gops->track->levels.data, gops->basis->columns,
-                scratch, *decoding.levels)))
+    if (!time_cosines(gop->frames, &gops->frames, &decoding.time) || !code_fields(gops, &decoding, scratch))
         return false;
+    gops->together = gop->frames;
     for (int k = 0; k < gops->tracks; k++) {
         Track *track = gops->track + k;
         memcpy(track->levels.data, decoding.levels[k].data, (size_t)track->levels.size * sizeof *track->levels.data);

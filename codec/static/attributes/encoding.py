@@ -45,13 +45,10 @@ class Surface:
 
 def recomputed(surface: Surface, positions: Matrix) -> Matrix:
     """Normals of the values of a surface: those of the faces around, by area (A 7); shape (k, 3)."""
-    places = positions[surface.vertices] if len(surface.vertices) else positions
-    a, b, c = (places[surface.faces[:, corner]] for corner in range(3))
-    across = np.cross(b - a, c - a)
-    normals = np.zeros((len(surface.vertices), 3))
-    for corner in range(3):
-        for axis in range(3):
-            normals[:, axis] += np.bincount(surface.faces[:, corner], weights=across[:, axis], minlength=len(normals))
+    a, b, c = positions[surface.vertices][surface.faces.T]
+    across, count = np.cross(b - a, c - a), len(surface.vertices)
+    sums = (np.array([np.bincount(corner, of_axis, count) for of_axis in across.T]) for corner in surface.faces.T)
+    normals = sum(sums, np.zeros((3, count))).T
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     return np.where(lengths > 0.0, normals / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
 
