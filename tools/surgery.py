@@ -13,12 +13,12 @@ from bsm.bitstream.container.header import (
     HEADER_FIELDS,
     LAW,
     LAW_OF_SEQUENCES,
+    Constants,
     Declaration,
     Header,
-    Paper,
     fields_of,
 )
-from bsm.bitstream.container.packets import BRIEF, BRIEF_TURNED, WRITERS, Attribute, End, Metadata, Packet, Writer
+from bsm.bitstream.container.packets import BRIEF, BRIEF_TURNED, WRITERS, Declared, End, Metadata, Packet, Writer
 from bsm.bitstream.container.wire import (
     MAGIC,
     MAX_VARINT_BYTES,
@@ -137,9 +137,9 @@ def parse_packet(kind: int, payload: bytes) -> Any:
         return record_of(Header, payload)
     if made is Metadata:
         return Metadata(header_entries(payload))  # type: ignore[arg-type]
-    if made is Attribute:
+    if made is Declared:
         index, length = cursor.varint(), cursor.varint()
-        return Attribute(index, record_of(Declaration, cursor.take(length)), cursor.rest())
+        return Declared(index, record_of(Declaration, cursor.take(length)), cursor.rest())
     if made is End:
         return End(cursor.varint(), *struct.unpack(f"<{len(cursor.data) // 4}I", cursor.rest()))
     return made(*(cursor.varint() for _ in fields(made)[1:]), cursor.rest())
@@ -180,7 +180,7 @@ def _is_later(frame: tuple[int, bytes]) -> bool:
 
 
 LATER = {HEADER_FIELDS[name].key for name in ("onorm", "congruence", "turn")}
-PARTS = {"paper": tuple(fields_of(Paper)), "sequence": ("frames", "gop_frames")}
+PARTS = {"paper": tuple(fields_of(Constants)), "sequence": ("frames", "gop_frames")}
 """Fields of the header that are lists of numbers with names of their own."""
 PLACES = {part: (name, place) for name, parts in PARTS.items() for place, part in enumerate(parts)}
 

@@ -74,7 +74,7 @@ class Layer:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Paper:
+class Constants:
     """How blocks are coded as in the paper; the defaults are the law's constants for static meshes."""
 
     bits: int = wire(0, int, 0, 32, default=0)  # of a packed coefficient, q_c; 0: coefficients are adaptive
@@ -91,19 +91,19 @@ class Paper:
     def __post_init__(self) -> None:
         normalize_fields(self, "paper")
 
-    def entry(self, law: Paper) -> tuple[float, ...]:
+    def entry(self, law: Constants) -> tuple[float, ...]:
         """The stored numbers; empty: the values of the specification."""
-        return () if self == law else tuple(float(getattr(self, name)) for name in fields_of(Paper))
+        return () if self == law else tuple(float(getattr(self, name)) for name in fields_of(Constants))
 
 
-def paper_of(entry: tuple[float, ...], law: Paper) -> Paper:
-    """Twin of `Paper.entry`; raises `OptionError`."""
+def constants_of(entry: tuple[float, ...], law: Constants) -> Constants:
+    """Twin of `Constants.entry`; raises `OptionError`."""
     if not entry:
         return law
     if not all(item.is_integer() for item in (*entry[:6], *entry[7:])):
         raise OptionError(f"paper = {entry} has numbers that are not whole")
-    names = zip(fields_of(Paper).items(), entry, strict=True)
-    return Paper(**{name: declared.type(item) for (name, declared), item in names})
+    names = zip(fields_of(Constants).items(), entry, strict=True)
+    return Constants(**{name: declared.type(item) for (name, declared), item in names})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -139,7 +139,7 @@ class Header:
     run: tuple[int, ...] = wire(18, tuple, 0, COUNT, item=int, lengths=(0, 2), default=())
     """Number of the run of a sequence that begins here, and the run whose mesh it has, if it brings none of its own."""
     paper: tuple[float, ...] = wire(19, tuple, 0.0, 2.0**30, lengths=(0, 8), default=())
-    """The numbers of `Paper`; empty: those of the law."""
+    """The numbers of `Constants`; empty: those of the law."""
     onorm: int = wire(21, int, 0, 64, default=0)
     """Onorm follows each of so many solutions of an iteration, with packed coefficients; 0: each solution."""
     congruence: int = wire(22, int, 0, 68, default=0)
@@ -161,12 +161,12 @@ class Header:
         return self.congruence >= 52
 
     @property
-    def law(self) -> Paper:
+    def law(self) -> Constants:
         return LAW_OF_SEQUENCES if self.sequence else LAW
 
     @property
-    def constants(self) -> Paper:
-        return paper_of(self.paper, self.law)
+    def constants(self) -> Constants:
+        return constants_of(self.paper, self.law)
 
     @property
     def layer(self) -> Layer | None:
@@ -229,7 +229,7 @@ def normalize_fields(record: Any, what: str) -> None:
         object.__setattr__(record, name, value)
 
 
-LAW, LAW_OF_SEQUENCES = Paper(), Paper(iterations=2, shift=2.0**-5)
+LAW, LAW_OF_SEQUENCES = Constants(), Constants(iterations=2, shift=2.0**-5)
 """Constants of static meshes, and of the first frames of sequences."""
 
 

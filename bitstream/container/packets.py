@@ -49,7 +49,7 @@ class Connectivity:
 
 
 @dataclass(frozen=True)
-class Partition:
+class Labels:
     """Which vertex belongs to which block, coded."""
 
     data: bytes
@@ -63,7 +63,7 @@ class Order:
 
 
 @dataclass(frozen=True)
-class Block:
+class Coefficients:
     """The coded coefficients of block `index`: `coefficients` (c_i) of them per coordinate."""
 
     index: int
@@ -98,7 +98,7 @@ class Refinement:
 
 
 @dataclass(frozen=True)
-class Attribute:
+class Declared:
     """An attribute of the mesh, counted from 0, and its coded seams, if it has any of its own."""
 
     index: int
@@ -126,7 +126,7 @@ class End:
 
 
 Packet: TypeAlias = (
-    Header | Metadata | Connectivity | Partition | Order | Attribute | Block | Gop | Grid | Refinement | Values | End
+    Header | Metadata | Connectivity | Labels | Order | Declared | Coefficients | Gop | Grid | Refinement | Values | End
 )
 
 
@@ -176,7 +176,7 @@ def write_plain(packet: Any) -> bytes:
     return bytes(b"".join(map(write_varint, numbers)) + data)
 
 
-def write_attribute(attribute: Attribute) -> bytes:
+def write_attribute(attribute: Declared) -> bytes:
     """Varint index, varint length of a map from field keys to values, this map, coded seams."""
     entries = write_map(entries_of(attribute.declaration))
     return write_varint(attribute.index) + write_varint(len(entries)) + entries + attribute.seams
@@ -192,10 +192,10 @@ WRITERS: dict[type[Any], tuple[FrameType, Callable[[Any], bytes]]] = {
     Header: (FrameType.HEADER, write_header),
     Metadata: (FrameType.METADATA, write_metadata),
     Connectivity: (FrameType.CONNECTIVITY, write_plain),
-    Partition: (FrameType.PARTITION, write_plain),
+    Labels: (FrameType.PARTITION, write_plain),
     Order: (FrameType.ORDER, write_plain),
-    Attribute: (FrameType.ATTRIBUTE, write_attribute),
-    Block: (FrameType.BLOCK, write_plain),
+    Declared: (FrameType.ATTRIBUTE, write_attribute),
+    Coefficients: (FrameType.BLOCK, write_plain),
     Gop: (FrameType.GOP, write_plain),
     Grid: (FrameType.GRID, write_plain),
     Refinement: (FrameType.REFINEMENT, write_plain),

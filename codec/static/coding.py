@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
-from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Paper
+from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Constants
 from bsm.codec.arrays import Basis, Integers, Matrix
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.signal import transform
@@ -77,7 +77,7 @@ class Scheme:
     def fields(self) -> dict[str, Any]:
         """The fields of the header."""
         rules, coding = self.rules, self.coding
-        paper = Paper(bits=coding.bits, coarser=coding.coarser, **{name: getattr(rules, name) for name in ALIKE})
+        paper = Constants(bits=coding.bits, coarser=coding.coarser, **{name: getattr(rules, name) for name in ALIKE})
         return {
             "blocks": self.blocks.count,
             "step": coding.step,
@@ -91,7 +91,7 @@ ALIKE = ("exact", "power", "iterations", "key_iterations", "shift", "springs")
 """Constants that chains and headers call by the same name."""
 
 
-def rules_of(paper: Paper, key_interval: int = 0, whole: int = 0) -> ChainRules:
+def rules_of(paper: Constants, key_interval: int = 0, whole: int = 0) -> ChainRules:
     """Chains and dictionaries by some constants."""
     given: dict[str, Any] = {name: getattr(paper, name) for name in ALIKE}
     given |= {name: bool(given[name]) for name in ("exact", "springs")}

@@ -179,7 +179,7 @@ class Prepared:
         return grow_blocks(self.graph, self.partition, self.size)
 
     @property
-    def before_blocks(self) -> tuple[packets.Connectivity | packets.Partition | packets.Order, ...]:
+    def before_blocks(self) -> tuple[packets.Connectivity | packets.Labels | packets.Order, ...]:
         """Return the packets between header and blocks."""
         return (self.connectivity, *self.parts.labels(self.graph, self.partition), *self.order)
 
@@ -211,11 +211,11 @@ class Parts:
         parts = self.count(graph.size)
         return metis_partition(graph, parts) if self.metis else derive_partition(graph, parts)
 
-    def labels(self, graph: Graph, partition: Partition) -> tuple[packets.Partition, ...]:
+    def labels(self, graph: Graph, partition: Partition) -> tuple[packets.Labels, ...]:
         """The labels of parts, where a decoder cannot derive them."""
         if not self.metis:
             return ()
-        return (packets.Partition(Cut(graph.offsets, graph.neighbors).write(partition.labels, partition.parts)),)
+        return (packets.Labels(Cut(graph.offsets, graph.neighbors).write(partition.labels, partition.parts)),)
 
 
 def prepare(

@@ -327,7 +327,7 @@ def _attributes(rows: int, columns: int, count: int, chunk: int, size: int, **fi
     chunks: Frames = []
     for index in range(count):
         declaration = Declaration(name=f"{index}", **values)
-        declared.append(_written(packets.Attribute(index, declaration, b"")))
+        declared.append(_written(packets.Declared(index, declaration, b"")))
         if declaration.rows == 0:
             continue
         vertices = 0 if declaration.domain == FACE else rows * columns
@@ -368,7 +368,7 @@ def _seamed(rows: int, columns: int, count: int) -> bytes:
     turns = [carry(place, faces, wanted[turn:] + wanted[:turn]) for turn in range(3)]
     carried = [*turns[0], *(turns[(index + 1) % 3][2] for index in range(3, count))][:count]
     declared = [
-        _written(packets.Attribute(index, replace(one.declaration, name=f"{index}"), one.seams))
+        _written(packets.Declared(index, replace(one.declaration, name=f"{index}"), one.seams))
         for index, one in enumerate(carried)
     ]
     return stream_of([*frames[:2], *declared, *frames[2:]])

@@ -129,7 +129,7 @@ def noted(error: float, step: float, bits: int, zeros: int, scaled: bool) -> str
 
 def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metadata: Metadata) -> Draft:
     """A draft that carries attributes and metadata, too; images and other bytes come last."""
-    shape = packets.Connectivity | packets.Partition | packets.Order
+    shape = packets.Connectivity | packets.Labels | packets.Order
     before = 1 + max(place for place, packet in enumerate(draft.body) if isinstance(packet, shape))
     head, body = draft.body[:before], draft.body[before:]
     entries = sorted(metadata.items(), key=lambda entry: isinstance(entry[1], bytes))
@@ -141,7 +141,7 @@ def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metada
     if carried:
         for index, prepared in enumerate(carried):
             declaration, chunks = cheaper(prepared, draft.places)
-            declared.append(packets.Attribute(index, declaration, prepared.seams))
+            declared.append(packets.Declared(index, declaration, prepared.seams))
             for (first, count), data in zip(ranges(declaration.rows, CHUNK), chunks, strict=True):
                 values.append(packets.Values(index, first, count, data))
         header = replace(header, attributes=len(carried))

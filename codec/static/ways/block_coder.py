@@ -42,7 +42,7 @@ def blended(size: int, blocks: Iterable[DecodedBlock]) -> Matrix:
 class CodedBlock:
     """A block as the stream will hold it, and as the decoder will see it."""
 
-    packet: packets.Block
+    packet: packets.Coefficients
     decoded: DecodedBlock
     work: float
     memory: float
@@ -99,7 +99,7 @@ class ChainEncoder:
         coded, payload, decoded = self._coding.write(chain, prediction, dictionary, coefficients, sized)
         *work, memory = chain.costs(coded)
         chain.commit(coded, decoded)
-        packet = packets.Block(index, coded, payload)
+        packet = packets.Coefficients(index, coded, payload)
         met = self._sizes is None or self._sizes.met
         return CodedBlock(packet, (vertices, decoded, weights), sum(work), memory, met)
 

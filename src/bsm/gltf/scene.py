@@ -29,7 +29,7 @@ _OF_INSTANCES = tuple(map(str.upper, _REST))
 
 
 @dataclass(frozen=True, eq=False)
-class Curve:
+class Keyframes:
     """Values at keys, and how they go on between them."""
 
     times: Doubles
@@ -84,7 +84,7 @@ def matrix_of(translation: Array, rotation: Array, scale: Array) -> Doubles:
     return matrix
 
 
-Curves = Mapping[tuple[int, str], Curve]
+Curves = Mapping[tuple[int, str], Keyframes]
 """Those of an animation: the node and the property that each moves."""
 
 
@@ -154,7 +154,7 @@ class Skin:
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class Primitive:
     node: int
     points: Doubles  # of the vertices, and what each target adds to them, shape (1 + targets, n, 3)
     colors: Doubles  # as well; of no rows where no target adds anything
@@ -173,7 +173,7 @@ class Scene:
 
     def __init__(self, document: Document, animation: Tree | None, limits: Limits) -> None:
         self._document, self._limits, self._still = document, limits, animation is None
-        self._made: dict[tuple[int, int, int], Part] = {}
+        self._made: dict[tuple[int, int, int], Primitive] = {}
         self._skins: dict[int, Skin] = {}
         place_instances(document, limits)
         self._nodes = document.items("nodes")
@@ -257,7 +257,7 @@ class Scene:
             ]
         return np.concatenate(placed)
 
-    def _placed(self, time: float) -> Iterator[tuple[Part, Doubles, Doubles]]:
+    def _placed(self, time: float) -> Iterator[tuple[Primitive, Doubles, Doubles]]:
         """Each part with the matrix, or that of each vertex, which places it, and its vertices before that."""
         places = places_of(self._document, self._parents, self._curves, time)
         for part in self.parts:
@@ -270,7 +270,7 @@ class Scene:
                     matrix += weight[:, None, None] * bones[joint]
             yield part, matrix, points
 
-    def turned(self, time: float) -> list[Part]:
+    def turned(self, time: float) -> list[Primitive]:
         """The parts with their faces as they are placed, which mirrors turn around, and with their normals."""
         found = []
         for part, matrix, _ in self._placed(time):
@@ -296,7 +296,7 @@ class Scene:
         found: Doubles = np.clip(np.concatenate(list(moved)), 0.0, 1.0)
         return found
 
-    def _shown(self, part: Part, tables: Doubles, time: float) -> Doubles:
+    def _shown(self, part: Primitive, tables: Doubles, time: float) -> Doubles:
         """The first table, and of each of the others as much as its target has weight."""
         targets = tables[1:]
         found: Doubles = tables[0]
@@ -309,7 +309,7 @@ class Scene:
         used = np.flatnonzero(weights)
         return found + np.asarray(np.tensordot(weights[used], targets[used], 1))
 
-    def _animated(self, animation: Tree) -> dict[tuple[int, str], Curve]:
+    def _animated(self, animation: Tree) -> dict[tuple[int, str], Keyframes]:
         document, found, numbers = self._document, {}, 0
         samplers = animation.get("samplers", [])
         tables: dict[int, tuple[Doubles, Doubles]] = {}
@@ -335,10 +335,10 @@ class Scene:
             width = len(_REST[path] if path in _REST else mesh["primitives"][0].get("targets", []))
             if values.shape[1] != width:
                 raise FormatError(f"the {path} of node {node} is animated by {values.shape[1]} numbers, not {width}")
-            found[int(node), path] = Curve(times, values, way, path == "rotation")
+            found[int(node), path] = Keyframes(times, values, way, path == "rotation")
         return found
 
-    def _parts(self, node: int) -> list[Part]:
+    def _parts(self, node: int) -> list[Primitive]:
         tree, document = self._nodes[node], self._document
         if "mesh" not in tree:
             return []
@@ -378,7 +378,7 @@ class Scene:
         self._skins[index] = Skin(joints, inverse[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1).copy())
         return self._skins[index]
 
-    def _part(self, node: int, primitive: Tree, skin: Skin | None, name: str) -> Part:
+    def _part(self, node: int, primitive: Tree, skin: Skin | None, name: str) -> Primitive:
         given, document = primitive["attributes"], self._document
         count = document.count(given["POSITION"])
         holders = (given, *primitive.get("targets", []))
@@ -415,7 +415,7 @@ class Scene:
             columns = tuple(replace(column, values=column.values[rows]) for column in columns)
             faces = faces.reshape(-1, 3)
         number = int(primitive.get("material", -1))
-        return Part(
+        return Primitive(
             node,
             points[:, rows],
             colors[:, rows],

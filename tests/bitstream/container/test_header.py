@@ -15,9 +15,9 @@ from bsm.bitstream.container.header import (
     HEADER_FIELDS,
     LAW,
     LAW_OF_SEQUENCES,
+    Constants,
     Declaration,
     Header,
-    Paper,
     defaults_of,
     fields_of,
 )
@@ -60,7 +60,7 @@ NOT_ALONE = {
     "paper",
 }
 PAPERS = st.builds(
-    Paper,
+    Constants,
     bits=st.integers(0, 32),
     coarser=st.integers(0, 30),
     exact=st.integers(0, 1),
@@ -192,13 +192,13 @@ def test_declarations_are_documented():
 
 def test_the_papers_entry_is_documented():
     document = (SPEC / "extension-paper.md").read_text()
-    for name, declared in fields_of(Paper).items():
+    for name, declared in fields_of(Constants).items():
         low, high = (
             f"2^{round(math.log2(end))}" if declared.type is float else end for end in (declared.low, declared.high)
         )
-        default = getattr(Paper(), name)
+        default = getattr(Constants(), name)
         assert f"| {name} | {low}..{high} | {'2^-7' if default == 2.0**-7 else default} |" in document
-    assert re.findall(r"^\| (\w+) \| [\d^-]+\.\.", document, re.MULTILINE) == list(fields_of(Paper))
+    assert re.findall(r"^\| (\w+) \| [\d^-]+\.\.", document, re.MULTILINE) == list(fields_of(Constants))
 
 
 def test_frame_types_are_documented():

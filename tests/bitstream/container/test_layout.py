@@ -10,13 +10,13 @@ from bsm import FormatError, LimitError, Limits, OptionError, UnsupportedError
 from bsm.bitstream.container.gop import write_stretches
 from bsm.bitstream.container.packets import (
     WRITERS,
-    Block,
+    Coefficients,
     Connectivity,
     End,
     Gop,
+    Labels,
     Metadata,
     Order,
-    Partition,
     metadata_of,
 )
 from bsm.bitstream.container.wire import MAX_VARINT, FrameType, write_frame, write_preamble, write_varint
@@ -28,9 +28,9 @@ CASES = [
     (Metadata({}), "80"),
     (Metadata({"b": 1, "a": 2.5, "c": b"\x00", "d": "x"}), "84a161ca40200000a16201a163c40100a164a178"),
     (Connectivity(b"xyz"), "78797a"),
-    (Partition(b""), ""),
+    (Labels(b""), ""),
     (Order(b"\x07"), "07"),
-    (Block(300, 58, b"abc"), "ac023a616263"),
+    (Coefficients(300, 58, b"abc"), "ac023a616263"),
     (Gop(2, b"abc"), "02616263"),
     (End(5, 0x12345678), "0578563412"),
 ]

@@ -30,7 +30,7 @@ from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.folder import in_order, look_like_frames
 from bsm.files.motion.frames import Shared, Wanted, painted_like
 from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
-from bsm.gltf.scene import Curve, matrix_of, read_gltf
+from bsm.gltf.scene import Keyframes, matrix_of, read_gltf
 from tests.bsm.program import run as bsm
 from tests.gltf import Built, glb, unpack
 from tests.motion import animators_own, bending, save_frames
@@ -809,21 +809,21 @@ def test_bytes_that_are_used_many_times_are_bounded(tmp_path):
 
 def test_curves_go_as_gltf_says():
     times = np.array([1.0, 3.0])
-    line = Curve(times, np.array([[0.0], [4.0]]), "LINEAR")
+    line = Keyframes(times, np.array([[0.0], [4.0]]), "LINEAR")
     assert [float(line.at(t)[0]) for t in (0, 1, 2, 3, 9)] == [0, 0, 2, 4, 4]
-    step = Curve(times, np.array([[0.0], [4.0]]), "STEP")
+    step = Keyframes(times, np.array([[0.0], [4.0]]), "STEP")
     assert [float(step.at(t)[0]) for t in (1, 2.9, 3)] == [0, 0, 4]
     # A cubic through both values with the slopes that are given: v(t) = t^2 on [1, 3].
-    cubic = Curve(times, np.array([[0], [1], [2], [6], [9], [0]], float), "CUBICSPLINE")
+    cubic = Keyframes(times, np.array([[0], [1], [2], [6], [9], [0]], float), "CUBICSPLINE")
     assert np.allclose([cubic.at(t)[0] for t in (1, 1.5, 2, 3)], [1, 2.25, 4, 9])
     # A quarter turn about z, by the shorter way, though the second quaternion has the other sign.
     half = np.sqrt(0.5)
-    turn = Curve(np.array([0.0, 1.0]), np.array([[0, 0, 0, 1], [0, 0, -half, -half]]), "LINEAR", True)
+    turn = Keyframes(np.array([0.0, 1.0]), np.array([[0, 0, 0, 1], [0, 0, -half, -half]]), "LINEAR", True)
     angle = np.pi / 4
     eighth = matrix_of(np.zeros(3), turn.at(0.5), np.ones(3))[:2, :2]
     assert np.allclose(eighth, [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     with pytest.raises(FormatError):
-        Curve(times[::-1], np.zeros((2, 1)), "LINEAR")
+        Keyframes(times[::-1], np.zeros((2, 1)), "LINEAR")
 
 
 def painted_frames(count=5):

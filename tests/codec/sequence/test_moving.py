@@ -127,7 +127,7 @@ def test_frames_can_be_had_from_any_on() -> None:
                 np.testing.assert_array_equal(own.values, same.values)
 
 
-@pytest.mark.parametrize("kind", [packets.Values, packets.Attribute])
+@pytest.mark.parametrize("kind", [packets.Values, packets.Declared])
 def test_a_lost_attribute_costs_those_behind_it(kind: type) -> None:
     data, _ = encoded(FRAMES, gop=4)
     broken = without(data, kind, 1, "changed")
@@ -153,7 +153,7 @@ def test_runs_have_attributes_that_move() -> None:
         color, own = given.attributes[0].values, event.attributes[0].values
         off = np.sort(color, axis=0).astype(float) - np.sort(own, axis=0)  # no farther than in any other order
         assert np.sqrt(np.square(off).mean()) <= 0.01 * extent("color")
-    declared = packets_of(data, packets.Attribute)
+    declared = packets_of(data, packets.Declared)
     assert len(declared) == 8  # the first mesh returns
 
 

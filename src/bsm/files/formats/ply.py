@@ -59,7 +59,7 @@ class Element:
 
 
 @dataclass(frozen=True)
-class Header:
+class PlyHeader:
     """The order of the bytes ("" for text), the elements, where the body begins, and the comments."""
 
     order: str
@@ -91,7 +91,7 @@ class Header:
         return found
 
 
-def parse_header(data: bytes) -> Header:
+def parse_header(data: bytes) -> PlyHeader:
     begin = re.match(rb"ply[ \t]*[\r\n]", data)
     if begin is None:
         raise FormatError("this is not a PLY file: it does not begin with ply")
@@ -134,7 +134,7 @@ def parse_header(data: bytes) -> Header:
             raise FormatError(f"the PLY header has an invalid line: {line[:80]!r}") from None
     if order is None or len(elements) > _MAX_ELEMENTS:
         raise FormatError("the PLY header names no format, or too many elements")
-    return Header(order, tuple(elements), ends, tuple(comments))
+    return PlyHeader(order, tuple(elements), ends, tuple(comments))
 
 
 def _extend(elements: list[Element], column: Property) -> None:
@@ -144,7 +144,7 @@ def _extend(elements: list[Element], column: Property) -> None:
     elements[-1] = Element(last.name, last.count, (*last.properties, column))
 
 
-def tables_of(header: Header, body: bytes) -> "dict[str, _Table]":
+def tables_of(header: PlyHeader, body: bytes) -> "dict[str, _Table]":
     """The elements of a file by their names; those of a text as integers of eight bytes, lengths among them."""
     tables: dict[str, _Table] = {}
     begin, raw, text = 0, np.frombuffer(body, np.uint8), None

@@ -256,7 +256,7 @@ def test_the_look_chooses_normals(outwards, wild):
     mesh = replace(mesh, attributes=(own,))
     streams = {how: bsm.encode(mesh, bsm.EncodeOptions(normals=how)) for how in ("look", "keep")}
     assert len(streams["look"]) < 0.95 * len(streams["keep"])
-    declared = of_kind(streams["look"], packets.Attribute)[0].declaration
+    declared = of_kind(streams["look"], packets.Declared)[0].declaration
     assert (declared.coding == RECOMPUTED) == (outwards > 0 and not wild)
     assert look(mesh, bsm.decode(streams["look"])).distance <= 1.0
 
@@ -366,8 +366,8 @@ def test_what_is_lost_of_one_attribute_spoils_none_before_it():
 def test_a_lost_declaration_loses_those_behind_it():
     mesh = dressed(patch(40, 35))
     stream = bsm.encode(mesh, QUICK)
-    for packet in of_kind(stream, packets.Attribute):
-        broken = without(stream, packets.Attribute, packet.index, "changed")
+    for packet in of_kind(stream, packets.Declared):
+        broken = without(stream, packets.Declared, packet.index, "changed")
         names, losses, missing = tolerated(broken)
         assert losses >= 1 and missing == 0
         assert names == {attribute.name for attribute in mesh.attributes[: packet.index]}
@@ -379,7 +379,7 @@ def test_seams_that_two_share_are_sent_once():
     mesh = dressed(torus())
     second = replace(mesh.attributes[1], name="uv2", values=1 - mesh.attributes[1].values)
     mesh = replace(mesh, attributes=(*mesh.attributes, second))
-    declared = of_kind(bsm.encode(mesh, QUICK), packets.Attribute)
+    declared = of_kind(bsm.encode(mesh, QUICK), packets.Declared)
     assert [p.declaration.seams_of for p in declared] == [0, 0, 0, 0, 0, 0, 2]
     assert [bool(p.seams) for p in declared] == [False, True, True, False, False, False, False]
     encoder = bsm.Encoder(mesh, QUICK)
