@@ -102,10 +102,10 @@ typedef struct {
     int type;
     int64_t size; /* with tag and checksum; 0 if it is not complete */
     Span payload;
-} Frame;
+} Section;
 
 /* What the tag at the start of some bytes says; 0 if it is incomplete, -1 if it is invalid. */
-static int read_tag(Span bytes, Frame *frame) {
+static int read_tag(Span bytes, Section *frame) {
     int64_t tag;
     int head = parse_varint(bytes, &tag);
     if (head <= 0) return head;
@@ -117,7 +117,7 @@ static int read_tag(Span bytes, Frame *frame) {
 }
 
 /* The frame at the start of some bytes, whose checksum is right; `size` 0 if it is not complete. */
-static bool read_frame(Reader *reader, Span bytes, Frame *frame) {
+static bool read_frame(Reader *reader, Span bytes, Section *frame) {
     Context *context = reader->context;
     int head = read_tag(bytes, frame);
     if (head < 0) return FAIL(context, CORRUPT, "non-canonical varint in a tag");
@@ -183,7 +183,7 @@ static bool read_attribute(Reader *reader, Cursor *cursor, Packet *packet) {
 }
 
 /* F 5: the payload by itself. */
-static bool read_payload(Reader *reader, Frame frame, Packet *packet) {
+static bool read_payload(Reader *reader, Section frame, Packet *packet) {
     Cursor cursor = {reader->context, frame.payload};
     *packet = (Packet){.type = (FrameType)frame.type, .size = frame.payload.size};
     switch (packet->type) {
@@ -223,7 +223,7 @@ static bool read_payload(Reader *reader, Frame frame, Packet *packet) {
 static bool is_skippable(int type) { return type >= 8 && type <= 11; }
 
 /* The packet in a frame, checked against everything before it (F 3.15). */
-static bool read_packet(Reader *reader, Frame frame, Packet *packet) {
+static bool read_packet(Reader *reader, Section frame, Packet *packet) {
     Context *context = reader->context;
     Grammar *grammar = &reader->grammar;
     if (is_skippable(frame.type))
@@ -273,7 +273,7 @@ static bool next_of_brief(Reader *reader, Packet *packet) {
 }
 
 /* Skip a frame. */
-static bool accept_frame(Reader *reader, Frame frame, const Packet *packet) {
+static bool accept_frame(Reader *reader, Section frame, const Packet *packet) {
     Span bytes = {waiting(reader).data, frame.size};
     if (!is_skippable(frame.type)) {
         Declaration *own = NULL;
@@ -306,7 +306,7 @@ static Arrival next_whole(Reader *reader, Packet *packet) {
         if (begun != A_PACKET) return begun;
     }
     while (reader->grammar.last != END_FRAME) {
-        Frame frame = {0};
+        Section frame = {0};
         if (reader->grammar.header != NULL && is_brief(reader->grammar.header))
             return next_of_brief(reader, packet) ? A_PACKET : NOTHING_BUT_AN_ERROR;
         if (!read_frame(reader, waiting(reader), &frame)) return NOTHING_BUT_AN_ERROR;
@@ -323,7 +323,7 @@ static Arrival next_whole(Reader *reader, Packet *packet) {
 }
 
 bool peek_packet(Reader *reader, int64_t *place, Packet *packet) {
-    Frame frame = {0};
+    Section frame = {0};
     Span present = waiting(reader);
     if (failed(reader->context)) return false;
     bool sound = read_frame(reader, (Span){present.data + *place, present.size - *place}, &frame) && frame.size > 0
@@ -335,7 +335,7 @@ bool peek_packet(Reader *reader, int64_t *place, Packet *packet) {
 
 /* Take note of damage at the first byte that waits (F 8.2). */
 static void inspect(Reader *reader) {
-    Frame frame = {0};
+    Section frame = {0};
     Damage *damage = &reader->damage;
     *damage = (Damage){.found = true, .sure = true, .why = take_error(reader->context), .type = NO_FRAME,
         .by_length = -1, .from_next = true};
@@ -353,7 +353,7 @@ static int64_t step_from(Reader *reader, int64_t place, bool sure) {
     Context *context = reader->context;
     Span bytes = {waiting(reader).data + place, waiting(reader).size - place};
     uint32_t expected = expected_types(&reader->grammar);
-    Frame frame = {0};
+    Section frame = {0};
     Packet packet;
     int head = read_tag(bytes, &frame);
     if (head < 0) return NO_FRAME_HERE;

@@ -43,7 +43,7 @@ typedef struct { /* a value under way */
     Inverse inverse[PARTS]; /* of the scales: 2^38 by 1/4096 */
     Number input[INPUT_PARTS];
     uint32_t hits[MODEL_ROW]; /* of each prediction */
-} Work;
+} Coder;
 
 INLINE Number numbers_at(const int32_t *row, int i) { return ((const UnalignedNumber *)row)[i]; }
 
@@ -89,7 +89,7 @@ INLINE Inverse inverse_of(Number scale, Number count, int32_t first, int32_t *ty
     return whole_of(0x1p38 / mean);
 }
 
-INLINE void set_contexts(Work *w, uint32_t *const *slots, int contexts) {
+INLINE void set_contexts(Coder *w, uint32_t *const *slots, int contexts) {
     bool all = contexts == CONTEXTS;
     w->input[0][CONSTANT_INPUT] = 256;
     w->input[1] = (Number){slot_odds(*slots[0]), slot_odds(*slots[1]), slot_odds(*slots[2]), slot_odds(*slots[3]),
@@ -146,7 +146,7 @@ INLINE Inverse inverse_of(Number scale, Number count, int32_t first, int32_t *ty
     return (INT64_C(1) << 38) / mean;
 }
 
-INLINE void set_contexts(Work *w, uint32_t *const *slots, int contexts) {
+INLINE void set_contexts(Coder *w, uint32_t *const *slots, int contexts) {
     w->input[CONSTANT_INPUT] = 256;
     for (int i = 0; i < contexts; i++) w->input[CONSTANT_INPUT + 1 + i] = slot_odds(*slots[i]);
 }
@@ -162,11 +162,11 @@ INLINE void train(int32_t *weights, const int32_t *input, int32_t error, int inp
 }
 #endif
 
-INLINE void set_input(Work *w, int i, Number odds) { w->input[i] = smaller(larger(odds, -MOST_ODDS), MOST_ODDS); }
+INLINE void set_input(Coder *w, int i, Number odds) { w->input[i] = smaller(larger(odds, -MOST_ODDS), MOST_ODDS); }
 
 /* Mix a decision, code it and learn from it; the inputs of the predictions are set (V 4.4). The number of contexts is a
  * constant wherever this is called, so that loops are unrolled. */
-INLINE int decide_by(Work *w, int node, int kind, int bit, int contexts) {
+INLINE int decide_by(Coder *w, int node, int kind, int bit, int contexts) {
     uint32_t *slots[CONTEXTS];
     int inputs = PREDICTIONS + 1 + contexts;
     for (int i = 0; i < contexts; i++)
@@ -184,7 +184,7 @@ INLINE int decide_by(Work *w, int node, int kind, int bit, int contexts) {
     return bit;
 }
 
-OFTEN static int decide(Work *w, int node, int kind, int bit) {
+OFTEN static int decide(Coder *w, int node, int kind, int bit) {
     return w->e->contexts == CONTEXTS ? decide_by(w, node, kind, bit, CONTEXTS)
         : decide_by(w, node, kind, bit, TWIN_CONTEXTS);
 }
@@ -192,7 +192,7 @@ OFTEN static int decide(Work *w, int node, int kind, int bit) {
 INLINE int32_t first_scale(const Expectation *e) { return e->scale < 2 ? 2 : e->scale; }
 
 /* The learned sizes of errors, the expected one counting as if seen twice; returns that of the guess, 1/16 (V 5.3). */
-INLINE int32_t find_scales(Work *w) {
+INLINE int32_t find_scales(Coder *w) {
     const Expectation *e = w->e;
     const int32_t *row = w->model->scales.data + MODEL_ROW * e->scale_context;
     const uint32_t *hits = w->model->hits.data + MODEL_ROW * e->hit_context;
@@ -218,7 +218,7 @@ INLINE int32_t find_scales(Work *w) {
 }
 
 /* Is the value one of the predictions that often are exact? What was asked goes to `asked` (V 5.4). */
-INLINE bool ask(Work *w, int32_t *value, int32_t *asked, int *asks) {
+INLINE bool ask(Coder *w, int32_t *value, int32_t *asked, int *asks) {
     const Expectation *e = w->e;
     const uint32_t *hits = w->hits;
     int open = (1 << PREDICTIONS) - 1;
@@ -252,7 +252,7 @@ INLINE bool ask(Work *w, int32_t *value, int32_t *asked, int *asks) {
 }
 
 /* On which side of `start` less a half? (V 5.3) */
-INLINE int choose_side(Work *w, int32_t start, int node, int up) {
+INLINE int choose_side(Coder *w, int32_t start, int node, int up) {
     EACH_PART(i) {
         Number away = start * FINE - FINE / 2 - w->prediction[i];
         set_input(w, i, (survival(-away, w->inverse[i]) - survival(away, w->inverse[i])) >> 8);
@@ -261,7 +261,7 @@ INLINE int choose_side(Work *w, int32_t start, int node, int up) {
 }
 
 /* Is it in the outer half of the 2^(rest + 1) distances from `inner`, whose inner end is `edge`? (V 5.5) */
-INLINE int choose_half(Work *w, int32_t edge, int direction, int32_t inner, int rest, int node, int kind, int outer) {
+INLINE int choose_half(Coder *w, int32_t edge, int direction, int32_t inner, int rest, int node, int kind, int outer) {
     int32_t half = 1 << (rest + 4);
     EACH_PART(i) {
         Number near = direction * (edge - w->prediction[i]) + inner * FINE, middle = near + half, far = middle + half;
@@ -276,7 +276,7 @@ INLINE int choose_half(Work *w, int32_t edge, int direction, int32_t inner, int 
 
 /* The distance from `from` outwards: its class, then its place in the class (V 5.4, V 5.5). */
 INLINE int64_t code_distance(
-    Work *w, int32_t from, int direction, int k, const int32_t *asked, int asks, int64_t distance) {
+    Coder *w, int32_t from, int direction, int k, const int32_t *asked, int asks, int64_t distance) {
     int32_t edge = from * FINE - direction * (FINE / 2), first = 0, next;
     Number inner[PARTS];
     EACH_PART(i) inner[i] = survival(direction * (edge - w->prediction[i]), w->inverse[i]);
@@ -316,7 +316,7 @@ INLINE void learn_error(const Expectation *e, int j, int32_t value, uint32_t *hi
 }
 
 /* Hit rates and scales, after a value (V 5.9). */
-INLINE void learn_errors(const Work *w, int32_t value) {
+INLINE void learn_errors(const Coder *w, int32_t value) {
     const Expectation *e = w->e;
     uint32_t *hits = w->model->hits.data + MODEL_ROW * e->hit_context;
     int32_t *row = w->model->scales.data + MODEL_ROW * e->scale_context, *count = row + PREDICTIONS, of_twins = 0;
@@ -343,7 +343,7 @@ INLINE void begin_contexts(const ValueModel *model, const Expectation *e) {
 }
 
 OFTEN int32_t ISA(code_value)(RangeCoder *coder, const ValueModel *model, const Expectation *e, int32_t value) {
-    Work w;
+    Coder w;
     w.coder = coder, w.model = model, w.e = e;
     begin_contexts(model, e);
     int32_t typical = find_scales(&w), asked[MOST_ASKS];

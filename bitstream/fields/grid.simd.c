@@ -25,7 +25,7 @@ typedef struct { /* what is known of a vertex before its axes */
     int32_t base[AXES], mean[AXES], closing[AXES], error_near[AXES], apart[AXES], shape[SHAPES][AXES];
     Plane whole, plane[2];
     int axis[STEPS];
-} Place;
+} GridPlace;
 
 /* Learn from a value, all weights or, with twins, one in turn. */
 INLINE int32_t take_all(Forecast *f, int32_t error, Twins *t) {
@@ -103,7 +103,7 @@ static void add_shape(const Corners *corners, const int32_t *x, int32_t v, Flap 
     }
 }
 
-static void average(const Grid *g, int32_t last, Place *p) {
+static void average(const Grid *g, int32_t last, GridPlace *p) {
     const int32_t *x = g->values.data;
     const Around *r = &p->around;
     for (int j = 0; j < AXES; j++) {
@@ -128,7 +128,7 @@ static void average(const Grid *g, int32_t last, Place *p) {
 }
 
 /* Planes of the two best flaps and of all; the axis nearest to the normal of all comes last. */
-static void span_planes(const Grid *g, Place *p) {
+static void span_planes(const Grid *g, GridPlace *p) {
     int64_t normal[AXES] = {0, 0, 0};
     for (int i = 0; i < p->around.flaps; i++) {
         Flap flap = p->around.flap[i];
@@ -151,7 +151,7 @@ static void span_planes(const Grid *g, Place *p) {
     }
 }
 
-OFTEN static void look_around(const Corners *corners, const Grid *g, int32_t v, int32_t last, Place *p) {
+OFTEN static void look_around(const Corners *corners, const Grid *g, int32_t v, int32_t last, GridPlace *p) {
     gather_around(corners, v, &p->around);
     sort_flaps(g, &p->around);
     p->flaps = (int32_t)least(p->around.flaps, 3);
@@ -159,7 +159,7 @@ OFTEN static void look_around(const Corners *corners, const Grid *g, int32_t v, 
     average(g, last, p);
 }
 
-OFTEN static void survey(const Corners *corners, const Grid *g, int32_t v, Place *p) {
+OFTEN static void survey(const Corners *corners, const Grid *g, int32_t v, GridPlace *p) {
     for (int i = 0; i < p->around.flaps; i++) add_shape(corners, g->values.data, v, p->around.flap[i], p->shape);
     if (p->around.flaps > 1)
         for (int i = 0; i < SHAPES; i++)
@@ -205,7 +205,7 @@ INLINE void expect_twins(const Twins *t, int j, int step, int kind, int32_t far,
 }
 
 /* Code a value; false if it is invalid (V 9, V 10). */
-OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32_t v, int step, Place *p,
+OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32_t v, int step, GridPlace *p,
     int32_t *hits, int32_t *first_gap) {
     const Around *r = &p->around;
     int j = p->axis[step], flaps = p->flaps;
@@ -285,13 +285,13 @@ typedef struct {
     ValueModel model;
     Corners corners;
     Grid grid;
-} Work;
+} GridCoder;
 
 OFTEN static bool code_vertex(void *work, int64_t i) {
-    Work *w = work;
+    GridCoder *w = work;
     Grid *g = &w->grid;
     int32_t v = g->order.data[i], last = i > 0 ? g->order.data[i - 1] : -1, hits = 0, first_gap = 0;
-    Place p;
+    GridPlace p;
     int32_t *x = g->values.data + AXES * (int64_t)v;
     look_around(&w->corners, g, v, last, &p);
     if (g->twins) seek_images(g->twins, &w->corners, &g->values, &p.around, v, p.base);
@@ -313,6 +313,6 @@ OFTEN static bool code_vertex(void *work, int64_t i) {
 
 int64_t ISA(code_grid)(
     RangeCoder *coder, ValueModel model, Corners corners, Grid g, int64_t first, int64_t count) {
-    Work work = {.coder = coder, .model = model, .corners = corners, .grid = g};
+    GridCoder work = {.coder = coder, .model = model, .corners = corners, .grid = g};
     return code_rows(coder, corners.rank.size, first, count, AXES * VALUE_BYTES, code_vertex, &work);
 }

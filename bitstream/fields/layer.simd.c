@@ -40,7 +40,7 @@ typedef struct { /* what is known of a vertex before its axes */
     Divisor near, with_own, all_flaps; /* neighbors, these and the vertex itself, flaps */
     int32_t flaps, valence, busy; /* busy: mean size of the levels around, all axes added, 1/16 */
     int32_t latest, earliest;     /* neighbors coded last and first */
-} Place;
+} LevelPlace;
 
 typedef struct { /* a level under way */
     RangeCoder *coder;
@@ -60,7 +60,7 @@ INLINE int32_t mean_of(int64_t sum, Divisor n) {
     return sum < 0 ? -size : size;
 }
 
-static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p) {
+static void survey(const Corners *corners, const Levels *l, int32_t v, LevelPlace *p) {
     gather_around(corners, v, &p->around);
     const Around *r = &p->around;
     p->near = divisor_of(r->neighbors), p->with_own = divisor_of(r->neighbors + 1),
@@ -116,7 +116,7 @@ INLINE int32_t code_level(const Level *w, int32_t center, int32_t off, int k, in
 
 INLINE int32_t near_to(int32_t x, int32_t center) { return within((int64_t)x - center, -3, 3) + 3; }
 
-static bool code_axis(RangeCoder *coder, const Bank *bank, Levels *l, int32_t v, int j, const Place *p,
+static bool code_axis(RangeCoder *coder, const Bank *bank, Levels *l, int32_t v, int j, const LevelPlace *p,
     int32_t *own) {
     const Around *r = &p->around;
     const int64_t axes = AXES;
@@ -172,11 +172,11 @@ typedef struct {
     const Bank *bank;
     Corners corners;
     Levels levels;
-} Work;
+} LevelCoder;
 
 OFTEN static bool code_vertex(void *work, int64_t v) {
-    Work *w = work;
-    Place p;
+    LevelCoder *w = work;
+    LevelPlace p;
     survey(&w->corners, &w->levels, (int32_t)v, &p);
     int32_t own = 0;
     for (int j = 0; j < AXES; j++)
@@ -186,6 +186,6 @@ OFTEN static bool code_vertex(void *work, int64_t v) {
 
 int64_t ISA(code_levels)(
     RangeCoder *coder, const Bank *bank, Corners corners, Levels levels, int64_t first, int64_t count) {
-    Work work = {.coder = coder, .bank = bank, .corners = corners, .levels = levels};
+    LevelCoder work = {.coder = coder, .bank = bank, .corners = corners, .levels = levels};
     return code_rows(coder, corners.rank.size, first, count, AXES * LEVEL_BYTES, code_vertex, &work);
 }

@@ -26,7 +26,7 @@ typedef struct { /* what is known of a vertex before its axes */
     int32_t across[2][AXES];         /* what the first two flaps say */
     int32_t normal[AXES];
     int axis[AXES]; /* in the order in which they are coded */
-} Place;
+} LightPlace;
 
 /* Code a decision by one slot (V 15.2). */
 INLINE int code_plain_bit(RangeCoder *coder, uint32_t *slot, int bit) {
@@ -36,7 +36,7 @@ INLINE int code_plain_bit(RangeCoder *coder, uint32_t *slot, int bit) {
 }
 
 /* Shorten a normal, and order the axes by it: the one nearest to it comes last (V 8.5). */
-INLINE void face(Place *p, const int64_t *normal) {
+INLINE void face(LightPlace *p, const int64_t *normal) {
     uint64_t bits = 1;
     for (int j = 0; j < AXES; j++) bits |= (uint64_t)(normal[j] < 0 ? -normal[j] : normal[j]);
     int shift = (int)largest(64 - __builtin_clzll(bits) - NORMAL_BITS, 0);
@@ -49,7 +49,7 @@ INLINE void face(Place *p, const int64_t *normal) {
 }
 
 /* Look around a vertex (V 15.3, V 15.4). */
-OFTEN static void survey(const Corners *c, const Light *g, int32_t v, Place *p) {
+OFTEN static void survey(const Corners *c, const Light *g, int32_t v, LightPlace *p) {
     const int32_t *vertex = c->faces.data, *x = g->values.data, *gap = g->gaps.data;
     int32_t flaps = 0, ends = 0;
     int32_t places[AXES] = {0, 0, 0}, lowest[AXES] = {0, 0, 0}, highest[AXES] = {0, 0, 0};
@@ -98,12 +98,12 @@ typedef struct { /* what the decisions of a value depend on: slots of a size and
     const Light *light;
     int32_t kind, size;
     int64_t context[LEAN_INPUTS];
-} Model;
+} LightModel;
 
 INLINE bool is_lean(const Light *light) { return !BSMDEC_LIGHT && light->twins; }
 INLINE int32_t class_of(int32_t size) { return (int32_t)least(size_class(size >> 3), LIGHT_SIZES - 1); }
 
-INLINE int decide(const Model *m, int node, int bit) {
+INLINE int decide(const LightModel *m, int node, int bit) {
     uint32_t *slots = m->light->slots.data;
     if (is_lean(m->light)) {
         Bank bank = {slots, m->light->weights, LATEST_MIXED, MIXING_RATE};
@@ -114,7 +114,7 @@ INLINE int decide(const Model *m, int node, int bit) {
 }
 
 /* Code how far a value is from its guess, `off` being the guess less that level in 1/16 (V 15.6). */
-OFTEN static int32_t code_distance(const Model *m, int32_t off, int32_t distance) {
+OFTEN static int32_t code_distance(const LightModel *m, int32_t off, int32_t distance) {
     int part = (size_of(off) > 1) + (size_of(off) > 4), width = (int)largest(bit_length((uint32_t)m->size) - 6, 0);
     if (decide(m, ZERO + part, distance == 0)) return 0;
     bool below = off < 0, negative = decide(m, SIGN + part, (distance < 0) != below) != below;
@@ -136,10 +136,10 @@ typedef struct {
     RangeCoder *coder;
     Corners corners;
     Light light;
-} Work;
+} LightCoder;
 
 /* Look for images of a vertex, and code whether it is where one is (V 17.12). */
-static bool code_by_images(Work *w, int32_t v, const Place *p, Around *around) {
+static bool code_by_images(LightCoder *w, int32_t v, const LightPlace *p, Around *around) {
     const Light *g = &w->light;
     int32_t *x = g->values.data + AXES * (int64_t)v;
     gather_around(&w->corners, v, around);
@@ -151,7 +151,7 @@ static bool code_by_images(Work *w, int32_t v, const Place *p, Around *around) {
 }
 
 /* Guess the image of a trusted twin, if there is one, and say what decisions about axis j depend on (V 17.12). */
-INLINE void expect_image(Model *m, const Place *p, const Around *r, int j, int32_t *guess) {
+INLINE void expect_image(LightModel *m, const LightPlace *p, const Around *r, int j, int32_t *guess) {
     enum { UNSURE = CERTAINTIES, NO_NEIGHBOR = 7 };
     const Light *g = m->light;
     const Twins *t = g->twins;
@@ -173,13 +173,13 @@ INLINE void expect_image(Model *m, const Place *p, const Around *r, int j, int32
 }
 
 OFTEN static bool code_vertex(void *work, int64_t v) {
-    Work *w = work;
+    LightCoder *w = work;
     RangeCoder *coder = w->coder;
     const Light *g = &w->light;
     Twins *t = g->twins;
-    Model m = {.coder = coder, .light = g};
+    LightModel m = {.coder = coder, .light = g};
     Around around;
-    Place p;
+    LightPlace p;
     survey(&w->corners, g, (int32_t)v, &p);
     bool done = is_lean(g) && code_by_images(w, (int32_t)v, &p, &around);
     int32_t *x = g->values.data + AXES * v, *gap = g->gaps.data + AXES * v, before = 0;
@@ -206,7 +206,7 @@ OFTEN static bool code_vertex(void *work, int64_t v) {
 }
 
 int64_t code_light(RangeCoder *coder, Corners corners, Light light, int64_t first, int64_t count) {
-    Work work = {.coder = coder, .corners = corners, .light = light};
+    LightCoder work = {.coder = coder, .corners = corners, .light = light};
     return code_rows(coder, corners.rank.size, first, count, AXES * VALUE_BYTES, code_vertex, &work);
 }
 

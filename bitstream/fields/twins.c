@@ -30,7 +30,7 @@ typedef __attribute__((vector_size(64), __aligned__(8), may_alias)) double Reals
 typedef __attribute__((vector_size(32), __aligned__(4), may_alias)) int32_t Numbers;
 typedef __attribute__((vector_size(32), __aligned__(4), may_alias)) uint32_t Wholes;
 /* Numbers of the echoes of one chain. */
-typedef __attribute__((vector_size(16), __aligned__(4), may_alias)) int32_t Chain;
+typedef __attribute__((vector_size(16), __aligned__(4), may_alias)) int32_t Links;
 typedef __attribute__((vector_size(16))) float ChainSingles;
 typedef __attribute__((vector_size(32))) double ChainReals;
 
@@ -292,7 +292,7 @@ static void add_product(const int64_t *a, const int64_t *b, int64_t *to) {
 /* a / b towards zero: exact below 2^53, since a quotient that is not whole is at least 1 / b away from one that is. */
 INLINE int64_t quotient_of(int64_t a, int64_t b) { return (int64_t)((double)a / (double)b); }
 
-static void set_frame(const Corners *corners, const Ints2 *values, Flap flap, int32_t v, Frame *f) {
+static void set_frame(const Corners *corners, const Ints2 *values, Flap flap, int32_t v, FlapFrame *f) {
     const int32_t *a = values->data + AXES * (int64_t)flap.a, *b = values->data + AXES * (int64_t)flap.b,
                   *c = values->data + AXES * (int64_t)flap.c;
     int64_t along[AXES], beside[AXES], up[AXES], squares[3] = {0, 0, 0}, most = 1;
@@ -338,28 +338,28 @@ INLINE int32_t length_class(int32_t length) {
     return 32 * exponent + (x >> (exponent + 2)) - 32;
 }
 
-INLINE Chain sizes_of(Chain x) { return (x ^ (x >> 31)) - (x >> 31); }
+INLINE Links sizes_of(Links x) { return (x ^ (x >> 31)) - (x >> 31); }
 
 /* How far a flap is from being congruent with the echoes of a chain, << 5; FAR beyond what counts. */
-INLINE Chain differences(const Twins *t, const Frame *f, const int32_t *number) {
+INLINE Links differences(const Twins *t, const FlapFrame *f, const int32_t *number) {
     int32_t oldest = (int32_t)largest(t->echoes - MOST_ECHOES, 0), may = (f->length[0] >> 5) + 24;
     const int32_t *echo[ECHO_VISITS];
     for (int i = 0; i < ECHO_VISITS; i++) echo[i] = t->echo[number[i] & (MOST_ECHOES - 1)].shape;
-    Chain sum = {0}, own = *(const Chain *)number;
-    for (int k = 0; k < 3; k++) sum += sizes_of((Chain){echo[0][k], echo[1][k], echo[2][k], echo[3][k]} - f->length[k]);
-    Chain other = (Chain){echo[0][3], echo[1][3], echo[2][3], echo[3][3]} ^ f->degrees;
+    Links sum = {0}, own = *(const Links *)number;
+    for (int k = 0; k < 3; k++) sum += sizes_of((Links){echo[0][k], echo[1][k], echo[2][k], echo[3][k]} - f->length[k]);
+    Links other = (Links){echo[0][3], echo[1][3], echo[2][3], echo[3][3]} ^ f->degrees;
     other = (other + 0x0f0f0f) >> 4 & 0x010101; /* a bit for each that differs */
     /* 64 sum / may: a half below is more than doubles round. */
-    Chain away = __builtin_convertvector((__builtin_convertvector(sum, ChainReals) + 1.0 / 128) * (64.0 / may), Chain);
-    Chain age = 2 * ((t->echoes - own) & (MOST_ECHOES - 1)) + 1; /* the exponent of which is the bits of half of it */
-    away += 3 * (((Chain)__builtin_convertvector(age, ChainSingles) >> 23) - 127);
+    Links away = __builtin_convertvector((__builtin_convertvector(sum, ChainReals) + 1.0 / 128) * (64.0 / may), Links);
+    Links age = 2 * ((t->echoes - own) & (MOST_ECHOES - 1)) + 1; /* the exponent of which is the bits of half of it */
+    away += 3 * (((Links)__builtin_convertvector(age, ChainSingles) >> 23) - 127);
     away += 19 * ((other + (other >> 8) + (other >> 15)) & 7);
-    Chain alike = (own > oldest) & (sum <= MOST_ECHO / 64 * may);
+    Links alike = (own > oldest) & (sum <= MOST_ECHO / 64 * may);
     return (away & alike) << 5 | (~alike & FAR);
 }
 
 /* The chains of echoes that may be alike, and how many. */
-static int list_chains(const Twins *t, Frame *f, int32_t *number) {
+static int list_chains(const Twins *t, FlapFrame *f, int32_t *number) {
     int32_t oldest = (int32_t)largest(t->echoes - MOST_ECHOES, 0), class[2][3];
     int open = 0;
     for (int k = 0; k < 3; k++) {
@@ -380,12 +380,12 @@ static int list_chains(const Twins *t, Frame *f, int32_t *number) {
 }
 
 /* The nearest echoes, in order: how far each is << 5, and where it is in `number`. */
-KERNEL void find_alike(const Twins *t, const Frame *f, int open, int32_t *number, int32_t *near) {
+KERNEL void find_alike(const Twins *t, const FlapFrame *f, int open, int32_t *number, int32_t *near) {
     int32_t away[PROBES * ECHO_VISITS];
     for (int i = 0; i < NEAREST_ECHOES; i++) near[i] = FAR;
     for (int32_t *to = number; to < number + ECHO_VISITS * open; to += ECHO_VISITS) {
-        *(Chain *)to = *(const Chain *)t->echo[*to & (MOST_ECHOES - 1)].chain;
-        *(Chain *)(away + (to - number)) = differences(t, f, to);
+        *(Links *)to = *(const Links *)t->echo[*to & (MOST_ECHOES - 1)].chain;
+        *(Links *)(away + (to - number)) = differences(t, f, to);
     }
     for (int i = 0; i < ECHO_VISITS * open; i++) { /* without branches, which are a toss-up */
         int32_t own = away[i] | i;
@@ -410,7 +410,7 @@ void seek_echoes(Twins *t, const Corners *corners, const Ints2 *values, const Ar
         if (t->frame[i].is_there) open[i] = list_chains(t, t->frame + i, number[i]);
     }
     for (int i = 0; i < 2; i++) {
-        const Frame *f = t->frame + i;
+        const FlapFrame *f = t->frame + i;
         int32_t near[NEAREST_ECHOES];
         find_alike(t, f, open[i], number[i], near);
         for (int k = 0; k < NEAREST_ECHOES && near[k] < FAR; k++) {
@@ -462,7 +462,7 @@ static void join(Twins *t, int32_t v, int32_t u, int32_t image) {
     t->has[u] |= 1u << inverse;
 }
 
-static void remember_flap(Twins *t, const Frame *f, const int32_t *place, bool turned) {
+static void remember_flap(Twins *t, const FlapFrame *f, const int32_t *place, bool turned) {
     if (t->echoes == 1 << 30) return;
     int32_t number = ++t->echoes;
     Echo *echo = t->echo + (number & (MOST_ECHOES - 1));
@@ -526,7 +526,7 @@ bool remember_twins(Twins *t, const Ints2 *values, const Around *around, int32_t
         t->head[chain] = v;
     }
     for (int i = 0; i < around->flaps && i < 2; i++) {
-        const Frame *f = t->frame + i;
+        const FlapFrame *f = t->frame + i;
         int32_t place[AXES];
         if (!f->is_there) continue;
         for (int axis = 0; axis < AXES; axis++) {

@@ -35,7 +35,7 @@ typedef struct {
     uint32_t chain[2]; /* of echoes alike, and of those of the flap turned round */
     int32_t length[3], middle[3], unit[3][3];
     int32_t degrees; /* a byte each, at most 12 */
-} Frame;
+} FlapFrame;
 
 typedef struct { /* a flap, and where its vertex was in the frame of its coded edge, in 1/16 */
     int32_t shape[4]; /* lengths, and degrees */
@@ -63,7 +63,7 @@ typedef struct Twins {
     Candidate candidate[MOST_CANDIDATES];
     int32_t candidates, known_axes, axis[3], value[3];
     int32_t echoed[2][3], echo_class; /* of flaps alike, weighed and the best; 0: there is none */
-    Frame frame[2]; /* of the first two flaps */
+    FlapFrame frame[2]; /* of the first two flaps */
     /* Whether vertices are where images are, if that is asked: the model, the latest answers of each image, a bit
      * each; of each vertex whether it is in the first cell (0: not asked, 1: no, 2: yes); cells in which the vertex at
      * hand is not. */

@@ -12,7 +12,7 @@ typedef struct {
     int32_t *distances; /* two for each vertex: to the low and to the high end of the segment that it is in */
     uint16_t *open;     /* 1 for what a sweep has yet to find, 0 otherwise and between sweeps */
     uint32_t *queue, *digits, *buckets;
-} Work;
+} Bisection;
 
 typedef struct {
     int64_t first, last, part, parts;
@@ -34,7 +34,7 @@ INLINE int64_t visit(const int32_t *vertices, int64_t count, uint16_t *open, uin
 /* Breadth-first distances from `start` within a segment, to its end `side`; `queue` gets its vertices in the order of
  * discovery. Where the sweep comes to an end before all are found, it goes on, one step farther away, from the last
  * vertex of the segment that is still missing. */
-static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t start, int side) {
+static void sweep(Bisection *work, const uint32_t *segment, int64_t size, uint32_t start, int side) {
     const int32_t *offsets = work->offsets, *neighbors = work->neighbors, *rows = work->rows;
     uint16_t *open = work->open;
     uint32_t *queue = work->queue;
@@ -64,7 +64,7 @@ static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t st
 
 /* Sort a segment by distance to its low end minus distance to its high end, ties by place in `queue`: a counting sort,
  * in one pass unless there are far more values than vertices. No vertex is farther than `most` from both ends. */
-static void sort_segment(Work *work, uint32_t *segment, int64_t size, uint32_t most) {
+static void sort_segment(Bisection *work, uint32_t *segment, int64_t size, uint32_t most) {
     const int32_t *distances = work->distances;
     uint32_t *source = work->queue, *target = segment, *buckets = work->buckets, *digits = work->digits;
     uint32_t span = 2 * most, bits = 1;
@@ -89,7 +89,7 @@ static void sort_segment(Work *work, uint32_t *segment, int64_t size, uint32_t m
         for (int64_t i = 0; i < size; i++) segment[i] = source[i];
 }
 
-static void fill_rows(const Work *work, int64_t size) {
+static void fill_rows(const Bisection *work, int64_t size) {
     for (int64_t v = 0; v < size; v++) {
         int32_t *row = work->rows + ROW * v, first = work->offsets[v], count = work->offsets[v + 1] - first;
         for (int k = 0; k < ROW; k++) row[k] = k < count ? work->neighbors[first + k] : (int32_t)v;
@@ -97,12 +97,12 @@ static void fill_rows(const Work *work, int64_t size) {
     }
 }
 
-static bool open_work(Work *work, ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch) {
+static bool open_work(Bisection *work, ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch) {
     int64_t size = offsets.size - 1;
     if (size < 0 || bounds.size < 2 || order.size < size || scratch.size < bisection_scratch(size)) return false;
     if (neighbors.size < offsets.data[size]) return false;
     uint32_t *room = scratch.data;
-    *work = (Work){.offsets = offsets.data, .neighbors = neighbors.data, .rows = (int32_t *)room};
+    *work = (Bisection){.offsets = offsets.data, .neighbors = neighbors.data, .rows = (int32_t *)room};
     work->distances = (int32_t *)(room + ROW * size);
     work->open = (uint16_t *)(room + 10 * size);
     work->queue = room + 11 * size;
@@ -113,7 +113,7 @@ static bool open_work(Work *work, ConstInts offsets, ConstInts neighbors, Ints o
 }
 
 /* All vertices as one segment. */
-static Segment begin(Work *work, uint32_t *segments, int64_t size, Ints bounds) {
+static Segment begin(Bisection *work, uint32_t *segments, int64_t size, Ints bounds) {
     int64_t parts = bounds.size - 1;
     for (int64_t v = 0; v < size; v++) {
         segments[v] = (uint32_t)v;
@@ -136,7 +136,7 @@ static Segment upper(Segment s, int64_t cut) {
 }
 
 /* Cut a segment of several parts in two; returns where. */
-static int64_t cut_segment(Work *work, uint32_t *segments, Segment s) {
+static int64_t cut_segment(Bisection *work, uint32_t *segments, Segment s) {
     uint32_t *segment = segments + s.first;
     int64_t count = s.last - s.first;
     if (count > LEAF) {
@@ -156,7 +156,7 @@ static int64_t cut_segment(Work *work, uint32_t *segments, Segment s) {
 }
 
 /* Cut a segment into its parts. */
-static void cut_on(Work *work, uint32_t *segments, Segment whole, Ints bounds) {
+static void cut_on(Bisection *work, uint32_t *segments, Segment whole, Ints bounds) {
     Segment stack[DEPTH];
     stack[0] = whole;
     for (int depth = 1; depth > 0;) {
@@ -171,7 +171,7 @@ static void cut_on(Work *work, uint32_t *segments, Segment whole, Ints bounds) {
 
 /* Cut a graph into `bounds.size - 1` parts: part p is `order[bounds[p]:bounds[p + 1]]`. */
 bool bisect(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch) {
-    Work work;
+    Bisection work;
     if (!open_work(&work, offsets, neighbors, order, bounds, scratch)) return false;
     uint32_t *segments = (uint32_t *)order.data;
     cut_on(&work, segments, begin(&work, segments, offsets.size - 1, bounds), bounds);

@@ -87,14 +87,14 @@ typedef struct {
 typedef struct {
     double inverse[LANES], top_x[LANES], top_y[LANES], middle_x[LANES], middle_y[LANES];
     double whole[LANES], upper[LANES], beneath[LANES], first[LANES], end[LANES], left[LANES], right[LANES];
-} Group;
+} Batch;
 
 INLINE double slope_of(double across, double rise) {
     double slope = across / rise;
     return rise > 0.0 ? slope : 0.0;
 }
 
-INLINE void prepare(Model model, const int32_t *numbers, Canvas on, Group *g) {
+INLINE void prepare(Model model, const int32_t *numbers, Canvas on, Batch *g) {
     double corner[6][LANES], rows = (double)on.picture.rows, columns = (double)on.picture.columns;
     for (int k = 0; k < LANES; k++)
         for (int i = 0; i < 3; i++) {
@@ -125,24 +125,24 @@ INLINE void prepare(Model model, const int32_t *numbers, Canvas on, Group *g) {
 
 typedef struct {
     double from, to;
-} Span;
+} PixelRange;
 
 /* The pixels of a row at `y` that are inside face `k`. */
-INLINE Span crossed(const Group *g, int k, double y, double size) {
+INLINE PixelRange crossed(const Batch *g, int k, double y, double size) {
     double one = g->top_x[k] + (y - g->top_y[k]) * g->whole[k];
     double above = g->top_x[k] + (y - g->top_y[k]) * g->upper[k];
     double below = g->middle_x[k] + (y - g->middle_y[k]) * g->beneath[k];
     double other = y < g->middle_y[k] ? above : below;
-    return (Span){first_center(one < other ? one : other, size), behind_center(one < other ? other : one, size)};
+    return (PixelRange){first_center(one < other ? one : other, size), behind_center(one < other ? other : one, size)};
 }
 
 /* The pixels of up to `rows` rows of each face, and how many they are. */
-INLINE void cover(const Group *g, int rows, double size, double (*from)[LANES], double (*to)[LANES], double *inside) {
+INLINE void cover(const Batch *g, int rows, double size, double (*from)[LANES], double (*to)[LANES], double *inside) {
     EACH_LANE inside[k] = 0.0;
     for (int j = 0; j < rows; j++)
         EACH_LANE {
             double y = g->first[k] + (double)j + 0.5;
-            Span span = crossed(g, k, y, size);
+            PixelRange span = crossed(g, k, y, size);
             from[j][k] = span.from;
             to[j][k] = y < g->end[k] ? span.to : 0.0;
             inside[k] += higher(to[j][k] - from[j][k], 0.0);
@@ -154,9 +154,9 @@ INLINE void cover(const Group *g, int rows, double size, double (*from)[LANES], 
 typedef struct {
     double at[2], low, high, depth[3], facing[3], length[6];
     int32_t number;
-} Plane;
+} ShadedPlane;
 
-INLINE Plane plane_of(Model model, int32_t number, double inverse) {
+INLINE ShadedPlane plane_of(Model model, int32_t number, double inverse) {
     Face face = face_at(model, number);
     const double *a = face.a, *b = face.b, *c = face.c, *light = model.light;
     const float *normals = model.normals + 9 * (int64_t)number;
@@ -169,13 +169,13 @@ INLINE Plane plane_of(Model model, int32_t number, double inverse) {
         x[d] = one * across[0] + other * across[1];
         y[d] = one * down[0] + other * down[1];
     }
-    return (Plane){{a[0], a[1]},
-                   a[2] + lower(lower(second, third), 0.0),
-                   a[2] + higher(higher(second, third), 0.0),
-                   {a[2], second * across[0] + third * across[1], second * down[0] + third * down[1]},
-                   {dot3(n, light), dot3(x, light), dot3(y, light)},
-                   {dot3(n, n), 2.0 * dot3(n, x), 2.0 * dot3(n, y), dot3(x, x), 2.0 * dot3(x, y), dot3(y, y)},
-                   number};
+    return (ShadedPlane){{a[0], a[1]},
+                         a[2] + lower(lower(second, third), 0.0),
+                         a[2] + higher(higher(second, third), 0.0),
+                         {a[2], second * across[0] + third * across[1], second * down[0] + third * down[1]},
+                         {dot3(n, light), dot3(x, light), dot3(y, light)},
+                         {dot3(n, n), 2.0 * dot3(n, x), 2.0 * dot3(n, y), dot3(x, x), 2.0 * dot3(x, y), dot3(y, y)},
+                         number};
 }
 
 typedef double Four __attribute__((vector_size(8 * SPAN)));
@@ -209,7 +209,7 @@ INLINE bool any(FourInts mask) {
 }
 
 /* Draw those of `SPAN` columns whose bits are set in `inside`: depths at the centers of pixels, and shades. */
-INLINE void draw_span(const Plane *plane, int64_t row, int64_t column, int32_t inside, Canvas on) {
+INLINE void draw_span(const ShadedPlane *plane, int64_t row, int64_t column, int32_t inside, Canvas on) {
     const double *depth = plane->depth, *light = plane->facing, *square = plane->length;
     const Four lanes = {0.5, 1.5, 2.5, 3.5};
     const FourInts bits = {1, 2, 4, 8};
@@ -236,19 +236,19 @@ INLINE void draw_span(const Plane *plane, int64_t row, int64_t column, int32_t i
     keep(seen, (FourInts)shades, on.picture.data + pixel);
 }
 
-INLINE void draw_row(const Plane *plane, int64_t row, double from, double to, Canvas on) {
+INLINE void draw_row(const ShadedPlane *plane, int64_t row, double from, double to, Canvas on) {
     for (int64_t column = (int64_t)from; column < (int64_t)to; column += SPAN) {
         int64_t at = least(column, on.picture.columns - SPAN), last = least((int64_t)to - at, SPAN);
         draw_span(plane, row, at, (1 << last) - (1 << (column - at)), on);
     }
 }
 
-INLINE void draw_rows(const Group *g, int at, const Plane *plane, Canvas on) {
+INLINE void draw_rows(const Batch *g, int at, const ShadedPlane *plane, Canvas on) {
     int64_t end = (int64_t)g->end[at];
     for (int64_t row = (int64_t)g->first[at]; row < end; row += LANES) {
         double from[LANES], to[LANES];
         EACH_LANE {
-            Span span = crossed(g, at, (double)row + (double)k + 0.5, (double)on.picture.columns);
+            PixelRange span = crossed(g, at, (double)row + (double)k + 0.5, (double)on.picture.columns);
             from[k] = span.from;
             to[k] = span.to;
         }
@@ -257,7 +257,7 @@ INLINE void draw_rows(const Group *g, int at, const Plane *plane, Canvas on) {
 }
 
 INLINE void draw_group(Model model, const int32_t *numbers, int count, Canvas on) {
-    Group g;
+    Batch g;
     double from[LANES][LANES], to[LANES][LANES], inside[LANES], most = 0.0;
     prepare(model, numbers, on, &g);
     for (int k = 0; k < LANES; k++) most = higher(most, g.end[k] - g.first[k] <= LANES ? g.end[k] - g.first[k] : 0.0);
@@ -265,7 +265,7 @@ INLINE void draw_group(Model model, const int32_t *numbers, int count, Canvas on
     for (int k = 0; k < count; k++) {
         bool small = g.end[k] - g.first[k] <= LANES;
         if (small ? !(inside[k] > 0.0) : !(g.left[k] < g.right[k])) continue;
-        Plane plane = plane_of(model, numbers[k], g.inverse[k]);
+        ShadedPlane plane = plane_of(model, numbers[k], g.inverse[k]);
         if (!small) draw_rows(&g, k, &plane, on);
         for (int j = 0; small && j < (int)(g.end[k] - g.first[k]); j++)
             draw_row(&plane, (int64_t)g.first[k] + j, from[j][k], to[j][k], on);

@@ -142,7 +142,7 @@ static bool write_grid(Encoder *encoder) {
 
 /* Write sections of the motion from number `first` on, before number `end`. */
 static void write_motion(Encoder *encoder, FrameType type, int64_t first, int64_t end) {
-    const Motion *motion = &encoder->motion;
+    const CodedMotion *motion = &encoder->motion;
     for (int64_t i = first; i < end; i++) {
         int64_t start = i > 0 ? motion->ends.data[i - 1] : 0;
         put_bytes(&encoder->out.payload, (Span){motion->bytes.data + start, motion->ends.data[i] - start});

@@ -185,12 +185,12 @@ typedef struct {
     Longs ends;
     uint32_t sum;    /* of decoded positions */
     double farthest; /* the largest error of a coordinate */
-} Motion;
+} CodedMotion;
 
 /* Code frames so that no coordinate is off by more than `bound`. Their vertices and `faces` are in the order of
  * coding. */
-bool code_motion(Writer *writer, ConstInts2 faces, ConstDoubles2 frames, double bound, Motion *motion);
-void give_motion(Motion *motion);
+bool code_motion(Writer *writer, ConstInts2 faces, ConstDoubles2 frames, double bound, CodedMotion *motion);
+void give_motion(CodedMotion *motion);
 
 /* What is given to the encoder, and whether its streams keep what they promise. */
 typedef struct {
@@ -203,7 +203,7 @@ typedef struct {
     JoinedMesh joined;
     CodedMesh coded;
     Rounded rounded;
-    Motion motion;        /* of a sequence */
+    CodedMotion motion;   /* of a sequence */
     Doubles2 positions;   /* that a decoder has of the coded vertices */
     bsmenc_attribute *attributes; /* those that are carried, with their qualities */
     Carried *carried;

@@ -28,10 +28,10 @@ typedef struct {
     Assembly assembly;
     Gops gops;
     Writing writing;
-    Motion *motion;
-} Encoding;
+    CodedMotion *motion;
+} MovingEncoder;
 
-void give_motion(Motion *motion) {
+void give_motion(CodedMotion *motion) {
     if (motion->bytes.context != NULL) give_buffer(&motion->bytes);
 }
 
@@ -46,7 +46,7 @@ static void measure_frame(ConstDoubles2 frames, Header *header) {
     header->scale = square > 0.0 ? __builtin_sqrt(square) * ROUNDED_UP : 1.0;
 }
 
-static bool cut_mesh(Encoding *encoding, Arena *arena) {
+static bool cut_mesh(MovingEncoder *encoding, Arena *arena) {
     Context *context = &encoding->writer->context;
     Arena *scratch = &encoding->writer->scratch;
     Header *header = &encoding->motion->header;
@@ -64,21 +64,21 @@ static bool cut_mesh(Encoding *encoding, Arena *arena) {
 }
 
 /* Let a kernel write the payload of the next section. */
-static void write_anew(Encoding *encoding) {
+static void write_anew(MovingEncoder *encoding) {
     encoding->writing.size = encoding->writing.count = 0;
     encoding->writer->context.writing = &encoding->writing;
 }
 
 /* Append that payload to the numbers at the start of the section. */
-static void keep_section(Encoding *encoding) {
-    Motion *motion = encoding->motion;
+static void keep_section(MovingEncoder *encoding) {
+    CodedMotion *motion = encoding->motion;
     encoding->writer->context.writing = NULL;
     put_bytes(&motion->bytes, (Span){encoding->writing.data, encoding->writing.size});
     motion->ends.data[motion->ends.size++] = motion->bytes.size;
 }
 
 /* Code a block of the first frame, as decoders will see it. */
-static bool code_block_at(Encoding *encoding, int64_t index) {
+static bool code_block_at(MovingEncoder *encoding, int64_t index) {
     Arena *scratch = &encoding->writer->scratch;
     Chains *chains = &encoding->chains;
     const Header *header = chains->header;
@@ -110,8 +110,8 @@ static bool code_block_at(Encoding *encoding, int64_t index) {
 }
 
 /* Measure a decoded frame, and add it to the checksum. */
-static bool measure_error(Encoding *encoding, int64_t t, const double *given) {
-    Motion *motion = encoding->motion;
+static bool measure_error(MovingEncoder *encoding, int64_t t, const double *given) {
+    CodedMotion *motion = encoding->motion;
     ConstDoubles2 frame;
     Sums sums;
     if (!show_frame(&encoding->gops, t, &encoding->writer->scratch, 0, &frame)
@@ -127,9 +127,9 @@ static bool measure_error(Encoding *encoding, int64_t t, const double *given) {
 }
 
 /* Code some frames from number `first` on, as cosines over time. */
-static bool code_gop(Encoding *encoding, int64_t first) {
+static bool code_gop(MovingEncoder *encoding, int64_t first) {
     Arena *scratch = &encoding->writer->scratch;
-    Motion *motion = encoding->motion;
+    CodedMotion *motion = encoding->motion;
     const Header *header = &motion->header;
     int64_t n = header->vertices, count = least(TOGETHER, header->frames - first), columns = 3 * count;
     int method = first % LONGEST == 0 ? KEY_FRAMES : NEXT_FRAMES;
@@ -160,10 +160,10 @@ static bool code_gop(Encoding *encoding, int64_t first) {
 }
 
 /* Code all with one step. */
-static bool code_with(Encoding *encoding, double step, Arena *arena) {
+static bool code_with(MovingEncoder *encoding, double step, Arena *arena) {
     Context *context = &encoding->writer->context;
     Arena *scratch = &encoding->writer->scratch;
-    Motion *motion = encoding->motion;
+    CodedMotion *motion = encoding->motion;
     Header *header = &motion->header;
     Doubles2 first;
     encoding->step = (float)(step > MOST_STEP ? MOST_STEP : step);
@@ -191,12 +191,12 @@ static bool code_with(Encoding *encoding, double step, Arena *arena) {
     return done;
 }
 
-bool code_motion(Writer *writer, ConstInts2 faces, ConstDoubles2 frames, double bound, Motion *motion) {
+bool code_motion(Writer *writer, ConstInts2 faces, ConstDoubles2 frames, double bound, CodedMotion *motion) {
     Context *context = &writer->context;
     Arena arena = arena_of(context);
-    Encoding encoding = {.writer = writer, .faces = faces, .frames = frames, .motion = motion};
+    MovingEncoder encoding = {.writer = writer, .faces = faces, .frames = frames, .motion = motion};
     int64_t n = frames.columns / 3, blocks = largest(1, (n + BLOCK / 2) / BLOCK);
-    *motion = (Motion){.header = {.vertices = n, .faces = faces.rows, .blocks = blocks, .frames = frames.rows,
+    *motion = (CodedMotion){.header = {.vertices = n, .faces = faces.rows, .blocks = blocks, .frames = frames.rows,
         .gop_frames = TOGETHER, .is_sequence = true, .mesh_of = -1, .paper = {.power = 3, .iterations = 2,
         .key_iterations = 2, .springs = 1, .shift = 0x1p-5}}, .bytes = {.context = context}};
     measure_frame(frames, &motion->header);

@@ -310,7 +310,7 @@ class Decoder : public Shared {
 template <typename T, int64_t columns>
 using Rows = nb::ndarray<const T, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
 template <typename T> using Row = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-using Table = nb::ndarray<const int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using IntRows = nb::ndarray<const int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
 // What encoders write with, and the payloads that they have written.
 class Output {
@@ -385,10 +385,10 @@ nb::bytes order_to_bytes(Rows<int32_t, 3> faces, Rows<int32_t, 3> coded, Row<int
 }
 
 // A mesh in the order of coding, and the attributes that are carried there (see inside.h).
-class Place : public Shared, Output {
+class OrderedMesh : public Shared, Output {
   public:
-    Place(ConstInts2 given, ConstInts index, ConstInts kept, ConstInts face_order, ConstBytes turns, ConstInts2 faces,
-        int64_t vertices, bool keeps)
+    OrderedMesh(ConstInts2 given, ConstInts index, ConstInts kept, ConstInts face_order, ConstBytes turns,
+        ConstInts2 faces, int64_t vertices, bool keeps)
         : faces(faces.rows) {
         run([&] { return encode_place(encoding, given, index, kept, face_order, turns, faces, vertices, keeps); });
     }
@@ -412,7 +412,7 @@ class Place : public Shared, Output {
         given.indices = indices ? (const uint32_t *)indices->data() : nullptr;
         given.quality = (bsmenc_quality)quality;
         given.amount = amount;
-        Whole whole;
+        CarriedOutcome whole;
         run([&] { return encode_carried(encoding, &given, first, &whole); });
         const Writing &seams = *encoding_payloads(encoding);
         Made<void> decoded = made_of<void>(whole.rows, (int64_t)values.shape(1), KINDS[kind]);
@@ -445,10 +445,10 @@ auto places_on_grid(Rows<double, 3> positions, int bits, double cell, Row<double
 }
 
 // Writes or reads the values of one field, chunk after chunk.
-class Field : public Shared, Output {
+class FieldCoder : public Shared, Output {
   public:
-    Field(Rows<int32_t, 3> faces, Table values) : faces(faces), values(values) {}
-    Field(const Field &other, Table values)
+    FieldCoder(Rows<int32_t, 3> faces, IntRows values) : faces(faces), values(values) {}
+    FieldCoder(const FieldCoder &other, IntRows values)
         : faces(other.faces), values(values), like(other.next == 0 && other.rows() == rows() ? other.encoding : NULL) {}
 
     void grid(Row<int32_t> largest, int light, Row<double> origin, double step, std::optional<Rows<double, 3>> exact,
@@ -497,7 +497,7 @@ class Field : public Shared, Output {
 
   private:
     Rows<int32_t, 3> faces;
-    Table values;
+    IntRows values;
     nb::object kept;
     const Encoding *like = nullptr; // that has linked the same faces
     int64_t next = -1; // before it has begun
@@ -594,11 +594,11 @@ class Chain : public Steps {
         run([&] { return commit_coded_block(chain, width, positions); });
     }
 
-    friend class Track;
+    friend class TrackCoder;
 };
 
 // Positions or an attribute that moves, as GOPs go on; of a chain that stays.
-class Track : public Steps {
+class TrackCoder : public Steps {
     template <typename Work> auto coded(Work work) {
         ConstDoubles2 found = {nullptr, 0, 0};
         nb::bytes payload = written([&](Writing *writing) { return work(writing, &found); });
@@ -606,10 +606,10 @@ class Track : public Steps {
     }
 
   public:
-    Track(const Chain &whole, int64_t number) {
+    TrackCoder(const Chain &whole, int64_t number) {
         run([&] { return begin_track(chain, whole.chain, number); });
     }
-    Track(const Track &other, const Chain &) {
+    TrackCoder(const TrackCoder &other, const Chain &) {
         run([&] { return begin_track(chain, other.chain, 0); });
     }
     // The payload of a basis, and the basis.
@@ -682,23 +682,23 @@ NB_MODULE(_core, m) {
     m.def("write_order", order_to_bytes, "faces"_a, "coded"_a, "vertices"_a, "face_places"_a,
         "source"_a.none() = nb::none(), "corners"_a.none() = nb::none(), "loose"_a.none() = nb::none());
     m.def("rounded", places_on_grid, "positions"_a, "bits"_a, "cell"_a, "origin"_a);
-    nb::class_<Place>(m, "Place")
+    nb::class_<OrderedMesh>(m, "Place")
         .def(nb::init<ConstInts2, ConstInts, ConstInts, ConstInts, ConstBytes, ConstInts2, int64_t, bool>(), "given"_a,
             "index"_a, "kept"_a, "face_order"_a, "turns"_a, "faces"_a, "vertices"_a, "keeps"_a, nb::keep_alive<1, 2>(),
             nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
             nb::keep_alive<1, 7>())
-        .def("carry", in_turn(&Place::carry), "first"_a, "name"_a, "values"_a, "kind"_a, "domain"_a, "semantic"_a,
+        .def("carry", in_turn(&OrderedMesh::carry), "first"_a, "name"_a, "values"_a, "kind"_a, "domain"_a, "semantic"_a,
             "indices"_a.none(), "quality"_a, "amount"_a);
-    nb::class_<Field>(m, "Field")
-        .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
-        .def(nb::init<const Field &, Table>(), "other"_a, "values"_a, nb::keep_alive<1, 2>())
-        .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),
+    nb::class_<FieldCoder>(m, "Field")
+        .def(nb::init<Rows<int32_t, 3>, IntRows>(), "faces"_a, "values"_a)
+        .def(nb::init<const FieldCoder &, IntRows>(), "other"_a, "values"_a, nb::keep_alive<1, 2>())
+        .def("grid", in_turn(&FieldCoder::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),
             "transforms"_a.none() = nb::none(), "congruence"_a = 0)
-        .def("levels", in_turn(&Field::levels))
-        .def("attribute", in_turn(&Field::attribute), "declaration"_a, "vertices"_a, "at"_a, "places"_a.none())
-        .def("write", in_turn(&Field::write), "count"_a)
-        .def("read", in_turn(&Field::read), "payload"_a, "count"_a)
-        .def_prop_ro("order", in_turn(&Field::order));
+        .def("levels", in_turn(&FieldCoder::levels))
+        .def("attribute", in_turn(&FieldCoder::attribute), "declaration"_a, "vertices"_a, "at"_a, "places"_a.none())
+        .def("write", in_turn(&FieldCoder::write), "count"_a)
+        .def("read", in_turn(&FieldCoder::read), "payload"_a, "count"_a)
+        .def_prop_ro("order", in_turn(&FieldCoder::order));
     nb::class_<Chain>(m, "Chain")
         .def(nb::init<ConstInts, ConstInts, ConstInts, ConstLongs, ConstLongs, ConstInts, bool, bool, int, int, int,
                  int, int64_t, int64_t, double, int64_t>(),
@@ -715,11 +715,11 @@ NB_MODULE(_core, m) {
         .def("give", in_turn(&Chain::give), "own"_a)
         .def("write", in_turn(&Chain::write), "prediction"_a, "coefficients"_a, "step"_a, "all"_a)
         .def("commit", in_turn(&Chain::commit), "width"_a, "positions"_a);
-    nb::class_<Track>(m, "Track")
+    nb::class_<TrackCoder>(m, "Track")
         .def(nb::init<const Chain &, int64_t>(), "whole"_a, "number"_a, nb::keep_alive<1, 2>())
-        .def(nb::init<const Track &, const Chain &>(), "other"_a, "whole"_a, nb::keep_alive<1, 3>())
-        .def("basis", in_turn(&Track::basis), "exponents"_a, "spectrum"_a)
-        .def("code", in_turn(&Track::code), "method"_a, "frames"_a, "step"_a, "back"_a, "wanted"_a);
+        .def(nb::init<const TrackCoder &, const Chain &>(), "other"_a, "whole"_a, nb::keep_alive<1, 3>())
+        .def("basis", in_turn(&TrackCoder::basis), "exponents"_a, "spectrum"_a)
+        .def("code", in_turn(&TrackCoder::code), "method"_a, "frames"_a, "step"_a, "back"_a, "wanted"_a);
     nb::class_<Cut>(m, "Cut")
         .def(nb::init<ConstInts, ConstInts>(), "offsets"_a, "neighbors"_a, nb::keep_alive<1, 2>(),
             nb::keep_alive<1, 3>())

@@ -140,7 +140,7 @@ bool encode_place(Encoding *encoding, ConstInts2 given, ConstInts index, ConstIn
     return done;
 }
 
-bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, Whole *whole) {
+bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, CarriedOutcome *whole) {
     Writer *writer = &encoding->writer;
     const CodedMesh *coded = &encoding->coded;
     bool by_vertex = given->domain == BSMDEC_VERTEX, by_face = given->domain == BSMDEC_FACE;
@@ -164,7 +164,7 @@ bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool firs
     Ints2 pieces = {NULL, 0, 0};
     if (d->words > 0 && !take_pieces(&writer->arena, carried, &pieces)) return false;
     encoding->declared = declaration_record(d);
-    *whole = (Whole){carried->quantized.outcome, pieces.data,
+    *whole = (CarriedOutcome){carried->quantized.outcome, pieces.data,
         d->domain == BSMDEC_CORNER ? carried->faces.data : NULL, carried->vertices.data, d->rows, pieces.columns,
         carried->vertices.size, d->words > 0 && can_lean(d)};
     return true;

@@ -60,9 +60,9 @@ typedef struct {
     const int32_t *pieces, *faces, *vertices;
     int64_t rows, columns, vertices_count;
     bool leans; /* it may be predicted from positions */
-} Whole;
+} CarriedOutcome;
 /* Carry an attribute, the first or the next one; its seams are the payload. Then write the decoded values. */
-bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, Whole *whole);
+bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, CarriedOutcome *whole);
 void carried_values(const Encoding *encoding, void *values);
 /* The numbers of a field of its declaration, and how many there are. */
 int carried_field(const Encoding *encoding, int key, const double **numbers);

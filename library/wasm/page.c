@@ -7,11 +7,11 @@
 typedef struct {
     int32_t count;
     const void *vertices, *positions, *more;
-} Rows;
+} Arrays;
 
 static bsmdec *decoder;
 static bsmdec_event event;
-static Rows rows;
+static Arrays rows;
 static double numbers[3];
 static Arena room; /* for a block of a helper, until the next event */
 
@@ -61,21 +61,21 @@ const double *page_state(void) {
 /* The numbers of each field by its key, and how many they are. */
 const Record *page_header(void) { return &decoder->reader.headers[decoder->reader.header].record; }
 
-static const Rows *row_of(int64_t count, const void *vertices, const void *positions, const void *more) {
-    rows = (Rows){(int32_t)count, vertices, positions, more};
+static const Arrays *row_of(int64_t count, const void *vertices, const void *positions, const void *more) {
+    rows = (Arrays){(int32_t)count, vertices, positions, more};
     return &rows;
 }
 
 int page_metadata(int index, bsmdec_metadata *entry) { return bsmdec_metadata_at(decoder, index, entry); }
 
 /* The block that a helper decoded last. */
-const Rows *page_handed(void) {
+const Arrays *page_handed(void) {
     const DecodedBlock *block = &decoder->share.handed;
     return row_of(block->vertices.size, block->vertices.data, block->positions.data, block->weights.data);
 }
 
 /* Room for a block that a helper decoded; `page_add` adds it. */
-const Rows *page_room(int count) {
+const Arrays *page_room(int count) {
     Ints vertices;
     Doubles2 positions;
     Doubles weights;
@@ -104,23 +104,23 @@ bool page_lose(int index) {
     return decoder->tolerant && decoder->mesh.header.gop_frames == 0;
 }
 
-static const Rows *row_of_changes(bsmdec_status status, const bsmdec_changes *changes) {
+static const Arrays *row_of_changes(bsmdec_status status, const bsmdec_changes *changes) {
     return status == BSMDEC_OK ? row_of(changes->count, changes->vertices, changes->positions, changes->final) : NULL;
 }
 
 /* Changes since the last call; NULL with an error if they are unknown. */
-const Rows *page_changes(void) {
+const Arrays *page_changes(void) {
     bsmdec_changes changes;
     return row_of_changes(bsmdec_read_changes(decoder, &changes), &changes);
 }
 
-const Rows *page_loose(void) {
+const Arrays *page_loose(void) {
     bsmdec_changes changes;
     return row_of_changes(bsmdec_read_loose(decoder, &changes), &changes);
 }
 
 /* Vertices without a position; how many are less exact than they were encoded, and which. */
-const Rows *page_losses(void) {
+const Arrays *page_losses(void) {
     bsmdec_losses losses;
     if (bsmdec_read_losses(decoder, &losses) != BSMDEC_OK) return NULL;
     numbers[0] = (double)losses.degraded_count;

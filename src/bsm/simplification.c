@@ -15,7 +15,7 @@ typedef struct {
     const int32_t *wedges;        /* The values that corners have beside their place. */
     int32_t *ends, *marks, *joins; /* Where each vertex went in this pass, and each wedge. */
     int32_t mark;
-} Surface;
+} WorkingMesh;
 
 /* The quadric of an area: xx, xy, xz, yy, yz, zz, then the linear terms, then the constant. */
 INLINE void add_plane(double *q, const double *n, double weight, const double *at) {
@@ -51,7 +51,7 @@ INLINE double cost_at(const double *q, const double *p) {
 }
 
 /* Where the vertex of an edge goes, which one stays, and what that costs. */
-static double placed(const Surface *surface, int32_t a, int32_t b, double *p, int32_t *stays) {
+static double placed(const WorkingMesh *surface, int32_t a, int32_t b, double *p, int32_t *stays) {
     const double *pa = surface->positions + 3 * (int64_t)a, *pb = surface->positions + 3 * (int64_t)b;
     const double *qa = surface->quadrics + TERMS * (int64_t)a, *qb = surface->quadrics + TERMS * (int64_t)b;
     double q[TERMS], g[3];
@@ -76,14 +76,14 @@ static double placed(const Surface *surface, int32_t a, int32_t b, double *p, in
 }
 
 /* The corners of a triangle as they are now; false if it is gone. */
-INLINE bool corners_now(const Surface *surface, int64_t face, int32_t *corners) {
+INLINE bool corners_now(const WorkingMesh *surface, int64_t face, int32_t *corners) {
     for (int i = 0; i < 3; i++) corners[i] = surface->ends[surface->faces[3 * face + i]];
     return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
 }
 
 /* Whether the triangles around `a` keep their sides when it goes to `p`; counts those with `b`, and neighbors that have
  * one mark, which get the other. */
-static bool turns_around(Surface *surface, int32_t a, int32_t b, const double *p, int32_t had, int32_t given,
+static bool turns_around(WorkingMesh *surface, int32_t a, int32_t b, const double *p, int32_t had, int32_t given,
     int *shared, int *others, int *common) {
     for (int64_t k = surface->starts[a]; k < surface->starts[a + 1]; k++) {
         int32_t corners[3];
@@ -115,7 +115,7 @@ static bool turns_around(Surface *surface, int32_t a, int32_t b, const double *p
 }
 
 /* Whether an edge of two triangles may become a point: what was a surface is one, and none of it turns around. */
-static bool may_collapse(Surface *surface, int32_t a, int32_t b, const double *p) {
+static bool may_collapse(WorkingMesh *surface, int32_t a, int32_t b, const double *p) {
     int shared = 0, others = 0, common = 0, none = 0;
     surface->mark += 2;
     if (turns_around(surface, a, b, p, -1, surface->mark, &shared, &others, &none)) return false;
@@ -125,7 +125,7 @@ static bool may_collapse(Surface *surface, int32_t a, int32_t b, const double *p
 }
 
 /* Whether each wedge of a vertex that goes has one to become at the vertex that stays; if so, notes which. */
-static bool wedges_join(Surface *surface, int32_t goes, int32_t stays) {
+static bool wedges_join(WorkingMesh *surface, int32_t goes, int32_t stays) {
     int32_t from[2], to[2], corners[3];
     int known = 0;
     for (int round = 0; round < 2; round++)
@@ -151,7 +151,7 @@ static bool wedges_join(Surface *surface, int32_t goes, int32_t stays) {
 }
 
 /* Whether the k-th side of a triangle is one of the edges that may become points, each of which is one side so. */
-INLINE bool is_edge(const Surface *surface, int64_t k, int32_t *a, int32_t *b) {
+INLINE bool is_edge(const WorkingMesh *surface, int64_t k, int32_t *a, int32_t *b) {
     *a = surface->faces[k];
     *b = surface->faces[k % 3 == 2 ? k - 2 : k + 1];
     return *a < *b && !(surface->states[*a] & surface->states[*b] & FIXED);
@@ -182,8 +182,8 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Do
     for (int64_t k = 0; k < 3 * count; k++)
         if (faces.data[k] < 0 || faces.data[k] >= size || wedges.data[k] < 0 || wedges.data[k] >= joins.size)
             return MISUSED;
-    Surface surface = {positions.data, faces.data, states.data, quadrics.data, starts.data, around.data,
-                       wedges.data,    ends.data,  marks.data,  joins.data,    0};
+    WorkingMesh surface = {positions.data, faces.data, states.data, quadrics.data, starts.data, around.data,
+                           wedges.data,    ends.data,  marks.data,  joins.data,    0};
     for (int64_t v = 0; v < size; v++) {
         marks.data[v] = 0;
         owners.data[v] = (int32_t)v;

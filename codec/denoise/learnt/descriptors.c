@@ -13,9 +13,9 @@ static const float BETWEEN = 4.0f;
 
 typedef struct {
     Vector3 x, y, z;
-} Frame;
+} Axes;
 
-INLINE double *put_local(double *row, const Frame *frame, Vector3 v) {
+INLINE double *put_local(double *row, const Axes *frame, Vector3 v) {
     row[0] = dot(v, frame->x);
     row[1] = dot(v, frame->y);
     row[2] = dot(v, frame->z);
@@ -23,8 +23,8 @@ INLINE double *put_local(double *row, const Frame *frame, Vector3 v) {
 }
 
 /* z: where the surface looks at large; x: the direction across it in which the normals about vary most. */
-static Frame frame_of(Vector3 axis, const double *smooth, const double *areas, const int32_t *row, int64_t count) {
-    Frame frame;
+static Axes frame_of(Vector3 axis, const double *smooth, const double *areas, const int32_t *row, int64_t count) {
+    Axes frame;
     frame.z = direction(axis, (Vector3){0.0, 0.0, 1.0});
     Vector3 aside = frame.z.x * frame.z.x < 0.5 ? (Vector3){1.0, 0.0, 0.0} : (Vector3){0.0, 1.0, 0.0};
     Vector3 u = direction(cross(frame.z, aside), (Vector3){1.0, 0.0, 0.0}), v = cross(frame.z, u);
@@ -95,7 +95,7 @@ KERNEL void describe_faces(ConstDoubles2 centroids, ConstDoubles areas, ConstDou
         int64_t f = begin + i, first = starts.data[f], count = starts.data[f + 1] - first;
         const int32_t *row = near.data + first;
         Vector3 own = row_of(normals.data, f), likeness = row_of(guide.data, f);
-        Frame frame = frame_of(row_of(axes.data, f), smooth.data, areas.data, row, count);
+        Axes frame = frame_of(row_of(axes.data, f), smooth.data, areas.data, row, count);
         Lanes sums[SCALES][2 * RANGES + 1][3] = {{{{0.0f}}}}, totals[SCALES][2 * RANGES + 1] = {{{0.0f}}};
         Lanes circles[RINGS * SECTORS] = {{0.0f}}; /* area covered, normal, height */
         for (int64_t done = 0; done < count; done += EIGHT) {

@@ -33,15 +33,15 @@ INLINE int64_t size_of(int32_t level, int32_t center) {
 typedef struct {
     const double *normal;
     double across, more, error[3];
-} Vertex;
+} ErrorCost;
 
-INLINE double loss_of(const Vertex *x, const double *error) {
+INLINE double loss_of(const ErrorCost *x, const double *error) {
     double off = dot3(x->normal, error);
     return x->more * off * off + x->across * dot3(error, error);
 }
 
 /* The error along an axis that costs least beside those along others. */
-INLINE double best_error(const Vertex *x, int a) {
+INLINE double best_error(const ErrorCost *x, int a) {
     double own = x->normal[a], others = dot3(x->normal, x->error) - own * x->error[a];
     double bend = x->more * own * own + x->across;
     return bend > 0.0 ? -x->more * own * others / bend : 0.0;
@@ -85,7 +85,7 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
         double far = 0.0, most = reach.data[v] * reach.data[v];
         int32_t first = starts.data[v], end = starts.data[v + 1];
         double share = end > first ? 1.0 / (end - first) : 0.0;
-        Vertex x = {normals.data + 3 * v, losses.data[2 * v + 1], losses.data[2 * v], {0.0}};
+        ErrorCost x = {normals.data + 3 * v, losses.data[2 * v + 1], losses.data[2 * v], {0.0}};
         for (int a = 0; a < 3; a++) {
             double moved = a < (int)axes ? steps.data[3 * v + a] * levels.data[v * axes + a] : 0.0;
             x.error[a] = moved - offsets.data[3 * v + a];
