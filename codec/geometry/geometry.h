@@ -10,6 +10,11 @@ INLINE bool fits_graph(ConstInts offsets, ConstInts neighbors) {
 
 INLINE double dot3(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/* The square of a distance. */
+INLINE double apart(const double *a, const double *b) {
+    return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
+}
+
 /* The normal of a triangle, as long as twice its area. */
 INLINE void cross3(const double *a, const double *b, const double *c, double *n) {
     double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2], vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
@@ -27,7 +32,8 @@ int64_t label_components(ConstInts offsets, ConstInts neighbors, Ints waiting, I
 bool reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch);
 void vertex_faces(ConstInts2 faces, Longs starts, Ints members);
 double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around);
-void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals);
+void face_geometry(
+    ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals, Bytes whole);
 void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result);
 double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces,
                       double lost);

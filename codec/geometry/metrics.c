@@ -58,8 +58,10 @@ void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts m
 
 enum { LANES = 8, TERMS = 13 };
 
-/* Centroids, areas and unit normals; the normal of a face without area is zero. */
-void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals) {
+/* Centroids, areas and unit normals; the normal of a face without area is zero. To `whole`, if it has any room: whether
+ * normals are not rounding alone, as `weighted_angle` tells. */
+void face_geometry(
+    ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals, Bytes whole) {
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
         const double *a = positions.data + 3 * (int64_t)face[0], *b = positions.data + 3 * (int64_t)face[1];
@@ -68,6 +70,8 @@ void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids
         cross3(a, b, c, cross);
         double length = __builtin_sqrt(dot3(cross, cross)), by = length > 0.0 ? length : 1.0;
         areas.data[f] = 0.5 * length;
+        double x = apart(a, b), y = apart(b, c), z = apart(c, a), most = x * y > y * z ? x * y : y * z;
+        if (whole.size) whole.data[f] = length > 1e-9 * __builtin_sqrt(z * x > most ? z * x : most);
         for (int64_t j = 0; j < 3; j++) {
             normals.data[3 * f + j] = cross[j] / by;
             centroids.data[3 * f + j] = (a[j] + b[j] + c[j]) / 3.0;

@@ -9,6 +9,7 @@ distance of each sample is exact, found in a tree of bounding boxes.
 """
 
 import math
+from copy import copy
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -16,6 +17,7 @@ import numpy as np
 
 from bsm._core import codec as _kernels
 from bsm.bitstream.errors import MeshError, public
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Floats, Indices, Mask, Order, Positions
 from bsm.codec.geometry.graph import Lists, edges_of, mesh_edges, vertex_neighbors
 from bsm.codec.geometry.mesh import extent_of, require_sizes, squares_of
@@ -70,13 +72,18 @@ LOST = math.pi  # angle of a face without area; no rounding of its vertices can 
 class Original:
     """An original, prepared so that one decoded version after another is measured in one pass over the faces."""
 
-    def __init__(self, positions: Positions, faces: Faces, *, by_area: bool = True) -> None:
+    def __init__(self, positions: Positions, faces: Faces) -> None:
         self.positions: Positions = np.ascontiguousarray(positions, np.float64)
         self.faces: Indices = np.ascontiguousarray(faces, np.int32)
-        _, areas, self.normals = face_geometry(self.positions, self.faces)
-        whole = have_normals(self.positions, self.faces, areas)
-        counts = areas * whole if by_area else whole.astype(np.float64)
-        self.weights: Floats = counts / (counts.sum() or 1.0)
+        self._whole = np.empty(len(faces), np.bool_)
+        _, areas, self.normals = face_geometry(self.positions, self.faces, self._whole)
+        self.weights = _shares(areas * self._whole)
+
+    def alike(self) -> "Original":
+        """Return the same original, with weights that count all faces alike."""
+        other = copy(self)
+        other.weights = _shares(self._whole.astype(np.float64))
+        return other
 
     def angle(self, decoded: Positions, lost: float = LOST) -> float:
         """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3)."""
@@ -92,9 +99,16 @@ class Reference:
         require_sizes(self.positions, *SIZES, "compared")
         self.faces = np.ascontiguousarray(faces, dtype=np.int32)
         self.scale = float(np.linalg.norm(extent_of(self.positions))) or 1.0
-        self._neighbors = vertex_neighbors(self.faces, len(self.positions))
-        self._laplacian = geometric_laplacian(self.positions, self._neighbors)
-        self._by_area, self._alike = (Original(self.positions, self.faces, by_area=each) for each in (True, False))
+        self.by_area = Original(self.positions, self.faces)
+        self.alike = self.by_area.alike()
+
+    @cached_property
+    def _neighbors(self) -> Lists:
+        return vertex_neighbors(self.faces, len(self.positions))
+
+    @cached_property
+    def _laplacian(self) -> Floats:
+        return geometric_laplacian(self.positions, self._neighbors)
 
     def nmsve(self, decoded: Positions) -> float:
         """The paper's error (section 8; norms not squared) over `scale`, the diagonal; times `scale`: its number."""
@@ -104,15 +118,15 @@ class Reference:
 
     def theta(self, decoded: Positions) -> float:
         """Mean angle between corresponding face normals, in degrees, every face counted alike."""
-        return self._alike.angle(self._checked(decoded), LOST / 2)
+        return self.alike.angle(self._checked(decoded), LOST / 2)
 
     def angle(self, decoded: Positions) -> float:
         """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3)."""
-        return self._by_area.angle(self._checked(decoded), LOST / 2)
+        return self.by_area.angle(self._checked(decoded), LOST / 2)
 
     def mnd(self, decoded: Positions) -> float:
         """Mean normal difference: the mean over faces of ``||n - n~||``, between 0 and 2."""
-        own = self._alike.normals
+        own = self.alike.normals
         normals, counted = face_normals(self._checked(decoded), self.faces), own.any(axis=1)
         lengths = np.sqrt(squares_of(own - normals))
         lengths[~normals.any(axis=1)] = math.sqrt(2.0)
@@ -170,19 +184,16 @@ class FaceGeometry(NamedTuple):
     normals: Floats
 
 
-def face_geometry(positions: Positions, faces: Faces) -> FaceGeometry:
+def face_geometry(positions: Positions, faces: Faces, whole: Mask | None = None) -> FaceGeometry:
+    """`whole`, if it has room: which faces have a normal that is not rounding alone, as `weighted_angle` tells."""
     geometry = FaceGeometry(np.empty(faces.shape), np.empty(len(faces)), np.empty(faces.shape))
     positions, faces = np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32)
-    _kernels.face_geometry(positions, faces, *geometry)
+    _kernels.face_geometry(positions, faces, *geometry, (np.empty(0) if whole is None else whole).view(np.uint8))
     return geometry
 
 
-def have_normals(positions: Positions, faces: Faces, areas: Floats) -> Mask:
-    """Which faces, shape (m,), have a normal that is not rounding alone, as `weighted_angle` tells."""
-    a, b, c = (positions[corner] for corner in np.ascontiguousarray(faces.T))
-    x, y, z = map(squares_of, (b - a, c - b, a - c))
-    largest = np.maximum(np.maximum(x * y, y * z), z * x)  # of the two longest sides
-    return np.asarray(2.0 * areas > 1e-9 * np.sqrt(largest))
+def _shares(counts: Floats) -> Floats:
+    return np.asarray(counts / (counts.sum() or 1.0))
 
 
 def face_normals(positions: Positions, faces: Faces) -> Floats:

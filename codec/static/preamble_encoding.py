@@ -21,6 +21,7 @@ from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions
 from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import Graph, components, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Reference
 from bsm.codec.geometry.welding import degenerate, first_of, group_rows, keep_apart, weld
 from bsm.codec.signal.transform import MeasuredSpectrum
 from bsm.codec.static.units import Units, checksum_of, units_of
@@ -151,6 +152,10 @@ class Prepared:
         return self.units.into(self.mesh.positions)
 
     @cached_property
+    def reference(self) -> Reference:
+        return Reference(self.positions, self.mesh.faces)
+
+    @cached_property
     def components(self) -> Indices:
         """The connected component of each vertex, shape (n,)."""
         return components(self.graph)
@@ -165,7 +170,7 @@ class Prepared:
     def partition(self) -> Partition:
         return self.parts.cut(self.graph)
 
-    @property
+    @cached_property
     def size(self) -> int:
         """Vertices of the largest block, n_d."""
         parts, vertices = self.partition.parts, self.graph.size

@@ -1,6 +1,7 @@
 """Blocks, alone or with a layer of refinement on them: ways to code a mesh, and the drafts that they come to."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 
@@ -11,7 +12,7 @@ from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import squares_of
-from bsm.codec.geometry.metrics import Reference, mean_edge_length
+from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, tangent_steps
@@ -68,9 +69,17 @@ class RefinementBase:
 
     def known_steps(self, layer: Layer, levels: Levels) -> Matrix:
         """What levels of a layer move each vertex, shape (n, 3), if its heights are those of `levels`, shape (n, 3)."""
-        upright = raised(self.positions, self.frames, levels, layer.step)
-        aside = tangent_steps(upright, self.prepared.mesh.faces, layer.step, layer.ratio)
-        return np.column_stack([np.full(len(aside), layer.step), aside, aside])
+        return self._known_steps(layer, levels[:, 0].tobytes())
+
+    @cached_property
+    def _known_steps(self) -> Callable[[Layer, bytes], Matrix]:
+        def known(layer: Layer, heights: bytes) -> Matrix:
+            levels = np.frombuffer(heights, np.int32)[:, None]
+            upright = raised(self.positions, self.frames, levels, layer.step)
+            aside = tangent_steps(upright, self.prepared.mesh.faces, layer.step, layer.ratio)
+            return np.column_stack([np.full(len(aside), layer.step), aside, aside])
+
+        return lru_cache(1)(known)
 
     def wanted(self, steps: Matrix) -> tuple[Levels, Matrix]:
         """The nearest levels to steps, both of shape (n, 3), and what one of each moves, shape (n, 3, 3)."""
@@ -238,13 +247,9 @@ class InBlocks:
         first, others = np.max(list(ordered_map(largest, chains, self._options.threads)), axis=0)
         return Packed(width, bits, *packed_range(first, others, bits))
 
-    @cached_property
-    def _reference(self) -> Reference:
-        return Reference(self._prepared.positions, self._prepared.mesh.faces)
-
     def _badness(self, decoded: Matrix) -> float:
         """What smoothing shall lower: the target's own measure, or else theta and NMSVE together."""
-        target, reference = self._options.target, self._reference
+        target, reference = self._options.target, self._prepared.reference
         if target is not None and target.kind == "theta_deg":
             return reference.theta(decoded)
         if target is not None and target.kind == "nmsve_db":

@@ -14,7 +14,7 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
-from bsm.codec.geometry.metrics import Original, Reference, nearest_points
+from bsm.codec.geometry.metrics import nearest_points
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
@@ -51,7 +51,7 @@ class Measures:
         shown: LookMetric | None = None,
     ) -> None:
         self.prepared = prepared
-        self.original = Original(prepared.positions, prepared.mesh.faces, by_area=not alike)
+        self.original = prepared.reference.alike if alike else prepared.reference.by_area
         self.shaper = Shaper(self.original, prepared.graph)
         self.reaches = lru_cache(1)(partial(reaches, prepared))
         self.gaps = lru_cache(1)(partial(gaps, prepared))
@@ -66,10 +66,6 @@ class Measures:
         other = copy(self)
         other.painted = painted
         return other
-
-    @cached_property
-    def reference(self) -> Reference:
-        return Reference(self.prepared.positions, self.prepared.mesh.faces)
 
     @cached_property
     def look(self) -> LookMetric | None:
@@ -215,7 +211,7 @@ class Bounds:
         shares = np.sqrt(squares_of(off)) / np.maximum(self.reaches, np.finfo(np.float64).tiny)
         farther = float(np.append(shares, self.gaps.closed(off)).max(initial=0.0))
         angle = measures.original.angle(positions) / contract.angle if contract.angle < ANY_ANGLE else 0.0
-        visual = measures.reference.nmsve(positions) / contract.visual if contract.visual < math.inf else 0.0
+        visual = measures.prepared.reference.nmsve(positions) / contract.visual if contract.visual < math.inf else 0.0
         return farther, angle, visual
 
     def _decoded(self, candidate: Trial) -> Positions:
@@ -230,10 +226,9 @@ def reaches(prepared: Prepared, contract: Contract) -> Matrix:
     farthest, whole = contract.reach(diagonal, unit), contract.by_part * diagonal / unit
     if not whole < math.inf:
         return np.full(len(part), farthest)
-    ends = np.full((2, int(part.max()) + 1, 3), -np.inf)
-    np.maximum.at(ends[0], part, prepared.positions)
-    np.maximum.at(ends[1], part, -prepared.positions)
-    diagonals = np.sqrt(squares_of(ends.sum(axis=0))) * unit / (diagonal or 1.0)
+    order, starts = np.argsort(part, kind="stable"), np.cumsum([0, *np.bincount(part)[:-1]])
+    low, high = (end.reduceat(prepared.positions[order], starts) for end in (np.minimum, np.maximum))
+    diagonals = np.sqrt(squares_of(high - low)) * unit / (diagonal or 1.0)
     return np.asarray(np.minimum(farthest, whole * diagonals.clip(FINEST_PART, 1.0)[part]))
 
 

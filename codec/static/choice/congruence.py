@@ -40,14 +40,16 @@ def covered(prepared: Prepared, step: float) -> float:
     """The share of some vertices that a transform takes to others, or others to them, within a step or so."""
     turns, shifts = _motions(prepared, step, UNTURNED)
     positions = prepared.mesh.positions
-    some, hit = positions[:: 1 + len(positions) // SAMPLE], False
-    cells = np.sort(_cells(positions / (2.0 * step)))
+    some = positions[:: 1 + len(positions) // SAMPLE]
+    if not len(turns):
+        return 0.0
+    left, cells = np.arange(len(some)), np.sort(_cells(positions / (2.0 * step)))
     for images in (some @ turns.transpose(0, 2, 1) + shifts[:, None], (some - shifts[:, None]) @ turns):
         for corner in np.ndindex(2, 2, 2):
-            sought = _cells(images / (2.0 * step) + np.array(corner) - 0.5)
+            sought = _cells(images[:, left] / (2.0 * step) + np.array(corner) - 0.5)
             at = cells.searchsorted(sought).clip(max=len(cells) - 1)
-            hit |= (cells[at] == sought).any(axis=0)
-    return float(np.mean(hit))
+            left = left[(cells[at] != sought).all(axis=0)]
+    return (len(some) - len(left)) / len(some)
 
 
 def _cells(places: Matrix) -> Order:

@@ -117,8 +117,7 @@ def search(
 
     `coded`: the bytes of a trial, about or exactly."""
     while queue:
-        hopes = max(queue, key=lambda hopes: hopes.next(least, price)[0])
-        gain, at = hopes.next(least, price)
+        (gain, at), hopes = max(((hopes.next(least, price), hopes) for hopes in queue), key=lambda of: of[0][0])
         if least < math.inf and gain <= 0.0:
             return
         try:

@@ -65,8 +65,8 @@ class Search:
                 if (larger := self._larger(refined, made, bounds)) is not None:
                     ways.append(larger)
                     sizes[larger] = made.size - refined.base.coded + larger.base.coded
-        smaller = min(made.size for made in begun.values()) < first.size * (1.0 - grid.covered(first.step))
-        if not smaller:
+        room = 1.0 - grid.covered(first.step) if len(begun) > 1 else 0.0
+        if not room or min(made.size for made in begun.values()) >= first.size * room:
             begun[grid] = grid.repeat(first)
         queue = []
         for way in ways:

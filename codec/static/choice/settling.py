@@ -5,7 +5,7 @@ Errors along the normal count most, and those in the plane of a surface hardly w
 
 import math
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -46,6 +46,7 @@ class Settler:
 
     def __init__(self, positions: Positions, faces: Levels, graph: Graph) -> None:
         self._positions, self._faces, self._graph = positions, faces, graph
+        self._tangents = lru_cache(1)(partial(tangent_steps, positions, faces, 1.0))
 
     def levels(
         self,
@@ -60,7 +61,7 @@ class Settler:
         """Return levels that are worth their bits, shape (n, axes)."""
         count, axes = steps.shape
         unit = worth * float(steps[0, 0]) ** 2
-        tangent = ASIDE / np.square(tangent_steps(self._positions, self._faces, 1.0, ratio))
+        tangent = ASIDE / np.square(self._tangents(ratio))
         losses = np.column_stack([np.maximum(1.0 - tangent, 0.0), tangent]) / max(unit, 1e-300)
         normals = in_frames(self._frames[:, 0], frames)
         levels = np.rint(offsets[:, :axes] / steps).astype(np.int32)

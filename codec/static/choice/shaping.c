@@ -97,10 +97,6 @@ INLINE double bent_by(const Fan *fan, int a, float by) {
     return sum;
 }
 
-INLINE double apart(const double *a, const double *b) {
-    return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
-}
-
 static void open_around(const Wanted *wanted, int32_t v, Bytes open) {
     open.data[v] = 1;
     for (int32_t i = wanted->beside_starts.data[v]; i < wanted->beside_starts.data[v + 1]; i++)

@@ -72,7 +72,7 @@ class Shaper:
 
     def unfold(self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix) -> Levels | None:
         """Levels, shape (n, 3), that fold fewer edges, along `directions`, shape (n or 1, 9); None: few are folded."""
-        chosen, most = np.array(levels, np.int32, order="C"), self.most_folded - self.folded(self._original.positions)
+        chosen, most = np.array(levels, np.int32, order="C"), -(-len(self._original.faces) // 10_000)
         given = np.array(positions), chosen, np.ascontiguousarray(directions), *self._flaps, most
         wrong = np.empty(len(self._flaps[0]), np.uint8)
         return chosen if _kernels.unfold_levels(self._wanted, reach, *given, wrong, self._open) else None
@@ -97,5 +97,5 @@ class Shaper:
         count = _kernels.collect_flaps(faces, graph.offsets, graph.neighbors, pending, flaps)
         flaps = flaps[:count].copy()
         starts, members = vertex_faces(flaps, graph.size)
-        opposite = (flaps[members, 2:] == np.repeat(np.arange(graph.size), np.diff(starts))[:, None]).any(axis=1)
-        return flaps, starts.astype(np.int32), 2 * members + opposite
+        own, (c, d) = np.repeat(np.arange(graph.size, dtype=np.int32), np.diff(starts)), flaps.T[2:].copy()
+        return flaps, starts.astype(np.int32), 2 * members + ((c[members] == own) | (d[members] == own))
