@@ -8,16 +8,7 @@ from typing import Any
 
 import msgpack
 
-from bsm.bitstream.container.header import (
-    HEADER_DEFAULTS,
-    HEADER_FIELDS,
-    LAW,
-    LAW_OF_SEQUENCES,
-    Constants,
-    Declaration,
-    Header,
-    fields_of,
-)
+from bsm.bitstream.container.header import HEADER_FIELDS, LAW, LAW_OF_SEQUENCES, PAPER, Declaration, Header, fields_of
 from bsm.bitstream.container.packets import BRIEF, BRIEF_TURNED, WRITERS, Declared, End, Metadata, Packet, Writer
 from bsm.bitstream.container.wire import (
     MAGIC,
@@ -32,7 +23,7 @@ from bsm.bitstream.container.wire import (
     write_map,
     write_varint,
 )
-from bsm.bitstream.errors import BsmError, CorruptError, OptionError
+from bsm.bitstream.errors import BsmError, CorruptError
 
 Frames = list[tuple[int, bytes]]
 
@@ -147,10 +138,11 @@ def parse_packet(kind: int, payload: bytes) -> Any:
 
 def record_of(kind: Any, payload: bytes) -> Any:
     """The header or declaration that a map holds."""
-    names = {declared.key: name for name, declared in fields_of(kind).items()}
+    names = {declared.key: (name, declared) for name, declared in fields_of(kind).items()}
+    entries = ((*names[key], value) for key, value in header_entries(payload).items())
     try:
-        return kind(**{names[key]: value for key, value in header_entries(payload).items()})
-    except (KeyError, TypeError, OptionError) as error:
+        return kind(**{name: declared.normalize(value) for name, declared, value in entries})
+    except (KeyError, TypeError, ValueError) as error:
         raise CorruptError(f"this cannot be read: {error}") from error
 
 
@@ -180,7 +172,7 @@ def _is_later(frame: tuple[int, bytes]) -> bool:
 
 
 LATER = {HEADER_FIELDS[name].key for name in ("onorm", "congruence", "turn")}
-PARTS = {"paper": tuple(fields_of(Constants)), "sequence": ("frames", "gop_frames")}
+PARTS = {"paper": tuple(PAPER), "sequence": ("frames", "gop_frames")}
 """Fields of the header that are lists of numbers with names of their own."""
 PLACES = {part: (name, place) for name, parts in PARTS.items() for place, part in enumerate(parts)}
 
@@ -190,8 +182,7 @@ def header_frame(**values: Any) -> tuple[int, bytes]:
     entries = {
         HEADER_FIELDS[name].key: HEADER_FIELDS[name].normalize(value)
         for name, value in values.items()
-        if name not in PLACES
-        and (name not in HEADER_DEFAULTS or HEADER_DEFAULTS[name] != HEADER_FIELDS[name].normalize(value))
+        if name not in PLACES and HEADER_FIELDS[name].normalize(value) != HEADER_FIELDS[name].default
     }
     _set_parts(entries, {name: value for name, value in values.items() if name in PLACES})
     return FrameType.HEADER, write_map(sorted(entries.items()))

@@ -6,16 +6,16 @@ python -m tools.web_constants            fail if that is not what Python has
 
 import argparse
 import json
+from dataclasses import MISSING
 from pathlib import Path
 from typing import Any
 
-from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, Field
+from bsm.bitstream.container.header import HEADER_FIELDS, Field
 from bsm.bitstream.container.wire import MAGIC, MAX_VARINT_BYTES, SHORT, VERSION, FrameType
 from bsm.bitstream.limits import Limits
 
 TARGET = Path(__file__).parents[1] / "web/src/constants.json"
 
-_PLAIN: dict[Any, str] = {int: "int", float: "float"}
 _OF_A_BUILD = ("vertices", "attributes", "light", "sequence", "paper", "congruence")
 """Fields that tell which decoder a stream needs."""
 _IN_A_GRID = ("HEADER", "METADATA", "CONNECTIVITY", "GRID", "END")
@@ -37,10 +37,9 @@ def camel(name: str) -> str:
     return first + "".join(map(str.capitalize, others))
 
 
-def _field(name: str, field: Field) -> dict[str, Any]:
-    found = {"key": field.key, "type": _PLAIN[field.item if field.type is tuple else field.type]}
-    found |= {"low": field.low, "high": field.high}
-    found |= {"default": HEADER_DEFAULTS[name]} if name in HEADER_DEFAULTS else {}
+def _field(field: Field) -> dict[str, Any]:
+    found = {"key": field.key, "type": field.item.__name__, "low": field.low, "high": field.high}
+    found |= {} if field.default is MISSING else {"default": field.default}
     return found | ({"lengths": field.lengths} if field.type is tuple else {})
 
 
@@ -58,7 +57,7 @@ def source() -> str:
         "MAX_VARINT_BYTES": MAX_VARINT_BYTES,
         "KINDS": {FrameType[name].value: name.lower() for name in _IN_A_GRID},
         "HEADER_KEYS": {name: HEADER_FIELDS[name].key for name in _OF_A_BUILD},
-        "GRID_FIELDS": {name: _field(name, HEADER_FIELDS[name]) for name in _OF_A_GRID},
+        "GRID_FIELDS": {name: _field(HEADER_FIELDS[name]) for name in _OF_A_GRID},
         "LIMITS": limits_there(Limits()),
     }
     return json.dumps(found, indent=4, allow_nan=False) + "\n"

@@ -66,20 +66,6 @@ Value take_single(Cursor *cursor, uint8_t tag);
 /* The entries of a payload, whose bytes they point to. */
 bool parse_map(Context *context, Span payload, Map *map);
 
-typedef enum { INT_FIELD, METHOD_FIELD, FLOAT_FIELD, INTS_FIELD, FLOATS_FIELD, TEXT_FIELD } FieldType;
-typedef struct {
-    uint8_t key;
-    FieldType type;
-    double low, high;
-    int least, most;  /* entries of a list */
-    double fallback;  /* of a field without list; a list falls back to `least` zeros */
-    bool required;
-} Field;
-typedef struct {
-    const Field *field;
-    int count;
-} Fields;
-
 enum { MOST_KEY = 25, MOST_LIST = 8 };
 /* By key: numbers, how many; and the text of the one field that may have one. */
 typedef struct {
@@ -140,7 +126,6 @@ INLINE bool asks_whole(const Header *header) { return header->congruence >= LEAS
 
 bool parse_header(Context *context, Span payload, Arena *scratch, Header *header);
 
-extern INSIDE const Fields HEADER_FIELDS, DECLARATION_FIELDS;
 /* The numbers of a header that the encoder in C writes. */
 Record header_record(const Header *header);
 

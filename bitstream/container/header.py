@@ -1,4 +1,4 @@
-"""The header, and what declares an attribute: each field once, with its key, its legal range and its default."""
+"""The header, and what declares an attribute: each field once; ranges and defaults come from the decoder's tables."""
 
 from __future__ import annotations
 
@@ -7,62 +7,48 @@ from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, TypeAlias
 
-from bsm._core.bitstream import constant
-from bsm.bitstream.errors import OptionError
+from bsm._core.bitstream import fields as table_of
 
-COUNT = 2**31 - 1
 Kind: TypeAlias = type[Any]
 MOST_GRID = 2**20 - 1
 MOST_ATTRIBUTES = 255
+_KINDS: tuple[tuple[Kind, Kind], ...] = (int, int), (int, int), (float, float), (tuple, int), (tuple, float), (str, str)
+"""Types of a field, and of items of a list, by the numbers of the decoder."""
 
 
 @dataclass(frozen=True)
 class Field:
-    """How one header field is stored: its msgpack key, its type and the closed range of its legal values."""
+    """How one field is stored, as the decoder's table says: its key, its type, the closed range of its legal values."""
 
     key: int
-    type: type
+    type: Kind
+    item: Kind
+    is_method: bool  # later versions may have more of them
     low: float
     high: float
-    is_method: bool = False  # later versions may have more of them
-    lengths: tuple[int, int] = (0, 0)
-    item: Kind = float
+    lengths: tuple[int, int]
+    default: Any  # MISSING: it must be stored
 
     def normalize(self, value: Any) -> Any:
-        """`value` as a plain int, float or tuple of these; `TypeError` or `ValueError` if it is none."""
+        """`value` as a plain int, float, text or tuple of these."""
         if self.type is tuple:
-            return tuple(_plain(self.item, item) for item in value)
-        return _plain(self.type, value)
-
-    def problem(self, value: Any) -> str | None:
-        """Return the fault of a normalized value, or None."""
-        items = value if self.type is tuple else (value,)
-        if self.type is str:
-            items = (len(value.encode() if isinstance(value, str) else value),)
-        least, most = self.lengths
-        if self.type is tuple and not least <= len(items) <= most:
-            return f"has {len(items)} entries, legal are {least} to {most}"
-        if not all(self.low <= item <= self.high for item in items):
-            return f"= {value} is outside its legal range {self.low:g}..{self.high:g}"
-        return None
+            return tuple(map(self.item, value))
+        return operator.index(value) if self.type is int else self.type(value)
 
 
-def _plain(kind: Kind, value: Any) -> Any:
-    if kind is str:
-        if type(value) is not kind:
-            raise TypeError(f"it must be of type {kind.__name__}")
-        return value
-    return operator.index(value) if kind is int else float(value)
+def _fields(declares: bool) -> dict[int, Any]:
+    """Fields of a dataclass, by their keys in a header or a declaration."""
+    found = {}
+    for key, number, low, high, least, most, fallback, required in table_of(declares):
+        kind, item = _KINDS[number]
+        default = MISSING if required else (item(fallback),) * least if kind is tuple else kind(fallback)
+        end = float if item is float else int
+        stored = Field(key, kind, item, number == 1, end(low), end(high), (least, most), default)
+        found[key] = field(default=default, metadata={"wire": stored})
+    return found
 
 
-def wire(key: int, kind: Kind, low: float, high: float, default: Any = MISSING, **more: Any) -> Any:
-    """Declare a field by its key, type and legal range; `more` of `Field`."""
-    return field(default=default, metadata={"wire": Field(key, kind, low, high, **more)})
-
-
-def method(key: int, known: int, default: int = 0) -> Any:
-    """Declare a choice among `known` methods, numbered from 0."""
-    return wire(key, int, 0, known - 1, default, is_method=True)
+_HEADER, _DECLARATION = map(_fields, (False, True))
 
 
 @dataclass(frozen=True)
@@ -77,78 +63,62 @@ class Layer:
 class Constants:
     """How blocks are coded as in the paper; the defaults are the law's constants for static meshes."""
 
-    bits: int = wire(0, int, 0, 32, default=0)  # of a packed coefficient, q_c; 0: coefficients are adaptive
-    coarser: int = wire(1, int, 0, 30, default=0)
+    bits: int = 0  # of a packed coefficient, q_c; 0: coefficients are adaptive
+    coarser: int = 0
     """Packed coefficients of the lowest frequency are in units of 2^coarser steps."""
-    exact: int = wire(2, int, 0, 1, default=0)
+    exact: int = 0
     """1: a key block begins with the exact eigenbasis, and not with `key_iterations` from cosines."""
-    power: int = wire(3, int, 1, 64, default=3)  # the exponent z of one orthogonal iteration
-    iterations: int = wire(4, int, 1, 1024, default=1)  # orthogonal iterations per block, t
-    key_iterations: int = wire(5, int, 1, 1024, default=2)  # orthogonal iterations of a key block
-    shift: float = wire(6, float, 2.0**-30, 2.0**30, default=2.0**-7)  # added to the Laplacian's diagonal, delta
-    springs: int = wire(7, int, 0, 1, default=1)  # 1: a block hangs on springs, the prediction between blocks
-
-    def __post_init__(self) -> None:
-        normalize_fields(self, "paper")
+    power: int = 3  # the exponent z of one orthogonal iteration
+    iterations: int = 1  # orthogonal iterations per block, t
+    key_iterations: int = 2  # orthogonal iterations of a key block
+    shift: float = 2.0**-7  # added to the Laplacian's diagonal, delta
+    springs: int = 1  # 1: a block hangs on springs, the prediction between blocks
 
     def entry(self, law: Constants) -> tuple[float, ...]:
         """The stored numbers; empty: the values of the specification."""
-        return () if self == law else tuple(float(getattr(self, name)) for name in fields_of(Constants))
-
-
-def constants_of(entry: tuple[float, ...], law: Constants) -> Constants:
-    """Twin of `Constants.entry`; raises `OptionError`."""
-    if not entry:
-        return law
-    if not all(item.is_integer() for item in (*entry[:6], *entry[7:])):
-        raise OptionError(f"paper = {entry} has numbers that are not whole")
-    names = zip(fields_of(Constants).items(), entry, strict=True)
-    return Constants(**{name: declared.type(item) for (name, declared), item in names})
+        return () if self == law else tuple(float(getattr(self, name)) for name in PAPER)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Header:
     """The parameters of a stream, which precede everything else; decoders refuse contradictory fields."""
 
-    vertices: int = wire(1, int, 1, COUNT)
-    faces: int = wire(2, int, 1, COUNT)
-    blocks: int = wire(3, int, 0, COUNT, default=0)  # 0: positions on a grid
-    block_size: int = wire(4, int, 0, COUNT, default=0)  # vertices of the largest block, n_d
-    coefficients: int = wire(5, int, 0, COUNT, default=0)  # columns of the largest dictionary: the largest c_i
-    key_interval: int = wire(6, int, 0, COUNT, default=0)
+    vertices: int = _HEADER[1]
+    faces: int = _HEADER[2]
+    blocks: int = _HEADER[3]  # 0: positions on a grid
+    block_size: int = _HEADER[4]  # vertices of the largest block, n_d
+    coefficients: int = _HEADER[5]  # columns of the largest dictionary: the largest c_i
+    key_interval: int = _HEADER[6]
     """One block of every `key_interval` depends on no other; 0: only the first."""
-    step: float = wire(7, float, 2.0**-40, 2.0**20, default=2.0**-8)  # quantization step of a coefficient, in BSM units
-    center: tuple[float, ...] = wire(8, tuple, -1e300, 1e300, lengths=(3, 3), default=(0.0, 0.0, 0.0))
+    step: float = _HEADER[7]  # quantization step of a coefficient, in BSM units
+    center: tuple[float, ...] = _HEADER[8]
     """The origin of BSM units, in the mesh's unit."""
-    scale: float = wire(9, float, 1e-300, 1e300, default=1.0)
+    scale: float = _HEADER[9]
     """One BSM unit in the mesh's unit: the diagonal of the bounding box."""
-    smoothing: float = wire(10, float, 0.0, 1e6, default=0.0)  # amount of smoothing after reconstruction, alpha
-    refinement: tuple[float, ...] = wire(11, tuple, 0.0, 64.0, lengths=(0, 2), default=())
+    smoothing: float = _HEADER[10]  # amount of smoothing after reconstruction, alpha
+    refinement: tuple[float, ...] = _HEADER[11]
     """Step and ratio of the layer of refinement; empty: there is none; see `layer`."""
-    attributes: int = wire(12, int, 0, MOST_ATTRIBUTES, default=0)  # how many attributes the mesh has
-    grid: tuple[int, ...] = wire(13, tuple, 0, MOST_GRID, item=int, lengths=(0, 3), default=())
+    attributes: int = _HEADER[12]  # how many attributes the mesh has
+    grid: tuple[int, ...] = _HEADER[13]
     """Largest coded value of each axis of a grid; empty: there is none."""
-    lattice: tuple[int, ...] = wire(14, tuple, 1, 2**31 - 1, item=int, lengths=(0, 2), default=())
+    lattice: tuple[int, ...] = _HEADER[14]
     """(cells, points): the coded value k means k * cells / points, rounded; empty: k itself."""
-    corner: tuple[int, ...] = wire(15, tuple, -(2**31), COUNT, item=int, lengths=(0, 3), default=())
+    corner: tuple[int, ...] = _HEADER[15]
     """First cell of a grid on each axis, counted from the origin of the mesh's unit; empty: `center` says it."""
-    light: int = method(16, known=3)
+    light: int = _HEADER[16]
     """1: the values of a grid are quick to decode, and some more bytes; 2: floats in their cells follow the values."""
-    sequence: tuple[int, ...] = wire(17, tuple, 0, COUNT, item=int, lengths=(0, 2), default=())
+    sequence: tuple[int, ...] = _HEADER[17]
     """Frames (0: not known when the stream began) and those of the longest GOP; empty: a static mesh."""
-    run: tuple[int, ...] = wire(18, tuple, 0, COUNT, item=int, lengths=(0, 2), default=())
+    run: tuple[int, ...] = _HEADER[18]
     """Number of the run of a sequence that begins here, and the run whose mesh it has, if it brings none of its own."""
-    paper: tuple[float, ...] = wire(19, tuple, 0.0, 2.0**30, lengths=(0, 8), default=())
+    paper: tuple[float, ...] = _HEADER[19]
     """The numbers of `Constants`; empty: those of the law."""
-    onorm: int = wire(21, int, 0, 64, default=0)
+    onorm: int = _HEADER[21]
     """Onorm follows each of so many solutions of an iteration, with packed coefficients; 0: each solution."""
-    congruence: int = wire(22, int, 0, 68, default=0)
+    congruence: int = _HEADER[22]
     """35 plus the transforms between congruent parts of a grid, and 17 more with whole vertices; 0: coded without."""
-    turn: tuple[float, ...] = wire(24, tuple, -1.0, 1.0, lengths=(3, 3), default=(0.0, 0.0, 0.0))
+    turn: tuple[float, ...] = _HEADER[24]
     """The quaternion that turns the axes of a grid to those of the mesh, less its first entry, which is 1."""
-
-    def __post_init__(self) -> None:
-        normalize_fields(self, "header")
 
     @property
     def transforms(self) -> int:
@@ -166,7 +136,10 @@ class Header:
 
     @property
     def constants(self) -> Constants:
-        return constants_of(self.paper, self.law)
+        if not self.paper:
+            return self.law
+        numbers = zip(PAPER.items(), self.paper, strict=True)
+        return Constants(**{name: type(default)(number) for (name, default), number in numbers})
 
     @property
     def layer(self) -> Layer | None:
@@ -205,32 +178,11 @@ def values_of(kind: Kind, numbers: Mapping[int, list[float]]) -> dict[str, Any]:
     }
 
 
-def defaults_of(kind: Kind) -> dict[str, Any]:
-    return {item.name: item.default for item in fields(kind) if item.default is not MISSING}
-
-
 HEADER_FIELDS: dict[str, Field] = fields_of(Header)
-HEADER_DEFAULTS: dict[str, Any] = defaults_of(Header)
-
-
-def normalize_fields(record: Any, what: str) -> None:
-    """Make the values of a record's fields plain, in place; raise `OptionError` for one that is not legal."""
-    for item in fields(record):
-        name, declared, given = item.name, item.metadata["wire"], getattr(record, item.name)
-        if given is item.default:
-            continue
-        try:
-            value = declared.normalize(given)
-        except (TypeError, ValueError, OverflowError) as error:
-            raise OptionError(f"{what} field {name} cannot be {given!r}: {error}") from error
-        problem = declared.problem(value)
-        if problem:
-            raise OptionError(f"{what} field {name} {problem}")
-        object.__setattr__(record, name, value)
-
-
 LAW, LAW_OF_SEQUENCES = Constants(), Constants(iterations=2, shift=2.0**-5)
 """Constants of static meshes, and of the first frames of sequences."""
+PAPER: dict[str, Any] = dict(vars(LAW))
+"""Names of the paper's constants, in the order of their numbers, and defaults."""
 
 
 EXACT = 2  # `light`: floats in the cells of a grid follow its values
@@ -238,13 +190,8 @@ EXACT = 2  # `light`: floats in the cells of a grid follow its values
 
 def entries_of(record: Any) -> list[tuple[int, Any]]:
     """(key, value) of every field that is not at its default, keys ascending."""
-    defaults = defaults_of(type(record))
-    entries = [
-        (declared.key, getattr(record, name))
-        for name, declared in fields_of(type(record)).items()
-        if name not in defaults or getattr(record, name) != defaults[name]
-    ]
-    return sorted(entries)
+    values = ((item, item.normalize(getattr(record, name))) for name, item in fields_of(type(record)).items())
+    return sorted((item.key, value) for item, value in values if value != item.default)
 
 
 VERTEX, CORNER, FACE = range(3)  # what has a value in the stream
@@ -253,35 +200,27 @@ AS_CODED, OTHERWISE = range(2)
 LEVELS, OCTAHEDRAL, BITS, RECOMPUTED = range(4)  # codings; see A 5
 GENERIC, COLOR, NORMAL, TEXCOORD = range(4)
 
-MOST_COMPONENTS = constant("MOST_COMPONENTS")
-MOST_WORDS = 2 * MOST_COMPONENTS  # numbers in a coded value: two for each component where they are doubles to the bit
-MOST_LEVEL = 2**32 - 1
-FLOAT32 = 6
-
 
 @dataclass(frozen=True, kw_only=True)
 class Declaration:
     """An attribute, but for its values; decoders refuse fields that contradict each other."""
 
-    name: str = wire(1, str, 1, constant("MOST_NAME"))
-    domain: int = method(2, known=3)  # what has a value in the stream: VERTEX, CORNER or FACE
-    origin: int = method(3, known=2)  # given by AS_CODED, or OTHERWISE: VERTEX by corners, CORNER by vertices
-    semantic: int = method(4, known=4)  # GENERIC, COLOR, NORMAL or TEXCOORD
-    kind: int = method(5, known=8, default=FLOAT32)  # uint8, int8, uint16, int16, uint32, int32, float32 or float64
-    components: int = wire(6, int, 1, MOST_COMPONENTS, default=1)
-    coding: int = method(7, known=4)  # LEVELS, OCTAHEDRAL, BITS or RECOMPUTED
-    rows: int = wire(8, int, 0, 2**31 - 1, default=0)  # how many values are coded
-    largest: tuple[int, ...] = wire(9, tuple, 0, MOST_LEVEL, item=int, lengths=(0, MOST_WORDS), default=())
+    name: str = _DECLARATION[1]
+    domain: int = _DECLARATION[2]  # what has a value in the stream: VERTEX, CORNER or FACE
+    origin: int = _DECLARATION[3]  # given by AS_CODED, or OTHERWISE: VERTEX by corners, CORNER by vertices
+    semantic: int = _DECLARATION[4]  # GENERIC, COLOR, NORMAL or TEXCOORD
+    kind: int = _DECLARATION[5]  # uint8, int8, uint16, int16, uint32, int32, float32 or float64
+    components: int = _DECLARATION[6]
+    coding: int = _DECLARATION[7]  # LEVELS, OCTAHEDRAL, BITS or RECOMPUTED
+    rows: int = _DECLARATION[8]  # how many values are coded
+    largest: tuple[int, ...] = _DECLARATION[9]
     """Largest level of each coded number."""
-    offset: tuple[float, ...] = wire(10, tuple, -1e300, 1e300, lengths=(0, MOST_WORDS), default=())
+    offset: tuple[float, ...] = _DECLARATION[10]
     """The value of level 0 of each coded number; empty: 0."""
-    step: tuple[float, ...] = wire(11, tuple, 1e-300, 1e300, lengths=(0, MOST_COMPONENTS), default=())
+    step: tuple[float, ...] = _DECLARATION[11]
     """One level, of all components or of each; empty: 1."""
-    leans: int = method(12, known=2)  # 1: the values are predicted from positions on a grid
-    moves: int = method(13, known=2)
+    leans: int = _DECLARATION[12]  # 1: the values are predicted from positions on a grid
+    moves: int = _DECLARATION[13]
     """1: the values are those of the first frame of a sequence, and each GOP tells how they change."""
-    seams_of: int = wire(15, int, 0, 2**16 - 1, default=0)
+    seams_of: int = _DECLARATION[15]
     """0: the seams follow; otherwise they are those of attribute `seams_of` - 1."""
-
-    def __post_init__(self) -> None:
-        normalize_fields(self, "attribute")

@@ -1,6 +1,7 @@
 """Mutation of whole streams, frame by frame, checksums made right again, so that damage gets past the reader."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from random import Random
 
 from bsm.bitstream.container.header import HEADER_FIELDS, Declaration, Field, fields_of
@@ -113,7 +114,7 @@ def _change_declaration(frames: Frames, random: Random, mutate: Mutate) -> None:
     elif item.type is tuple:
         had = entries.get(item.key)
         numbers = list(had) if isinstance(had, list) and had else [random.choice(_REALS)]
-        part = Field(item.key, item.item, item.low, item.high)
+        part = replace(item, type=item.item)
         numbers[random.randrange(len(numbers))] = _value(part, numbers[0], random)
         entries[item.key] = numbers * random.choice((1, 1, 1, 2))
     else:
@@ -132,7 +133,7 @@ def _value(declared: Field, old: object, random: Random) -> object:
         return random.choice(_NUMBERS)
     if declared.type is float:
         return random.choice(_REALS) if random.random() < 0.7 else random.uniform(0, 100)
-    part = Field(declared.key, declared.item, declared.low, declared.high)
+    part = replace(declared, type=declared.item)
     if isinstance(old, list) and old and random.random() < 0.7:
         place, step = random.randrange(len(old)), random.choice((1, 1, 2))
         other = [_value(part, item, random) for item in old[place : place + step]]
