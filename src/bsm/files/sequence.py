@@ -7,8 +7,8 @@ pipes, npy arrays one after the other.
 
 import os
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from functools import partial
 from itertools import count as count_from
@@ -60,26 +60,21 @@ def open_sequence(
         names, times = folder.listed(given.name, kind, limits)
         return open_frames(names, None, limits, replace(asked, times=times), isolated=isolated)
     moves = kind in (*CACHES, *USD_FORMATS, *XDMF) or (kind in GLTF and wanted is not None)
-    if moves and not given.is_file:
-        return None
     head = b"" if moves else given.peek(len(NPY))
     piped = head == NPY or file_format == "npy"
-    if not moves and (
-        file_format not in (None, "npz", "npy")
-        # A 3MF is a ZIP, too.
-        or not (piped or (head.startswith(ZIP) and (file_format is not None or kind in ("", "npz"))))
-    ):
+    packed = head.startswith(ZIP) and (file_format is not None or kind in ("", "npz"))  # a 3MF is a ZIP, too
+    if not (given.is_file if moves else file_format in (None, "npz", "npy") and (piped or packed)):
         return None
     if is_apart((kind if moves else "npz",), limits, isolated):
-        frames: Frames | None = by_name(*_ISOLATED)(given, file_format, limits, kind, wanted)
-        return frames
-    if kind in CACHES:
-        return read_cache(given.name, kind, asked, limits)
-    if moves:
+        found: Frames | None = by_name(*_ISOLATED)(given, file_format, limits, kind, wanted)
+    elif kind in CACHES:
+        found = read_cache(given.name, kind, asked, limits)
+    elif moves:
         row = FORMATS[kind]
-        found: Frames | None = by_name(row.modules[0], row.reader.removesuffix("_mesh"))(given.name, asked, limits)
-        return found
-    return read_pipe(given, limits) if piped else read_archive(given, limits)
+        found = by_name(row.modules[0], row.reader.removesuffix("_mesh"))(given.name, asked, limits)
+    else:
+        found = read_pipe(given, limits) if piped else read_archive(given, limits)
+    return found
 
 
 def open_frames(
@@ -115,45 +110,47 @@ def sequence_writer(
 ) -> Iterator[FrameWriter]:
     """Open a sequence for writing; yields what takes frame after frame."""
     shared = shared or Shared()
-    held = FORMATS[kind].times
-    if folder.is_numbered(path) or kind not in ONE_FILE or (kind == "glb" and _is_folder(path)):
-        if is_url(path):
-            raise OptionError(f"{path}: frames are written to a folder of this machine, or as an npz")
-        numbered = shared.numbered
-        frames = replace(shared, held=held if kind == "vtp" or (numbered and kind != "glb") else frozenset())
-        with folder.write_files(path, kind, overwrite=overwrite) as write_mesh:
-            present, fresh = faces, True  # materials and images lie beside the first frame alone
-            numbers = count_from(0)
-
-            def take(frame: Positions, faces: Faces | None = None) -> None:
-                nonlocal present, fresh
-                present, number = present if faces is None else faces, next(numbers)
-                mesh = frames.mesh(frame, present, with_metadata=fresh)
-                fresh = fresh and is_empty(mesh.attributes)
-                mesh = frames.timed(mesh, number) if kind == "vtp" else mesh
-                frames.loses(write_mesh(mesh, int(frames.code(number)) if numbered else number))
-
-            yield take
-        return
-    shared = replace(shared, held=held)
-    if kind in CACHES:
-        with _cache_writer(path, kind, faces, count, overwrite, follow, shared) as write_run:
-            yield write_run
-        return
-    with open_output(path, overwrite=overwrite, follow=follow) as file:
+    with ExitStack() as opened:
+        enter = opened.enter_context
+        if folder.is_numbered(path) or kind not in ONE_FILE or (kind == "glb" and _is_folder(path)):
+            if is_url(path):
+                raise OptionError(f"{path}: frames are written to a folder of this machine, or as an npz")
+            yield _of_files(enter(folder.write_files(path, kind, overwrite=overwrite)), kind, faces, shared)
+            return
+        shared = replace(shared, held=FORMATS[kind].times)
+        if kind in CACHES:
+            yield enter(_cache_writer(path, kind, faces, count, overwrite, follow, shared))
+            return
+        file = enter(open_output(path, overwrite=overwrite, follow=follow))
         if kind == "npz":
-            with open_npz_sequence(file, faces, count, shared.attributes, shared.metadata) as write:
-                yield _of_one_mesh(write, kind)
+            yield _of_one_mesh(enter(open_npz_sequence(file, faces, count, shared.attributes, shared.metadata)), kind)
         elif kind == "npy":
             write_npy(file, faces)
             yield _of_one_mesh(lambda frame: write_npy(file, frame), kind)
             shared.loses([*(attribute.name for attribute in shared.attributes()), *shared.metadata()])
         elif kind == "glb":
-            with by_name("bsm.gltf.write", "write_frames")(file, path, faces, shared) as write_changing:
-                yield write_changing
+            yield enter(by_name("bsm.gltf.write", "write_frames")(file, path, faces, shared))
         else:
-            with by_name("bsm.files.motion.usd", "write_usd")(file, kind, faces, shared) as write_changing:
-                yield write_changing
+            yield enter(by_name("bsm.files.motion.usd", "write_usd")(file, kind, faces, shared))
+
+
+def _of_files(
+    write_mesh: Callable[[TriangleMesh, int], Iterable[str]], kind: str, present: Faces, shared: Shared
+) -> FrameWriter:
+    """A writer of a file for each frame; materials and images lie beside the first one alone."""
+    numbered, numbers, fresh = shared.numbered, count_from(0), True
+    held = FORMATS[kind].times if kind == "vtp" or (numbered and kind != "glb") else frozenset()
+    frames = replace(shared, held=held)
+
+    def take(frame: Positions, faces: Faces | None = None) -> None:
+        nonlocal present, fresh
+        present, number = present if faces is None else faces, next(numbers)
+        mesh = frames.mesh(frame, present, with_metadata=fresh)
+        fresh = fresh and is_empty(mesh.attributes)
+        mesh = frames.timed(mesh, number) if kind == "vtp" else mesh
+        frames.loses(write_mesh(mesh, int(frames.code(number)) if numbered else number))
+
+    return take
 
 
 def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
@@ -179,32 +176,29 @@ def _cache_writer(
     """A cache, and beside it the mesh of its first frame; where faces change, both for each run, by its first frame."""
     refuse_to_overwrite(path, overwrite)
     refuse_to_overwrite(mesh_of(path), overwrite or _plays(mesh_of(path), first))
-    meshes: list[TriangleMesh] = []
-    begun = taken = 0
+    meshes, begun, taken = list[TriangleMesh](), 0, 0
     with tempfile.TemporaryFile() as spool:
 
-        def end(name: str) -> None:
+        def end(*, last: bool = False) -> None:
+            name = path if last and not begun else str(Path(path).with_stem(f"{Path(path).stem}_{begun:05d}"))
             mesh, beside = meshes[-1], mesh_of(name)
             fits = _plays(beside, mesh.faces)
             refuse_to_overwrite(beside, overwrite or fits)
             spool.seek(0)
             codes = [shared.code(number) for number in range(begun, taken)]
-            waiting = (np.frombuffer(spool.read(mesh.positions.nbytes)).reshape(-1, 3) for _ in codes)
+            frames = (np.frombuffer(spool.read(mesh.positions.nbytes)).reshape(-1, 3) for _ in codes)
             with open_output(name, overwrite=overwrite, follow=follow and name == path) as file:
-                write_cache(file, kind, codes, waiting, shared.frame_rate)
+                write_cache(file, kind, codes, frames, shared.frame_rate)
             shared.loses(name for name in (TIMES, RATE) if name in mesh.metadata)
             if not fits:
                 shared.loses(save_written(beside, written_mesh(mesh, "obj", beside), overwrite=overwrite, follow=False))
             spool.seek(0)
             spool.truncate()
 
-        def numbered() -> str:
-            return str(Path(path).with_stem(f"{Path(path).stem}_{begun:05d}"))
-
         def take(frame: Positions, faces: Faces | None = None) -> None:
             nonlocal begun, taken
             if meshes and faces is not None:
-                end(numbered())
+                end()
                 begun = taken
             if taken == begun:
                 meshes.append(shared.mesh(np.array(frame), first if faces is None else faces))
@@ -215,7 +209,7 @@ def _cache_writer(
         yield take
         if count and taken != count:
             raise CorruptError(f"{taken} of {count} frames came")
-        end(path if begun == 0 else numbered())
+        end(last=True)
 
 
 def _plays(path: str, faces: Faces) -> bool:

@@ -16,7 +16,7 @@ import shutil
 import tempfile
 import zipfile
 import zlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass, field
 from tokenize import TokenError
@@ -281,25 +281,28 @@ def _parse_metadata(data: bytes) -> Metadata:
     return found
 
 
-def _written_metadata(metadata: Metadata) -> Array:
-    entries: dict[str, Any] = {
+def _metadata_in(metadata: Metadata) -> dict[str, Array]:
+    """The array of metadata, if there are any."""
+    entries = {
         name: {"base64": base64.b64encode(value).decode()} if isinstance(value, bytes) else value
         for name, value in metadata.items()
     }
-    return np.frombuffer(json.dumps(entries).encode(), np.uint8)
+    return {"metadata": np.frombuffer(json.dumps(entries).encode(), np.uint8)} if entries else {}
+
+
+def _arrays_of(attributes: Iterable[Attribute]) -> dict[str, Array]:
+    arrays: dict[str, Array] = {}
+    for attribute in attributes:
+        arrays[f"{attribute.domain}/{attribute.name}"] = attribute.values
+        if attribute.indices is not None:
+            arrays[f"corner/{attribute.name}/indices"] = attribute.indices
+    return arrays
 
 
 def write_npz(mesh: TriangleMesh, stem: str) -> Written:
     """The npz of a mesh: `positions` as float64, `faces` as int32, and everything else it has."""
-    arrays: dict[str, Array] = {"positions": mesh.positions, "faces": mesh.faces}
-    for attribute in mesh.attributes:
-        arrays[f"{attribute.domain}/{attribute.name}"] = attribute.values
-        if attribute.indices is not None:
-            arrays[f"corner/{attribute.name}/indices"] = attribute.indices
-    if mesh.metadata:
-        arrays["metadata"] = _written_metadata(mesh.metadata)
-    buffer = io.BytesIO()
-    np.savez_compressed(buffer, **arrays)  # type: ignore[arg-type]
+    buffer, others = io.BytesIO(), _arrays_of(mesh.attributes) | _metadata_in(mesh.metadata)
+    np.savez_compressed(buffer, positions=mesh.positions, faces=mesh.faces, **others)  # type: ignore[arg-type]
     return Written(buffer.getvalue())
 
 
@@ -312,51 +315,35 @@ def open_npz_sequence(
     metadata: Callable[[], Metadata] = dict,
 ) -> Iterator[Callable[[Positions], None]]:
     """Write an npz of frames, shape (T, n, 3); yields what takes them. What changes waits in files for their number."""
-    first: tuple[Attribute, ...] = ()
-    moved: dict[str, IO[bytes]] = {}
-    shape, taken = (0, 3), 0
-
-    def append(entry: IO[bytes], values: IO[bytes], shape: tuple[int, ...], kind: str) -> None:
-        np.lib.format.write_array_header_1_0(entry, {"descr": kind, "fortran_order": False, "shape": (taken, *shape)})
-        values.seek(0)
-        shutil.copyfileobj(values, entry)
-
+    first, moved, taken = dict[str, Array](), dict[str, IO[bytes]](), 0
     # Deflated, positions are 5 % smaller, and take longer than decoding does; faces would be a hundredth of them.
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive, ExitStack() as waiting:
-        positions = waiting.enter_context(tempfile.TemporaryFile())
 
         def take(frame: Positions) -> None:
-            nonlocal first, shape, taken
-            positions.write(np.ascontiguousarray(frame, "<f8").data)
-            now, shape = attributes(), frame.shape
-            first = first if taken else now
-            for before, attribute in zip(first, now, strict=True):
-                if attribute is not before and attribute.name not in moved:
-                    moved[attribute.name] = values = waiting.enter_context(tempfile.TemporaryFile())
-                    values.writelines(before.values.tobytes() for _ in range(taken))
-                if attribute.name in moved:
-                    moved[attribute.name].write(attribute.values.tobytes())
+            nonlocal taken
+            for name, values in {"positions": np.asarray(frame, "<f8"), **_arrays_of(attributes())}.items():
+                before = first.setdefault(name, values)
+                if name not in moved and (name == "positions" or values is not before):
+                    moved[name] = waiting.enter_context(tempfile.TemporaryFile())
+                    moved[name].writelines(before.tobytes() for _ in range(taken))
+                if name in moved:
+                    moved[name].write(values.tobytes())
             taken += 1
 
         yield take
         if taken != (count or taken):
             raise CorruptError(f"{taken} of {count} frames came")
-        with archive.open(zipfile.ZipInfo("faces.npy"), "w") as entry:
-            np.lib.format.write_array(entry, faces)
-        with archive.open(zipfile.ZipInfo("positions.npy"), "w", force_zip64=True) as entry:
-            append(entry, positions, shape, "<f8")
-        for attribute in first:
-            with archive.open(f"{attribute.domain}/{attribute.name}.npy", "w", force_zip64=True) as entry:
-                if attribute.name in moved:
-                    append(entry, moved[attribute.name], attribute.values.shape, attribute.values.dtype.str)
+        for name, values in {"faces": faces, **first, **_metadata_in(metadata())}.items():
+            entry_name = f"{name}.npy"
+            stored = zipfile.ZipInfo(entry_name) if name in ("faces", "positions") else entry_name
+            with archive.open(stored, "w", force_zip64=name in moved) as entry:
+                if name in moved:
+                    header = {"descr": values.dtype.str, "fortran_order": False, "shape": (taken, *values.shape)}
+                    np.lib.format.write_array_header_1_0(entry, header)
+                    moved[name].seek(0)
+                    shutil.copyfileobj(moved[name], entry)
                 else:
-                    np.lib.format.write_array(entry, attribute.values)
-            if attribute.indices is not None:
-                with archive.open(f"corner/{attribute.name}/indices.npy", "w") as entry:
-                    np.lib.format.write_array(entry, attribute.indices)
-        if entries := metadata():
-            with archive.open(zipfile.ZipInfo("metadata.npy"), "w") as entry:
-                np.lib.format.write_array(entry, _written_metadata(entries))
+                    np.lib.format.write_array(entry, values)
 
 
 # ------------------------------------------------------------------------------------------------------------ sequences
@@ -377,8 +364,8 @@ def read_archive(given: Input, limits: Limits) -> Frames | None:
     still, refused = attributes_of(found.columns, len(mesh.positions), len(mesh.faces), corners, every_face)
     found.left.extend(refused)
     notes = (f"left out: {', '.join(found.dropped)}",) if found.left else ()
-    meshes = _dressed(archive, mesh.faces, still, found.moving) if found.moving else None
-    attributes = next(_dressed(archive, mesh.faces, still, found.moving)).attributes if found.moving else still
+    meshes = _with_attributes(archive, mesh.faces, still, found.moving) if found.moving else None
+    attributes = next(_with_attributes(archive, mesh.faces, still, found.moving)).attributes if found.moving else still
     return Frames(mesh.faces, count, _positions(archive), attributes, notes, metadata=found.metadata, meshes=meshes)
 
 
@@ -386,7 +373,7 @@ def _positions(archive: str | BinaryIO) -> Iterator[Positions]:
     return (frame.astype(np.float64) for (frame,) in _frames(archive, "positions"))
 
 
-def _dressed(
+def _with_attributes(
     archive: str | BinaryIO, faces: Faces, still: tuple[Attribute, ...], moving: Mapping[str, str]
 ) -> Iterator[TriangleMesh]:
     """One frame after the other, with the attributes of all frames, and its own."""

@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
-from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +17,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute, has
-from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
+from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
 from bsm.codec.sequence.runs import EMPTY, SHOWN, can_move, empty_frame, is_empty, moved_to, other_faces
 from bsm.files.conventions import TIME_VALUE
 from bsm.files.formats.metadata import Written
@@ -166,51 +165,48 @@ def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], want
                     return empty_frame()
                 raise MeshError(f"{error}; with --runs, frames may be without") from error
 
-    first = read(0)
+    first, count = read(0), len(names)
     metadata = {name: value for name, value in first.metadata.items() if name != TIME_VALUE}
-    timing: Metadata | None = _numbering(names)
     if TIME_VALUE in first.metadata and not times:
-        times = [float(read(number).metadata.get(TIME_VALUE, "nan")) for number in range(len(names))]
-    if len(times):
-        rate, timing = timing_of(np.array(times, np.float64), rate)
+        times = [float(read(number).metadata.get(TIME_VALUE, "nan")) for number in range(count)]
+    rate, timing = timing_of(np.array(times, np.float64), rate) if times else (rate, _numbering(names))
     notes += ["the times of frames are not numbers that grow, and are left out"] if timing is None else []
-    shared = (rate, {**metadata, **(timing or {})})
-    if runs:
-        moving = [attribute.name for attribute in first.attributes if attribute.semantic == "normal"]
-        kept = tuple(a for a in first.attributes if a.semantic != "normal" and a.name != EMPTY)
-        notes += [f"left out, for they move: {', '.join(moving)}"] if moving else []
-        if same := [attribute.name for attribute in kept if not can_move(attribute)]:
-            notes.append(f"{', '.join(same)}: as the first frame of each run has them")
-        every = chain([first], (read(number) for number in range(1, len(names))))
-        return Frames(first.faces, len(names), iter(()), kept, tuple(notes), *shared, every)
-
-    def meshes() -> Iterator[TriangleMesh]:
-        yield replace(first, attributes=kept)
-        for number, name in enumerate(names[1:], 1):
-            mesh = read(number)
-            if difference := other_faces(first, mesh):
-                raise MeshError(
-                    f"these are different meshes, not the frames of one animation: {name} (frame {number}) has other "
-                    f"faces than {names[0]}: {difference}; if their faces change, --runs; to work on each by "
-                    "itself, name the files, or the folder with -r, and write to a folder, -o FOLDER/"
-                )
-            now = {attribute.name: _as_in(mesh, attribute) for attribute in kept}
-            if changed := [name for name, attribute in now.items() if attribute is None]:
-                raise MeshError(
-                    f"{changed[0]} differs in {name} (frame {number}) but not in the last frame; only colors and "
-                    "numbers of vertices may change: --runs keeps others as the first frame has them"
-                )
-            yield replace(mesh, attributes=tuple(filter(None, now.values())))
-
-    last = read(len(names) - 1) if first.attributes and len(names) > 1 else first
-    kept = tuple(attribute for attribute in first.attributes if _as_in(last, attribute) is not None)
-    left = [attribute.name for attribute in first.attributes if attribute not in kept]
+    last = read(count - 1) if first.attributes and not runs else first
+    own = [attribute for attribute in first.attributes if attribute.name != EMPTY]
+    kept = tuple(attribute for attribute in own if _as_in(last, attribute) is not None)
+    left = [attribute.name for attribute in own if attribute not in kept]
     notes += [f"left out, for they move or change: {', '.join(left)}"] if left else []
     same = [attribute.name for attribute in kept if not can_move(attribute)]
-    notes += [f"{', '.join(same)}: as the first frame has them"] if len(names) > 1 and same else []
-    frames = (mesh.positions for mesh in meshes())
-    given = meshes() if len(same) < len(kept) or any(name.startswith(SHOWN) for name in first.metadata) else None
-    return Frames(first.faces, len(names), frames, kept, tuple(notes), *shared, given)
+    notes += [f"{', '.join(same)}: as the first frame {'of each run ' * runs}has them"] if count > 1 and same else []
+    changes = runs or len(same) < len(kept) or any(name.startswith(SHOWN) for name in first.metadata)
+
+    def meshes() -> Iterator[TriangleMesh]:
+        yield first if runs else replace(first, attributes=kept)
+        for number in range(1, count):
+            mesh = read(number)
+            yield mesh if runs else _with_faces_of(first, names[0], kept, mesh, f"{names[number]} (frame {number})")
+
+    shared = kept, tuple(notes), rate, {**metadata, **(timing or {})}
+    return Frames(first.faces, count, (mesh.positions for mesh in meshes()), *shared, meshes() if changes else None)
+
+
+def _with_faces_of(
+    first: TriangleMesh, of_first: str, kept: Sequence[Attribute], mesh: TriangleMesh, name: str
+) -> TriangleMesh:
+    """A frame with the attributes that are kept; an error if its faces are not those of the first one."""
+    if difference := other_faces(first, mesh):
+        raise MeshError(
+            f"these are different meshes, not the frames of one animation: {name} has other faces than {of_first}: "
+            f"{difference}; if their faces change, --runs; to work on each by itself, name the files, or the folder "
+            "with -r, and write to a folder, -o FOLDER/"
+        )
+    now = {attribute.name: _as_in(mesh, attribute) for attribute in kept}
+    if changed := [attribute for attribute, there in now.items() if there is None]:
+        raise MeshError(
+            f"{changed[0]} differs in {name} but not in the last frame; only colors and numbers of vertices may "
+            "change: --runs keeps others as the first frame has them"
+        )
+    return replace(mesh, attributes=tuple(filter(None, now.values())))
 
 
 LISTS = ("pvd", "series")  # of ParaView, files and their times
