@@ -23,7 +23,6 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.progress import PARTS, Progress, silent
 from bsm.codec.sequence.attributes import Bound, MovingAttributeEncoder, with_fields
 from bsm.codec.sequence.frames import Group, next_group
-from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.run_encoding import EncodedGops, FirstFrame, Kept, RunEncoder, finest_step
 from bsm.codec.sequence.runs import Frame, JoinedRun, Run, RunSplitter, joined_runs, kind_of
@@ -240,62 +239,59 @@ class SequenceEncoder:
     ) -> Iterator[packets.Packet]:
         """The packets of a run; `_done` grows by its frames."""
         self.run_starts.append(run.first)
-        self._done = 0
-        opened = meshes.find(run)
-        if opened is None:
-            run.joined.mesh.require_sizes(*PROMISED_SIZES)
-            sizes = Parts(options.block_size, options.overlap)
-            prepared = prepare(run.joined.mesh, sizes, keep_order=options.keep_order, splits=run.joined.splits)
-        else:
-            prepared = opened.prepared
+        self._done, known = 0, meshes.find(run)
+        prepared = known.prepared if known else _prepared(run.joined, options)
         self.vertex_order, self.face_order = _orders(run.joined, prepared)
         frames = (frame[prepared.coding_order] for frame in run.frames)
         longest = options.together(len(prepared.positions))
         group = next_group(frames, longest, prepared, run.moving)
         encoder = RunEncoder(prepared, options, self._count, progress)
-        if opened is None:
+        if known is None:
             more = len(group) == longest and run.first + longest != self._count
             carried, coders = self._carried(run, prepared, options, group, more=more)
             resting = tuple(attribute for attribute in carried if not attribute.declaration.moves)
             gops = encoder.first(group, meshes.kept, [coder.start for coder in coders])
+            mesh = OpenedMesh(index, prepared, gops, coders, resting)
             begun = self._opened(run, index, prepared, gops.first_frame, carried)
         else:
-            coders, before, resting = opened.coders, opened.gops, opened.resting
-            fresh = GopEncoder(before.first_frame.setting, replace(options, step=before.encoder.step))
-            gops = encoder.next(group, 0, EncodedGops(before.first_frame, fresh, ()))
-            mesh, again = before.first_frame.header, (index, opened.run)
-            begun = iter([Header(vertices=mesh.vertices, faces=mesh.faces, sequence=(self._count, longest), run=again)])
-        self._verifier.expect_mesh(AsGiven(run.mesh, run.joined, prepared), resting)
+            mesh = replace(known, gops=encoder.again(group, known.gops))
+            own, again = mesh.gops.first_frame.header, (index, known.run)
+            begun = iter([Header(vertices=own.vertices, faces=own.faces, sequence=(self._count, longest), run=again)])
+        self._verifier.expect_mesh(AsGiven(run.mesh, run.joined, prepared), mesh.resting)
         yield from begun
-        first_frame = gops.first_frame
-        for track, coder in enumerate(coders, 1):
-            coder.begin(gops.encoder, track)
-        numbers = [coder.number for coder in coders]
-        still = {name: values[0] for name, values in group.moving.items() if name not in {m.name for m in coders}}
+        for track, coder in enumerate(mesh.coders, 1):
+            coder.begin(mesh.gops.encoder, track)
+        moving = {coder.name for coder in mesh.coders}
+        still = {name: values[0] for name, values in group.moving.items() if name not in moving}
         while len(group):
-            self._drawn = max(self._drawn, gops.worst_look)
-            bodies = with_fields(gops.bodies, coders, group.moving)
-            for number, frame in enumerate(gops.decoded_frames()):
-                positions = prepared.units.back(frame)
-                self._checksum = checksum_of(positions, self._checksum)
-                moving = tuple(coder.expected(group.moving[coder.name][number]) for coder in coders)
-                self._verifier.expect_frame(ExpectedFrame(positions, group.positions[number], moving))
-            for body in bodies:
-                if 0 < self._count < run.first + self._done + body.frames:
-                    raise OptionError(f"{self._count} frames were announced and more came")
-                first_frame.kept.received += body.size
-                yield packets.Gop(run.first + self._done, write_gop_body(body, index, numbers))
-                self._done += body.frames
-                self.samples += body.frames * len(self.vertex_order)
+            yield from self._coded(run, index, mesh, group)
             del group  # before the next one is read
             group = next_group(frames, longest, prepared, run.moving)
             if len(group):
-                gops = encoder.next(group, self._done, gops)
+                mesh = replace(mesh, gops=encoder.next(group, self._done, mesh.gops))
                 for name, values in still.items():
                     if (group.moving[name] != values).any():
                         raise OptionError(f"{name!r} moves, and floats that do cannot be exact; ask for a bound")
-        self.notes = tuple(dict.fromkeys((*self.notes, *(coder.note for coder in coders))))
-        meshes.keep(OpenedMesh(index if opened is None else opened.run, prepared, gops, coders, resting), run)
+        self.notes = tuple(dict.fromkeys((*self.notes, *(coder.note for coder in mesh.coders))))
+        meshes.keep(mesh, run)
+
+    def _coded(self, run: JoinedRun, index: int, mesh: OpenedMesh, group: Group) -> Iterator[packets.Gop]:
+        """The GOPs of a group of frames, which the verifier then expects."""
+        gops, coders, units = mesh.gops, mesh.coders, mesh.prepared.units
+        self._drawn = max(self._drawn, gops.worst_look)
+        bodies = with_fields(gops.bodies, coders, group.moving)
+        for number, frame in enumerate(gops.decoded_frames()):
+            positions = units.back(frame)
+            self._checksum = checksum_of(positions, self._checksum)
+            moving = tuple(coder.expected(group.moving[coder.name][number]) for coder in coders)
+            self._verifier.expect_frame(ExpectedFrame(positions, group.positions[number], moving))
+        for body in bodies:
+            if 0 < self._count < run.first + self._done + body.frames:
+                raise OptionError(f"{self._count} frames were announced and more came")
+            gops.first_frame.kept.received += body.size
+            yield packets.Gop(run.first + self._done, write_gop_body(body, index, [coder.number for coder in coders]))
+            self._done += body.frames
+            self.samples += body.frames * len(self.vertex_order)
 
     def _carried(
         self, run: JoinedRun, prepared: Prepared, options: SequenceOptions, group: Group, *, more: bool
@@ -401,6 +397,12 @@ def _digest(run: JoinedRun) -> bytes:
         if attribute.indices is not None:
             found.update(attribute.indices.tobytes())
     return found.digest()
+
+
+def _prepared(joined: JoinedMesh, options: SequenceOptions) -> Prepared:
+    joined.mesh.require_sizes(*PROMISED_SIZES)
+    sizes = Parts(options.block_size, options.overlap)
+    return prepare(joined.mesh, sizes, keep_order=options.keep_order, splits=joined.splits)
 
 
 def _orders(joined: JoinedMesh, prepared: Prepared) -> tuple[Order, Order]:

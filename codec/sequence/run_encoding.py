@@ -158,6 +158,11 @@ class RunEncoder:
             lambda *_: EncodedGops(before.first_frame, before.encoder.copy(), ()), group, number, before.encoder.step
         )
 
+    def again(self, group: Group, before: EncodedGops) -> EncodedGops:
+        """The first GOP of a run whose mesh an earlier run has brought."""
+        fresh = GopEncoder(before.first_frame.setting, replace(self._options, step=before.encoder.step))
+        return self.next(group, 0, EncodedGops(before.first_frame, fresh, ()))
+
     def _kept(
         self, begun: Callable[[float, Progress], EncodedGops], group: Group, number: int, step: float | None
     ) -> EncodedGops:
