@@ -70,13 +70,15 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     if job.members:
         return _encode_sequence(job, console, open_frames(job.members, job.format, limits, wanted, isolated=apart))
     sequence = open_sequence(job.input, job.format, None if plain else wanted, limits, isolated=apart)
-    return _encode_sequence(job, console, sequence) if sequence else _encode_mesh(job, console, limits)
-
-
-def _encode_mesh(job: EncodeJob, console: Console, limits: Limits) -> Facts:
+    if sequence is not None:
+        return _encode_sequence(job, console, sequence)
     for name, given in (("animation", job.animation), ("mesh", job.cache_mesh)):
         if given is not None:
             raise OptionError(f"--{name} is for sequences; this is a single mesh")
+    return _encode_mesh(job, console, limits)
+
+
+def _encode_mesh(job: EncodeJob, console: Console, limits: Limits) -> Facts:
     chosen = encode_options(**job.options, threads=job.threads)
     with console.progress("reading", until=READ):
         source = read_mesh(job.input, job.format, limits, isolated=job.untrusted or None)
@@ -107,25 +109,28 @@ def _encode_mesh(job: EncodeJob, console: Console, limits: Limits) -> Facts:
             Path(name).parent.mkdir(exist_ok=True)
             write_output(name, data, overwrite=True, follow=str(Path(name).parents[1]))
     seconds = time.perf_counter() - begin
-    images = sum(len(value) for value in mesh.metadata.values() if isinstance(value, bytes))
-    smaller = "" if job.images or 2 * images < result.size else "; --images webp:85 makes them smaller"
-    unseen = not chosen.is_grid and (chosen.promise is None or chosen.promise.look == math.inf)
-    notes = [
-        *source.notes,
-        *generations,
-        *found.notes,
-        *(_in_texels(note, mesh, side) for note in encoder.notes),
-        *(["left out: materials, images"] if left_out else []),
-        *(["left out: images"] if job.images == "none" else []),
-        *([f"{images} bytes are {'' if job.images else 'unchanged '}images{smaller}"] if images else []),
-        *([f"no look is promised; measured: {encoder.seen(result)}"] if unseen else []),
-    ]
-    vertices, faces, size = result.header.vertices, len(encoder.mesh.faces), result.size
-    errors, numbers = _errors(found, job.simplify, *asked_unit(job.options, mesh.metadata))
-    (taken, parts), bpv = size_with_parts(job.input, source.mesh.metadata), 8 * (size - images) / vertices
+    notes = [*source.notes, *generations, *found.notes, *(_in_texels(note, mesh, side) for note in encoder.notes)]
+    notes += ["left out: materials, images"] if left_out else []
+    more, summary, facts = _result(job, chosen, found, source.mesh.metadata, mesh.metadata, linked)
+    return _finish(job, console, notes + more, summary, seconds, facts)
+
+
+def _result(
+    job: EncodeJob, chosen: Any, found: Chosen, given: Metadata, sent: Metadata, linked: Mapping[str, bytes]
+) -> tuple[list[str], str, Facts]:
+    """Return notes on images and the look of a stream, its sizes and errors in words, and as facts."""
+    encoder, size, promise = found.encoder, found.attempt.size, chosen.promise
+    images = sum(len(value) for value in sent.values() if isinstance(value, bytes))
+    smaller = "" if job.images or 2 * images < size else "; --images webp:85 makes them smaller"
+    unseen = not chosen.is_grid and (promise is None or promise.look == math.inf)
+    notes = ["left out: images"] if job.images == "none" else []
+    notes += [f"{images} bytes are {'' if job.images else 'unchanged '}images{smaller}"] if images else []
+    notes += [f"no look is promised; measured: {encoder.seen(found.attempt)}"] if unseen else []
+    vertices, faces = found.attempt.header.vertices, len(encoder.mesh.faces)
+    errors, numbers = _errors(found, job.simplify, *asked_unit(job.options, sent))
+    (taken, parts), bpv = size_with_parts(job.input, given), 8 * (size - images) / vertices
     beside = {name: len(data) for name, data in linked.items()}
     written = size + sum(beside.values())
-    promise = chosen.promise
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
     other = encoder.binding not in ("", "look") and found.apart is None
     binds = f"the {encoder.binding} binds, " if other else ""
@@ -133,7 +138,7 @@ def _encode_mesh(job: EncodeJob, console: Console, limits: Limits) -> Facts:
     summary += f"{' without images' if images else ''}; {look}{binds}{errors}"
     facts: Facts = {"vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": written, "bytes": size}
     facts |= {"bpv_total": bpv} | ({"input_parts": parts, "output_parts": beside} if parts else {}) | numbers
-    return _finish(job, console, notes, summary, seconds, {**facts, "look": encoder.look, "binding": encoder.binding})
+    return notes, summary, {**facts, "look": encoder.look, "binding": encoder.binding}
 
 
 def _in_texels(note: str, mesh: TriangleMesh, side: int) -> str:

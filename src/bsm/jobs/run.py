@@ -11,7 +11,7 @@ from heapq import heappop, heappush
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.threads import available_threads
-from bsm.console import Console, print_json
+from bsm.console import Console, Progress, print_json
 from bsm.exits import exit_of, report_error, worded
 from bsm.files import pipes
 from bsm.files.output import refuse_collisions, refuse_to_overwrite
@@ -21,6 +21,7 @@ from bsm.lengths import UnitError
 
 LEAST = 1 << 16  # bytes that an input counts as, for the work that does not depend on its size
 Show = Callable[[Facts], str]  # the result for an input, as it is printed
+Ended = Callable[[Job, Outcome], None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,72 +81,96 @@ def run_jobs(
 
 
 def run_many(
-    run: Batch,
-    asked: Task,
-    console: Console,
-    work: Work,
-    jobs: Sequence[Job],
-    ended: Callable[[Job, Outcome], None] = lambda job, outcome: None,
+    run: Batch, asked: Task, console: Console, work: Work, jobs: Sequence[Job], ended: Ended = lambda job, outcome: None
 ) -> list[Facts]:
     """Do all jobs, and report them in order. A failed job stops only the jobs that need it."""
-    if run.dask is not None:
-        if any("-" in (job.input, job.output) for job in jobs):
-            raise OptionError("a cluster cannot read a pipe; name files")
-        jobs = [replace(job, input=anywhere(job.input), output=anywhere(job.output)) for job in jobs]
-    earlier, report = NOTHING, None
-    if run.report is not None:
-        refuse_collisions([job.input for job in jobs], [*(job.output for job in jobs), run.report])
-        refuse_to_overwrite(run.report, asked.force or run.resume)
-        command, options = work.__name__, options_of(asked)
-        earlier = read_report(run.report, command, options) if run.resume else NOTHING
-        report = Report(run.report, command, options, jobs, earlier.files)
-        work = partial(recorded, work)
-    elif run.resume:
-        raise OptionError("--resume needs --report FILE.json")
+    jobs = jobs if run.dask is None else _on_all_machines(jobs)
+    work, earlier, report = _reported(run, asked, work, jobs)
     done: list[Facts] = [{} for _ in jobs]
     local = [None if job.input == "-" or pipes.is_url(job.input) else pipes.size_of(job.input) for job in jobs]
     sizes, finished = [max(size or 0, LEAST) for size in local], 0  # work is reported in proportion to these
-    waiting: dict[int, Outcome] = {}
-    following = 0
     order = TopologicalSorter({number: job.after for number, job in enumerate(jobs)})
     order.prepare()
-    ready = sorted(order.get_ready())
 
-    def given() -> Tasks:
-        while True:
-            while ready:
-                task = task_of(asked, jobs[number := heappop(ready)], earlier)
-                # A cluster repeats jobs of workers that died, without a notice.
-                yield number, task if run.dask is None else task.repeated()
-            yield None
+    def task(number: int) -> Task:
+        found = task_of(asked, jobs[number], earlier)
+        return found if run.dask is None else found.repeated()  # a cluster repeats jobs of workers that died
 
+    def taken(outcomes: Outcomes, progress: Progress) -> Outcomes:
+        nonlocal finished
+        for number, outcome in outcomes:
+            done[number] = _facts_of(jobs[number], outcome)
+            finished += sizes[number]
+            progress(finished, sum(sizes))
+            if outcome.error is None:
+                order.done(number)
+            if report:
+                report.take(number, done[number])
+            yield number, outcome
+
+    tasks = _tasks(order, task)
     try:
-        with console.progress() as progress, closing(_outcomes(run, console, work, given(), sizes)) as outcomes:
-            for number, outcome in outcomes:
-                done[number] = outcome.facts
-                finished += sizes[number]
-                progress(finished, sum(sizes))
-                if outcome.error is not None:
-                    failed = {"error": worded(outcome.error), "exit": exit_of(outcome.error).code}
-                    done[number] = {"input": jobs[number].input, "output": jobs[number].output, **failed}
-                else:
-                    order.done(number)
-                    for user in order.get_ready():
-                        heappush(ready, user)
-                if report:
-                    report.take(number, done[number])
-                waiting[number] = outcome
-                while following in waiting:
-                    ended(jobs[following], waiting.pop(following))
-                    following += 1
-        for number in sorted(waiting):  # behind one that lacks what it needs
-            ended(jobs[number], waiting[number])
+        with console.progress() as progress, closing(_outcomes(run, console, work, tasks, sizes)) as outcomes:
+            for number, outcome in _in_order(taken(outcomes, progress)):
+                ended(jobs[number], outcome)
     finally:
         if report:
             report.write()
     if run.resume:
         console.note(f"{sum('resumed' in facts for facts in done)} of {len(jobs)} were up to date")
     return done
+
+
+def _on_all_machines(jobs: Sequence[Job]) -> list[Job]:
+    """Return jobs by paths that are valid in all processes of a cluster."""
+    if any("-" in (job.input, job.output) for job in jobs):
+        raise OptionError("a cluster cannot read a pipe; name files")
+    return [replace(job, input=anywhere(job.input), output=anywhere(job.output)) for job in jobs]
+
+
+def _tasks(order: TopologicalSorter[int], task: Callable[[int], Task]) -> Tasks:
+    """Yield the tasks of jobs that wait for no other, by their numbers; None where all that are left wait."""
+    ready: list[int] = []
+    while True:
+        for number in order.get_ready():
+            heappush(ready, number)
+        if ready:
+            number = heappop(ready)
+            yield number, task(number)
+        else:
+            yield None
+
+
+def _reported(run: Batch, asked: Task, work: Work, jobs: Sequence[Job]) -> tuple[Work, Earlier, Report | None]:
+    """Return work that is reported, what an earlier report holds, and the new one, if a report is wanted."""
+    if run.report is None:
+        if run.resume:
+            raise OptionError("--resume needs --report FILE.json")
+        return work, NOTHING, None
+    refuse_collisions([job.input for job in jobs], [*(job.output for job in jobs), run.report])
+    refuse_to_overwrite(run.report, asked.force or run.resume)
+    command, options = work.__name__, options_of(asked)
+    earlier = read_report(run.report, command, options) if run.resume else NOTHING
+    return partial(recorded, work), earlier, Report(run.report, command, options, jobs, earlier.files)
+
+
+def _facts_of(job: Job, outcome: Outcome) -> Facts:
+    if outcome.error is None:
+        return outcome.facts
+    failed = {"error": worded(outcome.error), "exit": exit_of(outcome.error).code}
+    return {"input": job.input, "output": job.output, **failed}
+
+
+def _in_order(outcomes: Outcomes) -> Outcomes:
+    """Yield outcomes by their numbers, and at the end those behind a job that lacks what it needs."""
+    waiting, following = dict[int, Outcome](), 0
+    for number, outcome in outcomes:
+        waiting[number] = outcome
+        while following in waiting:
+            yield following, waiting.pop(following)
+            following += 1
+    for number in sorted(waiting):
+        yield number, waiting[number]
 
 
 def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
