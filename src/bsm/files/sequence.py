@@ -123,7 +123,7 @@ def sequence_writer(
             return
         file = enter(open_output(path, overwrite=overwrite, follow=follow))
         if kind == "npz":
-            yield _of_one_mesh(enter(open_npz_sequence(file, faces, count, shared.attributes, shared.metadata)), kind)
+            yield _of_one_mesh(enter(open_npz_sequence(file, faces, count, shared)), kind)
         elif kind == "npy":
             write_npy(file, faces)
             yield _of_one_mesh(lambda frame: write_npy(file, frame), kind)

@@ -391,15 +391,7 @@ class Scene:
         faces = triangles_of(document, primitive, count)
         joints, weights = np.zeros((count, 0), np.int64), np.zeros((count, 0))
         if skin is not None:
-            sets = [number for number in range(len(given)) if {f"JOINTS_{number}", f"WEIGHTS_{number}"} <= given.keys()]
-            if not sets:
-                raise FormatError(f"the mesh of node {node} has a skin, and its vertices name no joints")
-            joints = np.hstack([self._of(given[f"JOINTS_{n}"], count, 4, "joints") for n in sets]).astype(np.int64)
-            weights = np.hstack([self._of(given[f"WEIGHTS_{n}"], count, 4, "weights") for n in sets])
-            total = weights.sum(axis=1, keepdims=True)
-            weights = np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
-            if joints.size and joints.max() >= len(skin.joints):
-                raise FormatError(f"a vertex of node {node} depends on joint {joints.max()} of {len(skin.joints)}")
+            joints, weights = self._weighed(given, count, f"node {node}", len(skin.joints))
         columns = self._columns(given, count)
         normals = np.zeros((0, count, 3))
         rows: Any = slice(None)
@@ -415,19 +407,21 @@ class Scene:
             columns = tuple(replace(column, values=column.values[rows]) for column in columns)
             faces = faces.reshape(-1, 3)
         number = int(primitive.get("material", -1))
-        return Primitive(
-            node,
-            points[:, rows],
-            colors[:, rows],
-            faces,
-            skin,
-            joints[rows],
-            weights[rows],
-            columns,
-            normals[:, rows],
-            number if document.items("materials")[number : number + 1] != [MATTE] else -1,
-            name,
-        )
+        number = number if document.items("materials")[number : number + 1] != [MATTE] else -1
+        moved = points[:, rows], colors[:, rows], faces, skin, joints[rows], weights[rows], columns, normals[:, rows]
+        return Primitive(node, *moved, number, name)
+
+    def _weighed(self, given: Tree, count: int, what: str, most: int) -> tuple[Ints, Doubles]:
+        """The joints of each vertex, all sets side by side, and their weights, whose sum is 1."""
+        sets = [number for number in range(len(given)) if {f"JOINTS_{number}", f"WEIGHTS_{number}"} <= given.keys()]
+        if not sets:
+            raise FormatError(f"the mesh of {what} has a skin, and its vertices name no joints")
+        joints = np.hstack([self._of(given[f"JOINTS_{n}"], count, 4, "joints") for n in sets]).astype(np.int64)
+        weights = np.hstack([self._of(given[f"WEIGHTS_{n}"], count, 4, "weights") for n in sets])
+        if joints.size and joints.max() >= most:
+            raise FormatError(f"a vertex of {what} depends on joint {joints.max()} of {most}")
+        total = weights.sum(axis=1, keepdims=True)
+        return joints, np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
 
     def _of(self, index: object, count: int, width: int, what: str) -> Doubles:
         """An accessor for each vertex; zeros where there is none."""

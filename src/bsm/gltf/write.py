@@ -136,9 +136,8 @@ class _Scene(Growing):
         for extension in sorted(used | extensions.keys()):
             self.use(extension, required=False)
         held = {name for name in held_by("glTF") if getattr(look, name.partition(".")[0]) not in absent}
-        held -= {
-            f"{name}.set" for name, one in vars(look).items() if isinstance(one, Texture) and one.set >= self._sets
-        }
+        textures = ((name, value) for name, value in vars(look).items() if isinstance(value, Texture))
+        held -= {f"{name}.set" for name, texture in textures if texture.set >= self._sets}
         written |= {f"material.{number}.{name}" for name in words.keys() - {*lost(words, held)}}
         return self.add("materials", found) if found else None
 
@@ -316,9 +315,7 @@ class _Moving(_Scene):
         for run, end in zip(self._runs, ends, strict=True):
             count = end - run.begun - 1
             for primitive, rows in run.primitives:
-                if any(
-                    "COLOR_0" in target for target in primitive["targets"]
-                ):  # then all have to; without bytes it is 0
+                if any("COLOR_0" in one for one in primitive["targets"]):  # then all have to; without bytes it is 0
                     zeros = self.accessor(FLOAT, len(rows), run.first[2].shape[1])
                     primitive["targets"] = [{"COLOR_0": zeros} | target for target in primitive["targets"]]
             if count:
@@ -362,14 +359,14 @@ def moving_scene(stream: bytes) -> bytes:
     scene = _Scene(io.BytesIO())
     source = scene.view(stream)
     places: dict[str, int] = {}
-    room = 0
+    largest = 0
     for name, (component, width) in kinds.items():
         count = len(shape.index if name == "indices" else shape.arrays["POSITION"])
-        room = max(room, size := 4 * width * count)
+        largest = max(largest, size := 4 * width * count)
         view: Tree = {"buffer": 1, "byteLength": size, "extensions": {EXTENSION: {"stream": source, "attribute": name}}}
         places[name] = scene.accessor(component, count, width, scene.add("bufferViews", view))
     scene.tree["accessors"][0] |= bounds_of(positions.astype(np.float32))
-    scene.add("buffers", {"byteLength": room, "extensions": {EXTENSION: {"fallback": True}}})
+    scene.add("buffers", {"byteLength": largest, "extensions": {EXTENSION: {"fallback": True}}})
     metadata: Metadata = sequence.metadata
     node = {"name": str(metadata["name"])} if "name" in metadata else {}
     primitive = {"indices": places.pop("indices"), "attributes": places}

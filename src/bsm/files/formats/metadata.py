@@ -237,17 +237,17 @@ def remarks(metadata: Metadata, written: Iterable[str] = ()) -> tuple[list[str],
     """Return the lines with metadata, and the names of entries that they cannot hold."""
     lines: list[str] = []
     left_out: list[str] = []
-    room = _MOST_BYTES
+    free = _MOST_BYTES
     elsewhere = set(written)
     for name, value in metadata.items():
         line = "" if isinstance(value, bytes) else f"meta {name}: {json.dumps(value)}"
         size = len(line.encode(errors="replace")) + _ENTRY_BYTES
         if name in elsewhere:
             continue
-        if size > room or not _REMARK.fullmatch(line):
+        if size > free or not _REMARK.fullmatch(line):
             left_out.append(name)
         else:
-            room -= size
+            free -= size
             lines.append(line)
     return lines, tuple(left_out)
 

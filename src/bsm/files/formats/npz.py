@@ -31,7 +31,7 @@ from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import Written
 from bsm.files.formats.polygons import Array, Column, Polygons, attributes_of, meaning_of
-from bsm.files.motion.frames import Frames
+from bsm.files.motion.frames import Frames, Shared
 from bsm.files.parsing import AS_NUMBERS, TREE, require_count, require_inflated
 from bsm.files.pipes import Input, about
 
@@ -308,11 +308,7 @@ def write_npz(mesh: TriangleMesh, stem: str) -> Written:
 
 @contextmanager
 def open_npz_sequence(
-    file: BinaryIO,
-    faces: Faces,
-    count: int,
-    attributes: Callable[[], tuple[Attribute, ...]] = tuple,
-    metadata: Callable[[], Metadata] = dict,
+    file: BinaryIO, faces: Faces, count: int, shared: Shared
 ) -> Iterator[Callable[[Positions], None]]:
     """Write an npz of frames, shape (T, n, 3); yields what takes them. What changes waits in files for their number."""
     first, moved, taken = dict[str, Array](), dict[str, IO[bytes]](), 0
@@ -321,7 +317,7 @@ def open_npz_sequence(
 
         def take(frame: Positions) -> None:
             nonlocal taken
-            for name, values in {"positions": np.asarray(frame, "<f8"), **_arrays_of(attributes())}.items():
+            for name, values in {"positions": np.asarray(frame, "<f8"), **_arrays_of(shared.attributes())}.items():
                 before = first.setdefault(name, values)
                 if name not in moved and (name == "positions" or values is not before):
                     moved[name] = waiting.enter_context(tempfile.TemporaryFile())
@@ -333,10 +329,9 @@ def open_npz_sequence(
         yield take
         if taken != (count or taken):
             raise CorruptError(f"{taken} of {count} frames came")
-        for name, values in {"faces": faces, **first, **_metadata_in(metadata())}.items():
-            entry_name = f"{name}.npy"
-            stored = zipfile.ZipInfo(entry_name) if name in ("faces", "positions") else entry_name
-            with archive.open(stored, "w", force_zip64=name in moved) as entry:
+        for name, values in {"faces": faces, **first, **_metadata_in(shared.metadata())}.items():
+            named: Any = zipfile.ZipInfo(f"{name}.npy") if name in ("faces", "positions") else f"{name}.npy"
+            with archive.open(named, "w", force_zip64=name in moved) as entry:
                 if name in moved:
                     header = {"descr": values.dtype.str, "fortran_order": False, "shape": (taken, *values.shape)}
                     np.lib.format.write_array_header_1_0(entry, header)

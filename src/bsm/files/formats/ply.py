@@ -73,13 +73,8 @@ class PlyHeader:
         images = [line.removeprefix(IMAGE).strip() for _, line in self.comments if line.startswith(f"{IMAGE} ")]
         found = formats.parse_remarks(line for _, line in self.comments)
         for keyword in COMMENTS:
-            lines = [line for kind, line in self.comments if kind == keyword]
-            own = [
-                line
-                for line in lines
-                if line and not line.startswith(f"{IMAGE} ") and not formats.parse_remarks([line])
-            ]
-            if own:
+            lines = [line for kind, line in self.comments if kind == keyword and not line.startswith(f"{IMAGE} ")]
+            if own := [line for line in lines if line and not formats.parse_remarks([line])]:
                 found.setdefault(keyword, "\n".join(own))
         entries = [item for material in formats.materials_in(found).values() for item in material.items()]
         shown = {value for name, value in entries if refers_to_image(name)}
