@@ -162,7 +162,7 @@ def _facts_of(job: Job, outcome: Outcome) -> Facts:
 
 
 def _in_order(outcomes: Outcomes) -> Outcomes:
-    """Yield outcomes by their numbers, and at the end those behind a job that lacks what it needs."""
+    """Yield outcomes by their numbers, and at the end those after a job that failed."""
     waiting, following = dict[int, Outcome](), 0
     for number, outcome in outcomes:
         waiting[number] = outcome
