@@ -105,9 +105,7 @@ def found_in(memory: int, limits: Limits) -> MeshFile | Frames | None:
     except LimitError:
         raise
     except MemoryError as error:
-        raise LimitError(
-            "the system has too little memory for the answer of the process that read this file"
-        ) from error
+        raise LimitError("the system has too little memory for the answer of the reading process") from error
     except Exception as error:
         raise FormatError("the process that read this file left no mesh") from error
     if isinstance(found, BsmError):

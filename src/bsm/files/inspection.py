@@ -12,6 +12,7 @@ from bsm.bitstream.container.header import Header, values_of
 from bsm.bitstream.container.packets import MetadataValue
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.geometry.attributes import DOMAINS, KINDS, SEMANTICS
 
 
 @dataclass(frozen=True)
@@ -165,14 +166,6 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
 
 
 def _attribute_info(packet: SkimmedPacket, size: int) -> AttributeInfo:
-    return AttributeInfo(
-        packet.name,
-        ("vertex", "corner", "face")[packet.domain],
-        ("generic", "color", "normal", "texcoord")[packet.semantic],
-        ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")[packet.kind],
-        packet.components,
-        packet.rows,
-        "moving levels" if packet.moves else ("levels", "octahedral", "bits", "recomputed")[packet.coding],
-        packet.data,
-        size,
-    )
+    coding = "moving levels" if packet.moves else ("levels", "octahedral", "bits", "recomputed")[packet.coding]
+    meant = DOMAINS[packet.domain], SEMANTICS[packet.semantic], KINDS[packet.kind]
+    return AttributeInfo(packet.name, *meant, packet.components, packet.rows, coding, packet.data, size)

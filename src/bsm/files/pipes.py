@@ -247,9 +247,8 @@ class Input:
             try:
                 self._file = io.BytesIO(source if isinstance(source, bytes) else memoryview(source).tobytes())
             except TypeError:
-                raise errors.ArgumentError(
-                    f"bytes, a path or a binary file are expected, not {type(source).__name__}"
-                ) from None
+                kind = type(source).__name__
+                raise errors.ArgumentError(f"bytes, a path or a binary file are expected, not {kind}") from None
 
     @property
     def is_file(self) -> bool:

@@ -82,9 +82,9 @@ class Document:
     @property
     def streams(self) -> list[int]:
         """The bufferViews that are streams."""
-        held = (view.get("extensions", {}).get(EXTENSION) for view in self.items("bufferViews"))
-        moving = (mesh.get("extensions", {}).get(EXTENSION) for mesh in self.items("meshes"))
-        return sorted({int(how["stream"]) for how in (*held, *moving) if how})
+        holders = (*self.items("bufferViews"), *self.items("meshes"))
+        held = (holder.get("extensions", {}).get(EXTENSION) for holder in holders)
+        return sorted({int(how["stream"]) for how in held if how})
 
     @property
     def moving(self) -> bytes | None:
@@ -120,9 +120,7 @@ class Document:
     def _viewed(self, index: object) -> memoryview:
         view = self.item("bufferViews", index)
         if unread := self.unread_in(view) & {*self.tree.get("extensionsRequired", [])}:
-            raise UnsupportedError(
-                f"bufferView {index} of this glTF is packed by {min(unread)}, which is not read here"
-            )
+            raise UnsupportedError(f"bufferView {index} of this glTF is packed by {min(unread)}, which is not read")
         if any(name in view.get("extensions", {}) for name in (EXTENSION, *MESHOPT)):
             return memoryview(self._unpack(view["extensions"]))
         return self._plain(view, index)
@@ -387,9 +385,8 @@ class Growing:
         return self.view(np.pad(rows, ((0, 0), (0, -size % 4))).tobytes(), byteStride=size + -size % 4)
 
     def write(self, file: IO[bytes]) -> None:
-        text = json.dumps(self.tree, separators=(",", ":"), ensure_ascii=False, allow_nan=False).encode(
-            errors="replace"
-        )
+        tree = json.dumps(self.tree, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+        text = tree.encode(errors="replace")
         text += b" " * (-len(text) % 4)
         file.write(struct.pack("<4sIIII", _MAGIC, 2, 28 + len(text) + self.size, len(text), _JSON) + text)
         file.write(struct.pack("<II", self.size, _BINARY))

@@ -14,7 +14,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats import metadata as formats
-from bsm.files.formats.appearance import appearance, one_line, refers_to_image
+from bsm.files.formats.appearance import appearance, one_line, refers_to_image, text_of
 from bsm.files.formats.polygons import PLURALS, Array, Column, Polygons, color_column, meaning_of, unused_name
 from bsm.files.parsing import Doubles, Ints, Rows, as_integers, ranges, require_count, require_lines, single_suffices
 
@@ -100,12 +100,7 @@ def parse_header(data: bytes) -> PlyHeader:
     order: str | None = None
     elements: list[Element] = []
     comments: list[tuple[str, str]] = []
-    head = data[begin.end() : end.start()]
-    try:
-        text = head.decode()
-    except UnicodeDecodeError:
-        text = head.decode("latin-1")
-    for line in re.split("[\r\n]+", text):
+    for line in re.split("[\r\n]+", text_of(data[begin.end() : end.start()])):
         words = line.split()
         try:
             match words:

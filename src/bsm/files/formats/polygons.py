@@ -397,9 +397,9 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, I
         return np.arange(len(corners)).reshape(-1, 3), np.arange(len(sizes)), 0
     scaled = positions / max(float(np.abs(positions).max()), 1e-300)  # so that no product overflows
     pieces = np.maximum(sizes - 2, 0)
-    first = np.cumsum(sizes) - sizes
+    first, starts = np.cumsum(sizes) - sizes, np.cumsum(pieces) - pieces
     owner = np.repeat(np.arange(len(sizes)), pieces)
-    step = np.arange(len(owner)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    step = np.arange(len(owner)) - np.repeat(starts, pieces)
 
     def fans(rows: Ints, turn: int) -> Ints:
         polygon = owner[rows]
@@ -427,7 +427,6 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, I
         return places, owner, 0
     rows = np.flatnonzero(np.isin(np.repeat(np.arange(len(sizes)), sizes), bad))
     cuts = _ears(scaled[corners[rows]], sizes[bad], normals[bad])
-    starts = np.cumsum(pieces) - pieces
     whole = [place for place, cut in enumerate(cuts) if len(cut) == pieces[bad[place]]]
     for place in whole:
         polygon = bad[place]

@@ -185,11 +185,7 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     points, polygons = _count(piece, "NumberOfPoints", 0), _count(piece, "NumberOfPolys", 0)
     require_count("vertices", points, limits)
     require_count("faces", polygons, limits)
-    shape = {
-        (around, array.get("Name", "") if around == "Polys" else ""): array
-        for around, array in document.arrays
-        if around in ("Points", "Polys")
-    }
+    shape = {(around, array.get("Name", "") * (around == "Polys")): array for around, array in document.arrays}
     try:
         needed = (("Points", ""), ("Polys", "connectivity"), ("Polys", "offsets"))
         coordinates, corners, ends = (document.numbers(shape[key]) for key in needed)

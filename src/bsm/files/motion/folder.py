@@ -77,10 +77,8 @@ def in_order(names: Sequence[str]) -> list[str]:
     if len(steps) and steps.min() > 0 and (steps != steps.min()).any():
         place = int(np.argmax(steps != steps.min()))
         missing = numbers[place] + int(steps.min())
-        raise MeshError(
-            f"frame {missing} is missing between {ordered[place]} and {ordered[place + 1]}; "
-            "add it, or number the files without a gap"
-        )
+        between = f"between {ordered[place]} and {ordered[place + 1]}"
+        raise MeshError(f"frame {missing} is missing {between}; add it, or number the files without a gap")
     return ordered
 
 

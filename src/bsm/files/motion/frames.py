@@ -3,7 +3,7 @@
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from operator import lt
 from typing import Protocol
 
@@ -63,11 +63,9 @@ class Frames:
         corners = (np.argmin(faces, axis=1)[:, None] + np.arange(3))[order] % 3
         given = np.where(order < len(self.faces), order, 0)
         attributes = [attribute.taken(np.arange(self.rigged), given) for attribute in self.attributes]
-        turned = [
-            a if a.indices is None else replace(a, indices=np.take_along_axis(a.indices, corners, axis=1))
-            for a in attributes
-        ]
-        return replace(self, faces=np.take_along_axis(faces[order], corners, axis=1), attributes=tuple(turned))
+        turn = partial(np.take_along_axis, indices=corners, axis=1)
+        turned = (a if a.indices is None else replace(a, indices=turn(a.indices)) for a in attributes)
+        return replace(self, faces=turn(faces[order]), attributes=tuple(turned))
 
 
 @dataclass(frozen=True)

@@ -325,11 +325,8 @@ class _Shape:
         self.rows: dict[Domain, int] = {"vertex": self.vertices, "face": faces, "corner": corners}
         given = pxr.UsdGeom.PrimvarsAPI(prim).FindPrimvarsWithInheritance()
         self._primvars = [primvar for primvar in given if primvar.HasAuthoredValue()]
-        self.left_out = [
-            f"how {primvar.GetPrimvarName()} changes"
-            for primvar in self._primvars
-            if primvar.ValueMightBeTimeVarying() and primvar.GetAttr() not in self.painted
-        ]
+        moving = [primvar for primvar in self._primvars if primvar.ValueMightBeTimeVarying()]
+        self.left_out = [f"how {p.GetPrimvarName()} changes" for p in moving if p.GetAttr() not in self.painted]
 
     @cached_property
     def counts(self) -> Ints:
@@ -428,9 +425,8 @@ class _Instancer:
         """Return the matrix that places an instance, with its prototype's transform, in the world."""
         if self._placed[0] != time.GetValue():
             every = self._pxr.UsdGeom.PointInstancer.IgnoreMask
-            found = self._instancer.ComputeInstanceTransformsAtTime(
-                time, time, self._pxr.UsdGeom.PointInstancer.IncludeProtoXform, every
-            )
+            moved = self._pxr.UsdGeom.PointInstancer.IncludeProtoXform
+            found = self._instancer.ComputeInstanceTransformsAtTime(time, time, moved, every)
             self._placed = time.GetValue(), np.array(found, np.float64).reshape(-1, 4, 4)
         if number >= len(self._placed[1]):
             raise MeshError(f"{self.prim.GetPath()} has {len(self._placed[1])} instances at {time}, and more before")
@@ -566,9 +562,7 @@ class _Stage:
         every = iter(pxr.Usd.PrimRange.Stage(self.stage, pxr.Usd.TraverseInstanceProxies()))
         for count, prim in enumerate(every):
             if count == MOST_PRIMS:
-                raise LimitError(
-                    f"the stage has more than {MOST_PRIMS:,} prims with those of instances; export a part of it"
-                )
+                raise LimitError(f"the stage and its instances have over {MOST_PRIMS:,} prims; export a part of it")
             if hidden := self._hidden(prim):
                 left.setdefault(hidden, []).append(str(prim.GetPath()))
             elif prim.IsA(pxr.UsdGeom.PointInstancer):
