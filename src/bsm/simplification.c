@@ -12,7 +12,7 @@ typedef struct {
     double *quadrics;
     const int64_t *starts;
     const int32_t *around;
-    const int32_t *wedges;        /* The values that corners have beside their place. */
+    int32_t *wedges;              /* The values that corners have beside their place. */
     int32_t *ends, *marks, *joins; /* Where each vertex went in this pass, and each wedge. */
     int32_t mark;
 } WorkingMesh;
@@ -165,6 +165,74 @@ INLINE int64_t bucket_of(float cost) {
     return value.bits >> 16;
 }
 
+/* Add up for each vertex the quadrics of its triangles, and of seams along their sides. */
+static void add_quadrics(WorkingMesh *surface, int64_t count) {
+    for (int64_t f = 0; f < count; f++) {
+        const int32_t *face = surface->faces + 3 * f;
+        const double *at[3];
+        for (int i = 0; i < 3; i++) at[i] = surface->positions + 3 * (int64_t)face[i];
+        double n[3];
+        cross3(at[0], at[1], at[2], n);
+        double area = __builtin_sqrt(dot3(n, n));
+        for (int i = 0; area > 0.0 && i < 3; i++) {
+            add_plane(surface->quadrics + TERMS * (int64_t)face[i], n, 1.0 / area, at[0]);
+            add_point(surface->quadrics + TERMS * (int64_t)face[i], SHAPE * area, at[i]);
+            const int other = (i + 1) % 3;
+            if (!(surface->states[face[i]] & surface->states[face[other]] & SEAM)) continue;
+            double along[3] = {at[other][0] - at[i][0], at[other][1] - at[i][1], at[other][2] - at[i][2]};
+            double squared = dot3(along, along);
+            for (int end = i; end >= 0; end = end == i ? other : -1) {
+                add_point(surface->quadrics + TERMS * (int64_t)face[end], squared, at[end]);
+                add_plane(surface->quadrics + TERMS * (int64_t)face[end], along, -1.0, at[end]);
+            }
+        }
+    }
+}
+
+/* Make points of about `wanted` edges of `count` triangles, the cheapest, in the order of memory; returns how many. */
+static int64_t collapse_edges(WorkingMesh *surface, int64_t count, int64_t wanted, Singles costs, Ints buckets) {
+    int32_t a, b, stays;
+    double p[3];
+    int64_t found = 0, made = 0, most = 0, last = 0, next = 0;
+    for (int64_t k = 0; k < BUCKETS; k++) buckets.data[k] = 0;
+    for (int64_t k = 0; k < 3 * count && found < costs.size; k++) {
+        if (!is_edge(surface, k, &a, &b)) continue;
+        costs.data[found] = (float)placed(surface, a, b, p, &stays);
+        buckets.data[bucket_of(costs.data[found++])]++;
+    }
+    while (last < BUCKETS && most < 2 * wanted) most += buckets.data[last++];
+    for (int64_t k = 0; next < found && made < wanted; k++) {
+        if (!is_edge(surface, k, &a, &b) || bucket_of(costs.data[next++]) >= last) continue;
+        if ((surface->states[a] | surface->states[b]) & TOUCHED) continue;
+        placed(surface, a, b, p, &stays);
+        int32_t goes = stays == a ? b : a;
+        if (!may_collapse(surface, a, b, p) || !wedges_join(surface, goes, stays)) continue;
+        double *own = surface->quadrics + TERMS * (int64_t)stays, *other = surface->quadrics + TERMS * (int64_t)goes;
+        for (int i = 0; i < TERMS; i++) own[i] += other[i];
+        for (int i = 0; i < 3; i++) surface->positions[3 * (int64_t)stays + i] = p[i];
+        surface->ends[goes] = stays;
+        surface->states[a] |= TOUCHED;
+        surface->states[b] |= TOUCHED;
+        made++;
+    }
+    return made;
+}
+
+/* Move the triangles that are left to the front, with the corners that they have now; returns how many. */
+static int64_t drop_faces(WorkingMesh *surface, int64_t count) {
+    int64_t kept = 0;
+    int32_t corners[3];
+    for (int64_t f = 0; f < count; f++) {
+        if (!corners_now(surface, f, corners)) continue;
+        for (int i = 0; i < 3; i++) {
+            surface->faces[3 * kept + i] = corners[i];
+            surface->wedges[3 * kept + i] = surface->joins[surface->wedges[3 * f + i]];
+        }
+        kept++;
+    }
+    return kept;
+}
+
 /* Make fewer of triangles with three different corners, about `target`. `wedges` number the values of their corners: a
  * vertex with several, SEAM of `states`, becomes another one along a seam. `states` is FIXED for vertices that
  * stay where they are, and STEADY for all if none may move. Returns how many triangles there are, which stand first;
@@ -173,7 +241,7 @@ INLINE int64_t bucket_of(float cost) {
 int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Doubles2 quadrics, Longs starts,
                  Ints around, Ints ends, Ints marks, Ints joins, Ints owners, Singles costs, Ints buckets,
                  int64_t target) {
-    int64_t size = positions.rows, count = faces.rows;
+    int64_t size = positions.rows, count = faces.rows, made = 1;
     if (states.size != size || quadrics.rows != size || quadrics.columns != TERMS || starts.size != size + 1 ||
         around.size < 3 * count || ends.size != size || marks.size != size || owners.size != size ||
         buckets.size != BUCKETS || positions.columns != 3 || faces.columns != 3 || wedges.rows != count ||
@@ -189,71 +257,17 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Do
         owners.data[v] = (int32_t)v;
         for (int i = 0; i < TERMS; i++) quadrics.data[TERMS * v + i] = 0.0;
     }
-    for (int64_t f = 0; f < count; f++) {
-        const int32_t *face = faces.data + 3 * f;
-        const double *at[3];
-        for (int i = 0; i < 3; i++) at[i] = positions.data + 3 * (int64_t)face[i];
-        double n[3];
-        cross3(at[0], at[1], at[2], n);
-        double area = __builtin_sqrt(dot3(n, n));
-        for (int i = 0; area > 0.0 && i < 3; i++) {
-            add_plane(quadrics.data + TERMS * (int64_t)face[i], n, 1.0 / area, at[0]);
-            add_point(quadrics.data + TERMS * (int64_t)face[i], SHAPE * area, at[i]);
-            const int other = (i + 1) % 3;
-            if (!(states.data[face[i]] & states.data[face[other]] & SEAM)) continue;
-            double along[3] = {at[other][0] - at[i][0], at[other][1] - at[i][1], at[other][2] - at[i][2]};
-            double squared = dot3(along, along);
-            for (int end = i; end >= 0; end = end == i ? other : -1) {
-                add_point(quadrics.data + TERMS * (int64_t)face[end], squared, at[end]);
-                add_plane(quadrics.data + TERMS * (int64_t)face[end], along, -1.0, at[end]);
-            }
-        }
-    }
-    for (int pass = 0; pass < PASSES && count > target; pass++) {
-        int32_t a, b, stays;
-        double p[3];
+    add_quadrics(&surface, count);
+    for (int pass = 0; made && pass < PASSES && count > target; pass++) {
         vertex_faces((ConstInts2){faces.data, count, 3}, starts, around);
         for (int64_t v = 0; v < size; v++) {
             ends.data[v] = (int32_t)v;
             states.data[v] &= ~TOUCHED;
         }
         for (int64_t w = 0; w < joins.size; w++) joins.data[w] = (int32_t)w;
-        for (int64_t k = 0; k < BUCKETS; k++) buckets.data[k] = 0;
-        int64_t found = 0, made = 0, wanted = (count - target + 1) / 2, most = 0, last = 0, next = 0;
-        for (int64_t k = 0; k < 3 * count && found < costs.size; k++) {
-            if (!is_edge(&surface, k, &a, &b)) continue;
-            costs.data[found] = (float)placed(&surface, a, b, p, &stays);
-            buckets.data[bucket_of(costs.data[found++])]++;
-        }
-        /* The cheapest, in the order of memory. */
-        while (last < BUCKETS && most < 2 * wanted) most += buckets.data[last++];
-        for (int64_t k = 0; next < found && made < wanted; k++) {
-            if (!is_edge(&surface, k, &a, &b) || bucket_of(costs.data[next++]) >= last) continue;
-            if ((states.data[a] | states.data[b]) & TOUCHED) continue;
-            placed(&surface, a, b, p, &stays);
-            int32_t goes = stays == a ? b : a;
-            if (!may_collapse(&surface, a, b, p) || !wedges_join(&surface, goes, stays)) continue;
-            for (int i = 0; i < TERMS; i++)
-                quadrics.data[TERMS * (int64_t)stays + i] += quadrics.data[TERMS * (int64_t)goes + i];
-            for (int i = 0; i < 3; i++) positions.data[3 * (int64_t)stays + i] = p[i];
-            ends.data[goes] = stays;
-            states.data[a] |= TOUCHED;
-            states.data[b] |= TOUCHED;
-            made++;
-        }
+        made = collapse_edges(&surface, count, (count - target + 1) / 2, costs, buckets);
         for (int64_t v = 0; v < size; v++) owners.data[v] = ends.data[owners.data[v]];
-        int64_t kept = 0;
-        for (int64_t f = 0; f < count; f++) {
-            int32_t corners[3];
-            if (!corners_now(&surface, f, corners)) continue;
-            for (int i = 0; i < 3; i++) {
-                faces.data[3 * kept + i] = corners[i];
-                wedges.data[3 * kept + i] = joins.data[wedges.data[3 * f + i]];
-            }
-            kept++;
-        }
-        count = kept;
-        if (!made) break;
+        count = drop_faces(&surface, count);
     }
     return count;
 }
