@@ -62,34 +62,9 @@ def like(document: gltf.Document, primitive: Tree) -> str:
 def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> Carried | str:
     """Primitives that are alike as one mesh, or why they stay as they are."""
     primitives = [same[0] for same in bundle]
-    if primitives[0].get("mode", TRIANGLES) not in TRIANGULAR:
-        return "points or lines"
-    # Each combination of accessors is made once.
-    combined = {str(sorted(arrays_of(primitive).items())): arrays_of(primitive) for primitive in primitives}
-    indexes = [index for arrays in combined.values() for index in arrays.values()]
-    indexes += [primitive["indices"] for primitive in primitives if "indices" in primitive]
-    # Accessors may share bytes.
-    DEFAULT_LIMITS.check_memory(gltf.PER_NUMBER * sum(map(document.claimed, indexes)), 0, document.received)
-    tables: dict[str, int] = {}  # where the vertices of which accessors begin
-    parts: list[dict[str, Array]] = []
-    faces: list[npt.NDArray[np.int64]] = []
-    count = 0
-    for primitive in primitives:
-        key = str(sorted(arrays_of(primitive).items()))
-        if key not in tables:
-            found = _vertices(document, primitive)
-            if isinstance(found, str):
-                return found
-            parts.append(found)
-            tables[key] = count
-            count += len(found["POSITION"])
-        triangles = gltf.triangles_of(document, primitive, document.count(primitive["attributes"]["POSITION"]))
-        if not len(triangles):
-            return "no triangles"
-        faces.append(triangles + tables[key])
-    used, corners = np.unique(np.concatenate(faces), return_inverse=True)
-    arrays = {name: np.concatenate([part[name] for part in parts])[used] for name in parts[0]}
-    corners = corners.reshape(-1, 3)
+    if isinstance(joined := _joined(document, primitives), str):
+        return joined
+    arrays, corners, sizes = joined
     opens = _opens(arrays, corners)
     positions = arrays.pop("POSITION")
     entries = {name: document.item("accessors", index) for name, index in arrays_of(primitives[0]).items()}
@@ -108,16 +83,42 @@ def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> 
             of_name = _quality(name, array, extent, lambda name: _texel(document, bundle, name))
             qualities |= {name: of_name} if of_name else {}
     if len(primitives) > 1:
-        numbers = np.repeat(np.arange(len(faces)), [len(some) for some in faces])
+        numbers = np.repeat(np.arange(len(sizes)), sizes)
         attributes.append(Attribute(PIECE, numbers.astype(np.uint16), "face"))
     mesh = TriangleMesh(positions.astype(np.float64), corners.astype(np.int32), tuple(attributes), {})
     return Carried(mesh, accessors, qualities, opens)
 
 
-def _vertices(document: gltf.Document, primitive: Tree) -> dict[str, Array] | str:
-    """What each vertex of a primitive has, or why that cannot be coded."""
+def _joined(
+    document: gltf.Document, primitives: list[Tree]
+) -> tuple[dict[str, Array], npt.NDArray[np.int64], list[int]] | str:
+    """The arrays of all vertices, the faces, and how many each primitive has; or why they stay as they are."""
+    combined = {str(sorted(arrays_of(primitive).items())): arrays_of(primitive) for primitive in primitives}
+    indexes = [index for arrays in combined.values() for index in arrays.values()]
+    indexes += [primitive["indices"] for primitive in primitives if "indices" in primitive]
+    # Accessors may share bytes.
+    DEFAULT_LIMITS.check_memory(gltf.PER_NUMBER * sum(map(document.claimed, indexes)), 0, document.received)
+    begins, parts, faces, count = dict[str, int](), list[dict[str, Array]](), list[npt.NDArray[np.int64]](), 0
+    for key, arrays in combined.items():  # each combination of accessors is made once
+        if isinstance(found := _vertices(document, arrays), str):
+            return found
+        parts.append(found)
+        begins[key] = count
+        count += len(found["POSITION"])
+    for primitive in primitives:
+        triangles = gltf.triangles_of(document, primitive, document.count(primitive["attributes"]["POSITION"]))
+        if not len(triangles):
+            return "no triangles"
+        faces.append(triangles + begins[str(sorted(arrays_of(primitive).items()))])
+    used, corners = np.unique(np.concatenate(faces), return_inverse=True)
+    whole = {name: np.concatenate([part[name] for part in parts])[used] for name in parts[0]}
+    return whole, corners.reshape(-1, 3), list(map(len, faces))
+
+
+def _vertices(document: gltf.Document, indexes: Mapping[str, int]) -> dict[str, Array] | str:
+    """What each vertex has by these accessors, or why that cannot be coded."""
     arrays: dict[str, Array] = {}
-    for name, index in arrays_of(primitive).items():
+    for name, index in indexes.items():
         array, normalized = document.array(index), bool(document.item("accessors", index).get("normalized"))
         geometry = name.rpartition("/")[2].startswith(("POSITION", "NORMAL", "TANGENT", "TEXCOORD_"))
         narrow = normalized and (name.startswith("_") or array[0].nbytes % 4 > 0)

@@ -57,14 +57,12 @@ def compress(
     asked = {**({"*": "exact"} if exact else {}), **options.get("attributes", {})}
     each = _one_grid(document, scene.tree, bundles, options) if one_grid else [options] * len(bundles)
     each = [{**own, "attributes": asked} for own in each]
-    sizes, begun = [sum(map(len, bundle)) for bundle in bundles], 0
-    coded: list[BundleStream | str] = []
+    sizes, coded = [sum(map(len, bundle)) for bundle in bundles], list[BundleStream | str]()
     meshes = (as_mesh(document, bundle, exact=exact) for bundle in bundles)
     given = zip(meshes, map(len, bundles), each, strict=True)
     for found in ordered_map(lambda mesh: code_bundle(*mesh), given, jobs or None):
         if progress:
-            progress(begun, sum(sizes))
-        begun += sizes[len(coded)]
+            progress(sum(sizes[: len(coded)]), sum(sizes))
         coded.append(found)
     done, errors = 0, [(0.0, 0.0)]
     for together in that_share(bundles, users):
