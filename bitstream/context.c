@@ -29,8 +29,8 @@ static char *write_name(char *to, const char *end, const char *name) {
     return to;
 }
 
-void write_message(char *to, size_t room, Message message) {
-    char *end = to + room - 1;
+void write_message(char *to, size_t capacity, Message message) {
+    char *end = to + capacity - 1;
     const int64_t numbers[] = {message.a, message.b, message.c};
     int next = 0;
     for (const char *from = message.text; *from != 0 && to < end; from++) {
@@ -48,9 +48,9 @@ bool name_attribute(Context *context, const char *name) {
     char reason[sizeof context->error.message], *message = context->error.message;
     memcpy(reason, message, sizeof reason);
     write_message(message, sizeof reason, (Message){.text = "attribute '$': ", .name = name});
-    size_t length = strlen(message), room = sizeof reason - 1 - length;
-    memcpy(message + length, reason, room);
-    message[length + room] = 0;
+    size_t length = strlen(message), left = sizeof reason - 1 - length;
+    memcpy(message + length, reason, left);
+    message[length + left] = 0;
 #endif
     return false;
 }

@@ -41,8 +41,8 @@ typedef struct {
     const char *name;
 } Message;
 
-/* Write a message to `room` bytes, cut off if it is longer. */
-void write_message(char *to, size_t room, Message message);
+/* Write a message to `capacity` bytes, cut off if it is longer. */
+void write_message(char *to, size_t capacity, Message message);
 /* Note the first thing wrong; always false, so that who finds it can return it. */
 bool fail_with(Context *context, bsmdec_status status, Message message);
 #ifdef BSMDEC_TERSE /* kind and place alone */

@@ -110,7 +110,7 @@ static void find_levels(Ahead *ahead, int64_t next_block) {
     LevelsAhead *levels = &ahead->levels;
     const Header *header = &decoder->mesh.header;
     double n = (double)header->vertices, m = (double)decoder->mesh.faces.rows;
-    int64_t place = 0, room = 0, vertex = 0;
+    int64_t place = 0, capacity = 0, vertex = 0;
     Packet packet;
     const Context *context = &decoder->context;
     levels->moves = reader->moves;
@@ -121,10 +121,10 @@ static void find_levels(Ahead *ahead, int64_t next_block) {
         if (!peek_packet(reader, &place, &packet) || packet.type != BLOCK_FRAME || packet.index != next_block) return;
     while (vertex < header->vertices && peek_packet(reader, &place, &packet) && packet.type == REFINEMENT_FRAME
            && packet.first == vertex && packet.count > 0 && packet.count <= header->vertices - vertex) {
-        if (levels->count == room) {
-            room = 2 * room + 16;
+        if (levels->count == capacity) {
+            capacity = 2 * capacity + 16;
             Packet *chunk;
-            if (!TAKE(&levels->chunks, room, chunk)) {
+            if (!TAKE(&levels->chunks, capacity, chunk)) {
                 give_up_levels(levels);
                 return;
             }

@@ -117,7 +117,7 @@ void bsmdec_close(bsmdec *decoder) {
     release_all(&decoder->shown);
     forget_split(decoder);
     end_reader(&decoder->reader);
-    host_give(context, decoder->queue, (size_t)decoder->room * sizeof *decoder->queue);
+    host_give(context, decoder->queue, (size_t)decoder->slots * sizeof *decoder->queue);
     bsmdec_allocator host = without_pool(context->host);
     host.release(host.host, decoder, sizeof *decoder);
 }
@@ -205,7 +205,7 @@ EXACTLY(bsmdec_status, bsmdec_next, (bsmdec *decoder, bsmdec_event *event), (dec
     }
     const Report *report = decoder->queue + decoder->first;
     *event = report->event;
-    decoder->first = (decoder->first + 1) % decoder->room;
+    decoder->first = (decoder->first + 1) % decoder->slots;
     decoder->waiting--;
     if (event->type == BSMDEC_FRAME && !show(decoder, event->index)) {
         decoder->waiting = 0;

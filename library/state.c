@@ -22,24 +22,24 @@ bsmdec_event event_of(const bsmdec *decoder, bsmdec_event_type type, int64_t ind
 
 bool emit_event(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count) {
     Context *context = &decoder->context;
-    if (decoder->waiting == decoder->room) {
-        int64_t room = 2 * decoder->room + 16;
+    if (decoder->waiting == decoder->slots) {
+        int64_t slots = 2 * decoder->slots + 16;
         Report *queue;
-        if (!TAKE_OF_HOST(context, room, queue)) return false;
-        for (int64_t i = 0; i < decoder->waiting; i++) queue[i] = decoder->queue[(decoder->first + i) % decoder->room];
-        host_give(context, decoder->queue, (size_t)decoder->room * sizeof *queue);
+        if (!TAKE_OF_HOST(context, slots, queue)) return false;
+        for (int64_t i = 0; i < decoder->waiting; i++) queue[i] = decoder->queue[(decoder->first + i) % decoder->slots];
+        host_give(context, decoder->queue, (size_t)decoder->slots * sizeof *queue);
         decoder->queue = queue;
-        decoder->room = room;
+        decoder->slots = slots;
         decoder->first = 0;
     }
-    decoder->queue[(decoder->first + decoder->waiting++) % decoder->room].event =
+    decoder->queue[(decoder->first + decoder->waiting++) % decoder->slots].event =
         event_of(decoder, type, index, count);
     return true;
 }
 
 bool emit_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count) {
     if (!emit_event(decoder, BSMDEC_LOSS, index, count)) return false;
-    decoder->queue[(decoder->first + decoder->waiting - 1) % decoder->room].loss = error;
+    decoder->queue[(decoder->first + decoder->waiting - 1) % decoder->slots].loss = error;
     return true;
 }
 

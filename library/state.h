@@ -122,7 +122,7 @@ struct bsmdec {
     Changes changes;
     /* The queue of events, a ring. */
     Report *queue;
-    int64_t first, waiting, room;
+    int64_t first, waiting, slots;
     /* What positions are asked of: those of the mesh, or of a frame; in the unit of the mesh, as coded. */
     bool has_positions;
     ConstDoubles2 positions;

@@ -26,12 +26,12 @@ void close_writer(Writer *writer) {
     without_pool(writer->context.host);
 }
 
-bool begin_payloads(Context *context, int64_t room, Writing *writing) {
-    *writing = (Writing){.room = room};
-    return TAKE_OF_HOST(context, room, writing->data);
+bool begin_payloads(Context *context, int64_t capacity, Writing *writing) {
+    *writing = (Writing){.capacity = capacity};
+    return TAKE_OF_HOST(context, capacity, writing->data);
 }
 
-void end_payloads(Context *context, Writing *writing) { host_give(context, writing->data, (size_t)writing->room); }
+void end_payloads(Context *context, Writing *writing) { host_give(context, writing->data, (size_t)writing->capacity); }
 
 static void begin(CodedField *field, Context *context, Written given) {
     memset(field, 0, sizeof *field);

@@ -16,7 +16,7 @@ typedef struct Writer {
 void open_writer(Writer *writer, bsmdec_allocator host);
 void close_writer(Writer *writer);
 /* Room for payloads, which grows with them. */
-MUST_CHECK bool begin_payloads(Context *context, int64_t room, Writing *writing);
+MUST_CHECK bool begin_payloads(Context *context, int64_t capacity, Writing *writing);
 void end_payloads(Context *context, Writing *writing);
 
 /* Write CONNECTIVITY of faces whose numbers are below `rows`, and say in which order vertices and faces are coded, and

@@ -9,7 +9,7 @@
 
 enum { WEIGHTS = START_ROWS * WEIGHT_ROW, LEARNT = START_LEARNERS * MOST_TERMS };
 typedef struct { int32_t weight[WEIGHTS], learner[LEARNT], hit[TWIN_ROWS], whole[WHOLE_ROWS * WHOLE_CONTEXTS]; } State;
-static Writing written = {.room = 1 << 26};
+static Writing written = {.capacity = 1 << 26};
 
 static void code(bsmdec *decoder, const State *start) {
     Context *context = &decoder->context;
@@ -45,7 +45,7 @@ static void code(bsmdec *decoder, const State *start) {
 int main(int count, char **names) {
     static State start;
     static char stream[1 << 24];
-    written.data = malloc((size_t)written.room);
+    written.data = malloc((size_t)written.capacity);
     FILE *file = fopen(names[1], "rb");
     if (fread(&start, sizeof start, 1, file) != 1) abort();
     fclose(file);

@@ -215,7 +215,7 @@ typedef struct {
     Arena arena;
     void *root;
     MetadataEntry **entries;
-    int64_t count, room;
+    int64_t count, capacity;
 } Metadata;
 
 /* The entry of a name, NULL if there is none. */
@@ -242,7 +242,7 @@ typedef struct {
     Metadata metadata;
     Arena meshes, scratch; /* what belongs to the present mesh; what a frame takes while it is read */
     uint8_t *buffer;
-    int64_t room, begin, end, moves; /* moves: how often bytes went elsewhere */
+    int64_t capacity, begin, end, moves; /* moves: how often bytes went elsewhere */
     int64_t last_offset, last_frame; /* where the last packet began, and its number */
     int64_t offset, frames, metadata_bytes; /* bytes and frames read; bytes of metadata without binary values */
     int64_t plain_bytes; /* of the last metadata */

@@ -50,13 +50,13 @@ static bool copy_span(Arena *arena, Span *bytes) {
 }
 
 static bool list_entry(Metadata *metadata, MetadataEntry *entry) {
-    if (metadata->count == metadata->room) {
-        int64_t room = 2 * metadata->room + 16;
+    if (metadata->count == metadata->capacity) {
+        int64_t capacity = 2 * metadata->capacity + 16;
         MetadataEntry **entries;
-        if (!TAKE(&metadata->arena, room, entries)) return false;
+        if (!TAKE(&metadata->arena, capacity, entries)) return false;
         if (metadata->count > 0) memcpy(entries, metadata->entries, (size_t)metadata->count * sizeof *entries);
         metadata->entries = entries;
-        metadata->room = room;
+        metadata->capacity = capacity;
     }
     metadata->entries[metadata->count++] = entry;
     return true;

@@ -16,7 +16,7 @@ void begin_reader(Reader *reader, Context *context, bool tolerant) {
 }
 
 void end_reader(Reader *reader) {
-    host_give(reader->context, reader->buffer, (size_t)reader->room);
+    host_give(reader->context, reader->buffer, (size_t)reader->capacity);
     release_all(&reader->metadata.arena);
     release_all(&reader->meshes);
     release_all(&reader->scratch);
@@ -24,17 +24,17 @@ void end_reader(Reader *reader) {
 
 bool receive(Reader *reader, Span bytes) {
     int64_t size = reader->end - reader->begin;
-    if (reader->room - reader->end < bytes.size) {
-        int64_t room = reader->room;
+    if (reader->capacity - reader->end < bytes.size) {
+        int64_t capacity = reader->capacity;
         uint8_t *buffer = reader->buffer;
-        if (size + bytes.size > room / 2) {
-            room = 2 * (size + bytes.size) + 1024;
-            if (!TAKE_OF_HOST(reader->context, room, buffer)) return false;
+        if (size + bytes.size > capacity / 2) {
+            capacity = 2 * (size + bytes.size) + 1024;
+            if (!TAKE_OF_HOST(reader->context, capacity, buffer)) return false;
         }
         if (size > 0) memmove(buffer, reader->buffer + reader->begin, (size_t)size);
-        if (buffer != reader->buffer) host_give(reader->context, reader->buffer, (size_t)reader->room);
+        if (buffer != reader->buffer) host_give(reader->context, reader->buffer, (size_t)reader->capacity);
         reader->buffer = buffer;
-        reader->room = room;
+        reader->capacity = capacity;
         reader->begin = 0;
         reader->end = size;
         reader->moves++;

@@ -3,7 +3,7 @@
 #ifdef BSMDEC_WRITES
 static void begin_writing(Coding *writing) {
     Writing *to = writing->context->writing;
-    writing->coder = (RangeCoder){.data = to->data + to->size, .size = to->room - to->size, .range = UINT32_MAX};
+    writing->coder = (RangeCoder){.data = to->data + to->size, .size = to->capacity - to->size, .range = UINT32_MAX};
 }
 
 /* Write the fewest bytes that still tell the last decision (C 1.4). */
@@ -25,16 +25,16 @@ static bool finish_writing(Coding *writing) {
 
 bool room_to_write(Coding *writing, int64_t bytes) {
     Writing *to = writing->context->writing;
-    int64_t room = to != NULL ? to->size + writing->coder.position + bytes + AHEAD : 0;
-    if (to == NULL || room < to->room) return true;
+    int64_t capacity = to != NULL ? to->size + writing->coder.position + bytes + AHEAD : 0;
+    if (to == NULL || capacity < to->capacity) return true;
     uint8_t *data;
-    if (!TAKE_OF_HOST(writing->context, 2 * room, data)) return false;
-    memcpy(data, to->data, (size_t)to->room);
-    host_give(writing->context, to->data, (size_t)to->room);
+    if (!TAKE_OF_HOST(writing->context, 2 * capacity, data)) return false;
+    memcpy(data, to->data, (size_t)to->capacity);
+    host_give(writing->context, to->data, (size_t)to->capacity);
     to->data = data;
-    to->room = 2 * room;
+    to->capacity = 2 * capacity;
     writing->coder.data = to->data + to->size;
-    writing->coder.size = to->room - to->size;
+    writing->coder.size = to->capacity - to->size;
     return true;
 }
 #endif

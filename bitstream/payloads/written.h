@@ -7,7 +7,7 @@
 enum { MOST_PAYLOADS = 4 };
 typedef struct Writing {
     uint8_t *data;
-    int64_t room, size, ends[MOST_PAYLOADS];
+    int64_t capacity, size, ends[MOST_PAYLOADS];
     int count;
 } Writing;
 

@@ -106,7 +106,7 @@ double degrees_between(const double *vector, const double *unit);
 typedef struct {
     Context *context;
     uint8_t *data;
-    int64_t size, room;
+    int64_t size, capacity;
 } Buffer;
 
 void give_buffer(Buffer *buffer);

@@ -6,22 +6,22 @@
 enum { LEAST_ROOM = 1 << 12, TAG_BITS = 4 };
 
 void give_buffer(Buffer *buffer) {
-    host_give(buffer->context, buffer->data, (size_t)buffer->room);
+    host_give(buffer->context, buffer->data, (size_t)buffer->capacity);
     buffer->data = NULL;
-    buffer->size = buffer->room = 0;
+    buffer->size = buffer->capacity = 0;
 }
 
 /* Room for so many more bytes; NULL if there is none. */
 static uint8_t *more(Buffer *buffer, int64_t size) {
     if (failed(buffer->context)) return NULL;
-    if (size > buffer->room - buffer->size) {
-        int64_t room = largest(2 * (buffer->size + size), LEAST_ROOM);
+    if (size > buffer->capacity - buffer->size) {
+        int64_t capacity = largest(2 * (buffer->size + size), LEAST_ROOM);
         uint8_t *data;
-        if (!TAKE_OF_HOST(buffer->context, room, data)) return NULL;
+        if (!TAKE_OF_HOST(buffer->context, capacity, data)) return NULL;
         if (buffer->size > 0) memcpy(data, buffer->data, (size_t)buffer->size);
-        host_give(buffer->context, buffer->data, (size_t)buffer->room);
+        host_give(buffer->context, buffer->data, (size_t)buffer->capacity);
         buffer->data = data;
-        buffer->room = room;
+        buffer->capacity = capacity;
     }
     buffer->size += size;
     return buffer->data + buffer->size - size;

@@ -84,10 +84,10 @@ CodedChain *encoding_chain(Encoding *encoding) {
 const bsmdec_error *encoding_error(const Encoding *encoding) { return &encoding->writer.context.error; }
 const Writing *encoding_payloads(const Encoding *encoding) { return &encoding->payloads; }
 
-static bool begin_again(Encoding *encoding, int64_t room) {
+static bool begin_again(Encoding *encoding, int64_t capacity) {
     end_payloads(&encoding->writer.context, &encoding->payloads);
     encoding->payloads = (Writing){0};
-    return begin_payloads(&encoding->writer.context, room, &encoding->payloads);
+    return begin_payloads(&encoding->writer.context, capacity, &encoding->payloads);
 }
 
 Writing *encoding_anew(Encoding *encoding) {
@@ -116,7 +116,7 @@ bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, co
     if (!fits) return FAIL(&writer->context, MISUSED, "orders of vertices and faces do not fit together");
     Buffer section = {.context = &writer->context};
     put_order(&section, &arrangement, (ConstDoubles2){loose, loose_count, 3}, &writer->scratch);
-    encoding->payloads = (Writing){section.data, section.room, section.size, {section.size}, 1};
+    encoding->payloads = (Writing){section.data, section.capacity, section.size, {section.size}, 1};
     return !failed(&writer->context);
 }
 
