@@ -66,12 +66,16 @@ class Search:
                     ways.append(larger)
                     sizes[larger] = made.size - refined.base.coded + larger.base.coded
         room = 1.0 - grid.covered(first.step) if len(begun) > 1 else 0.0
-        if not room or min(made.size for made in begun.values()) >= first.size * room:
-            begun[grid] = grid.repeat(first)
+        if room and min(made.size for made in begun.values()) < first.size * room:
+            other = first.size
+        else:
+            begun[grid] = grid.repeat(first)  # places that are chosen are hardly ever images of others
+            other = max(begun[grid].size, (1.0 - DOUBT) * first.draft.size)
         queue = []
         for way in ways:
             made = begun.get(way, begun[grid])
-            queue.append(self._hopes(way, bounds, made, total(way, sizes.get(way, made.size))))
+            size = sizes.get(way, made.size if way in begun else other)
+            queue.append(self._hopes(way, bounds, made, total(way, size)))
             if way in begun:
                 queue[-1].begin(made, queue[-1].bytes.known[0][1])
         least = math.log(min((made.size for made in kept.values()), default=math.inf))
