@@ -281,7 +281,7 @@ def _called(asked: dict[str, Any]) -> MeshFile | Frames | None:
     given = (asked["format"], Limits(**asked["limits"]))
     wanted = Wanted(**asked["wanted"]) if asked.get("wanted") else None
     if names := asked.get("names"):
-        return sequence.open_frames(names, *given, wanted, isolated=False)
+        return sequence.open_frames(names, *given, wanted or Wanted(), isolated=False)
     source: Any = asked["path"]
     if source is None:
         source = io.BytesIO(asked["data"])

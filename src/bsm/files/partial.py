@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from bsm.bitstream.errors import MeshError, OptionError
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Faces
 from bsm.codec.decoding import Decoder
 from bsm.codec.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, RefinementEvent
@@ -15,9 +15,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 Progress = Callable[[int, int], None]
 
 
-def decode_blocks(
-    chunks: Iterator[bytes], count: int, progress: Progress, limits: Limits = DEFAULT_LIMITS
-) -> TriangleMesh:
+def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress, limits: Limits) -> TriangleMesh:
     """Decode the first `count` blocks, read no further, and return the faces whose vertices have all arrived."""
     if count < 1:
         raise OptionError("at least one block must be decoded")
@@ -35,9 +33,7 @@ def decode_blocks(
     return _decode_until(Decoder(limits), chunks, enough)
 
 
-def decode_what_is_left(
-    chunks: Iterator[bytes], report: Callable[[str], None], limits: Limits = DEFAULT_LIMITS
-) -> TriangleMesh:
+def decode_what_is_left(chunks: Iterator[bytes], report: Callable[[str], None], limits: Limits) -> TriangleMesh:
     """Decode every block of a damaged stream that does not depend on lost data; call `report` for each loss."""
 
     def reported(event: Any) -> bool:

@@ -78,23 +78,17 @@ def open_sequence(
 
 
 def open_frames(
-    names: Sequence[str],
-    file_format: str | None = None,
-    limits: Limits = DEFAULT_LIMITS,
-    wanted: Wanted | None = None,
-    *,
-    isolated: bool | None = None,
+    names: Sequence[str], file_format: str | None, limits: Limits, wanted: Wanted, *, isolated: bool | None
 ) -> Frames:
     """The sequence of these mesh files by their times or numbers; errors as of `open_sequence`."""
-    asked = wanted or Wanted()
-    ordered = list(names) if asked.times else folder.in_order(names)
+    ordered = list(names) if wanted.times else folder.in_order(names)
     kinds = [kind_of(Input(name), file_format) for name in ordered]
     if is_apart(kinds, limits, isolated):
         paths = [os.path.abspath(name) for name in ordered]
-        frames: Frames = by_name(*_ISOLATED)(paths, file_format, limits, kinds[0], asked)
+        frames: Frames = by_name(*_ISOLATED)(paths, file_format, limits, kinds[0], wanted)
         return frames
     read = partial(read_cut, file_format=file_format, limits=limits, cut=CutAlike(), isolated=False)
-    return folder.read_files(ordered, read, asked)
+    return folder.read_files(ordered, read, wanted)
 
 
 @contextmanager

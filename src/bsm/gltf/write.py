@@ -21,6 +21,7 @@ from bsm.codec.geometry.welding import split_with_origin
 from bsm.files import conventions
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import Material, Texture, appearance, as_numbers, held_by, in_gltf, lost, within
+from bsm.files.formats.polygons import unit_rows
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.parsing import NO_DOUBLES, Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream
@@ -183,7 +184,7 @@ def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]
             continue
         name = _NAMES.get((attribute.semantic, width), "")
         if name == "NORMAL":
-            values = _unit(values.astype(np.float64)).astype(np.float32)
+            values = unit_rows(values.astype(np.float64), _UP).astype(np.float32)
             name = name if name not in arrays else ""
         elif name == "TEXCOORD":  # glTF counts from the top, we from the bottom
             values = np.column_stack([values[:, 0], 1 - values[:, 1]]).astype(np.float32)
@@ -203,14 +204,9 @@ def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]
     return arrays, held
 
 
+_UP = (0.0, 0.0, 1.0)  # a normal where there is none
 _NAMES = {("normal", 3): "NORMAL", ("texcoord", 2): "TEXCOORD", ("texcoord", 3): "TEXCOORD"}
 _NAMES |= {("color", width): "COLOR" for width in (3, 4)}
-
-
-def _unit(vectors: Doubles) -> Doubles:
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    found: Doubles = np.divide(vectors, lengths, out=np.tile([0.0, 0.0, 1.0], (len(vectors), 1)), where=lengths > 1e-12)
-    return found
 
 
 # -------------------------------------------------------------------------------------------------------------- frames
@@ -247,7 +243,6 @@ class _Run:
     """Frames that share their faces: the first of them, and the nodes and primitives that show it."""
 
     begun: int
-    faces: Faces
     first: tuple[Array, ...]
     nodes: range
     primitives: list[tuple[Tree, Ints]]
@@ -271,12 +266,9 @@ class _Moving(_Scene):
             primitive["targets"] = []
         nodes = range(begin, len(self.tree["nodes"]))
         seen = (first.positions, normals, *self._painted(first))
-        self._runs.append(_Run(self.frames, first.faces, seen, nodes, self.primitives))
+        self._runs.append(_Run(self.frames, seen, nodes, self.primitives))
+        self.faces = first.faces
         self.frames += 1
-
-    @property
-    def faces(self) -> Faces:
-        return self._runs[-1].faces
 
     def _painted(self, mesh: TriangleMesh) -> list[Array]:
         self.painted = formats.shown_at_vertices(mesh)[1]
@@ -289,7 +281,7 @@ class _Moving(_Scene):
                 f"a GLB holds each frame as a morph target, of which viewers take {MOST_FRAMES}; "
                 "take fewer with --frames A:B, or write USD"
             )
-        now = (frame, vertex_normals(frame, run.faces), *self._painted(mesh))
+        now = (frame, vertex_normals(frame, self.faces), *self._painted(mesh))
         with np.errstate(over="ignore"):
             deltas = [(values - first).astype(np.float32) for values, first in zip(now, run.first, strict=True)]
         if not all(np.isfinite(delta).all() for delta in deltas):
@@ -336,7 +328,7 @@ def vertex_normals(positions: Positions, faces: Faces) -> Doubles:
     """The mean of the normals of a vertex' faces, shape (n, 3); a vertex without any looks up."""
     normals = face_normals(positions, faces)
     sums = [np.bincount(faces.reshape(-1), np.repeat(axis, 3), minlength=len(positions)) for axis in normals.T]
-    return _unit(np.column_stack(sums))
+    return unit_rows(np.column_stack(sums), _UP)
 
 
 # ------------------------------------------------------------------------------------------------------------ a stream

@@ -523,10 +523,10 @@ def test_how_frames_differ_is_reported(tmp_path):
     turned[5] = np.roll(turned[5], 1)
     write_mesh(names[1], TriangleMesh(positions[1], turned))
     with pytest.raises(MeshError, match=r"walk_8.ply \(frame 1\) has other faces than .*walk_7.ply: face 5 is"):
-        list(open_frames(names).frames)
+        list(open_frames(names, None, Limits(), Wanted(), isolated=None).frames)
     write_mesh(names[1], TriangleMesh(positions[1], faces[:-2]))
     with pytest.raises(MeshError, match="958 faces where there were 960"):
-        list(open_frames(names).frames)
+        list(open_frames(names, None, Limits(), Wanted(), isolated=None).frames)
 
 
 def test_order_and_gaps():

@@ -142,9 +142,13 @@ def polygon_normals(positions: Doubles, sizes: Ints, corners: Ints) -> Doubles:
     with np.errstate(over="ignore", invalid="ignore"):  # a later check refuses infinite values
         points = positions[corners] - positions[corners[first[owner]]]
         vectors = np.cross(points, points[after]) if len(corners) else points
-        sums = np.column_stack([np.bincount(owner, axis, len(sizes)) for axis in vectors.T])
-        lengths = np.linalg.norm(sums, axis=1, keepdims=True)
-        found: Doubles = np.divide(sums, lengths, out=np.zeros_like(sums), where=lengths > 0)
+        return unit_rows(np.column_stack([np.bincount(owner, axis, len(sizes)) for axis in vectors.T]))
+
+
+def unit_rows(vectors: Doubles, blank: Sequence[float] = (0.0, 0.0, 0.0)) -> Doubles:
+    """Return vectors at length one; those without a length become `blank`."""
+    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    found: Doubles = np.divide(vectors, lengths, out=np.broadcast_to(blank, vectors.shape).copy(), where=lengths > 0)
     return found
 
 
@@ -153,10 +157,7 @@ def turned_normals(normals: Doubles, linear: Doubles) -> Doubles:
     rows = np.swapaxes(linear, -1, -2)
     cofactors = np.stack([np.cross(rows[..., (i + 1) % 3, :], rows[..., (i + 2) % 3, :]) for i in range(3)], axis=-1)
     side = np.where(np.linalg.det(linear) < 0, -1.0, 1.0)[..., None]
-    turned = np.einsum("...ij,...j->...i", cofactors, normals) * side
-    lengths = np.linalg.norm(turned, axis=-1, keepdims=True)
-    unit: Doubles = np.divide(turned, lengths, out=np.zeros_like(turned), where=lengths > 0)
-    return unit
+    return unit_rows(np.einsum("...ij,...j->...i", cofactors, normals) * side)
 
 
 def grouped(what: str, names: Sequence[str], of_face: Ints) -> tuple[list[Column], dict[str, str]]:
