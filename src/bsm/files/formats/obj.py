@@ -110,18 +110,16 @@ class _References:
         if re.search(rb"(?:^|\s)/", joined):
             raise MeshError("a face has a corner without a vertex")
         corners = re.sub(rb"/(?=[/\s]|\Z)", b"/0", joined).split()  # 0: what is not there
-        slashes = np.fromiter((corner.count(b"/") for corner in corners), np.int64, len(corners))
-        if slashes.max(initial=0) > 2:
+        self._rows = Rows([corner.replace(b"/", b" ") for corner in corners], "face")
+        if self._rows.counts.max(initial=0) > 3:
             raise MeshError("a corner of a face has more than three numbers")
-        numbers = Rows([corner.replace(b"/", b" ") for corner in corners], "face")
-        self._numbers = as_integers(numbers.values, "a vertex index")
-        self._starts, self._slashes = numbers.starts, slashes
+        self._numbers = as_integers(self._rows.values, "a vertex index")
 
     def of(self, which: int) -> Ints:
-        last = max(len(self._numbers) - 1, 0)
-        numbers = self._numbers if len(self._numbers) else np.zeros(1, np.int64)
-        there = self._slashes >= which
-        return np.where(there, numbers[np.where(there, self._starts + which, 0).clip(0, last)], 0)
+        there = self._rows.counts > which
+        found = np.zeros(len(there), np.int64)
+        found[there] = self._numbers[self._rows.starts[there] + which]
+        return found
 
 
 def _corner_column(
