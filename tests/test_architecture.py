@@ -1,11 +1,11 @@
-"""The arrows of CONTRIBUTING.md: which package may import which, in Python and C; and no circle in any language."""
+"""The arrows of CONTRIBUTING.md: which package may import which; no circle and no class name twice in any language."""
 
 import ast
 import io
 import re
 import sys
 import tokenize
-from collections import defaultdict
+from collections import Counter, defaultdict
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -179,11 +179,8 @@ def arrows_of_c() -> dict[str, set[str]]:
     for path in SOURCES:
         declared = set().union(*map(words, seen(path)))
         calls = words(path) & declared & homes.keys() if path.suffix in (".c", ".cpp") else ()
-        found = {
-            *map(c_name, included(path)),
-            *(home for name in calls for home in homes[name] if len(homes[name]) == 1),
-        }
-        arrows[c_name(path)] |= found - {c_name(path)}
+        called = {home for name in calls for home in homes[name] if len(homes[name]) == 1}
+        arrows[c_name(path)] |= {*map(c_name, included(path)), *called} - {c_name(path)}
     return arrows
 
 
@@ -286,9 +283,10 @@ def allowed(importer: str, imported: str) -> bool:
     return not imported.startswith(".") or importer == "plugins.blender.extension"  # which Blender names as it likes
 
 
-def test_imports_follow_the_arrows():
+def test_imports_and_includes_follow_the_arrows():
     found = {(name, item) for name, path in MODULES.items() for item in imports(path.read_text())}
-    wrong = sorted(f"{name} may not import {item}" for name, item in found if not allowed(name, item))
+    found |= {(c_name(path), c_name(header)) for path in SOURCES for header in included(path)}
+    wrong = sorted(f"{name} may not use {item}" for name, item in found if not allowed(name, item))
     assert not wrong, f"{', '.join(wrong)} (see CONTRIBUTING.md)"
 
 
@@ -312,12 +310,6 @@ def test_what_the_rule_forbids(importer, source):
     assert not all(allowed(importer, item) for item in imports(source))
 
 
-def test_includes_follow_the_arrows():
-    found = {(c_name(path), c_name(header)) for path in SOURCES for header in included(path)}
-    wrong = sorted(f"{name} may not include {item}" for name, item in found if not allowed(name, item))
-    assert not wrong, f"{', '.join(wrong)} (see CONTRIBUTING.md)"
-
-
 @pytest.mark.parametrize("arrows", [arrows_of_python, arrows_of_c, arrows_of_typescript])
 def test_no_circles(arrows):
     assert not circle_in(arrows())
@@ -338,6 +330,16 @@ def test_circles_are_found(monkeypatch):
     assert circle_in(arrows_of_c())
 
 
+PRODUCT = [path for path in MODULES.values() if path.parts[len(ROOT.parts)] not in ("tools", "plugins", "spec")]
+
+
+def test_no_class_name_stands_twice():
+    of_c, of_typescript = r"^(?:\} |class )(\w+)(?:;| :)", r"^(?:export )?(?:class|interface|type) (\w+)"
+    for files, pattern in ((PRODUCT, r"^class (\w+)"), (SOURCES, of_c), (WEB.rglob("*.ts"), of_typescript)):
+        names = Counter(name for path in files for name in re.findall(pattern, path.read_text(), re.MULTILINE))
+        assert len(names) > 99 and not [name for name, count in names.items() if count > 1]
+
+
 def prose(path: Path) -> str:
     """Comments and docstrings of a source."""
     text = path.read_text(encoding="utf-8")
@@ -349,8 +351,7 @@ def prose(path: Path) -> str:
 
 def test_comments_name_files_that_are_there():
     """A name without a folder is that of a file beside, or further up; one with a folder ends a path."""
-    product = [path for path in MODULES.values() if path.parts[len(ROOT.parts)] not in ("tools", "plugins", "spec")]
-    files = [path.relative_to(ROOT) for path in (*product, *SOURCES, *WEB.rglob("*.ts"))]
+    files = [path.relative_to(ROOT) for path in (*PRODUCT, *SOURCES, *WEB.rglob("*.ts"))]
     wrong = []
     for file in files:
         for name in re.findall(r"(?<![\w/.<*-])(?:\w+/)*\w[\w.]*\.(?:py|c|h|ts|md)\b(?![\w(/*.])", prose(ROOT / file)):
