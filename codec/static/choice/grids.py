@@ -126,6 +126,7 @@ class Gridded:
     def __init__(self, prepared: Prepared, bounds: Bounds, worth: float = 0.0, turn: Turn = UNTURNED) -> None:
         self._prepared, self._shaper = prepared, bounds.measures.shaper
         self._worth, self.turn = worth, turn
+        self._over_light = 0.0  # bytes of the usual coder over those of the light one, about the same at all steps
         self.transforms = -1  # 0: with twins, 1: with transforms, too, a grid surely takes fewer bytes
         own = turned_by(prepared.mesh.positions, turn, back=True)
         self._positions = prepared.units.into(own) if any(turn) else prepared.positions
@@ -241,8 +242,12 @@ class Gridded:
                 return draft
             return min(draft, coded(min(len(transforms), 1)), key=lambda made: made.size)
 
-        guess = None if few or quick or self.transforms >= 0 else lambda: light().size * (sampled() / sampled(1))
+        def guess() -> float:
+            self._over_light = self._over_light or sampled() / sampled(1)
+            return light().size * self._over_light
+
         decoded = grid.positions(places)
         positions = np.ascontiguousarray(self._prepared.units.into(decoded))
         fixed = len(self._prepared.connectivity.data)
-        return Trial(step, positions, partial(coded, self.transforms), fixed, guess=guess, also=also, decoded=decoded)
+        about = None if few or quick or self.transforms >= 0 else guess
+        return Trial(step, positions, partial(coded, self.transforms), fixed, guess=about, also=also, decoded=decoded)
