@@ -19,7 +19,7 @@ from bsm.codec.geometry.attributes import KINDS, Attribute
 from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.motion.frames import Frames
-from bsm.files.parsing import require_count
+from bsm.files.parsing import require_counts
 
 _COUNT = struct.Struct("<Q")
 _ROW = struct.Struct("<IIQQ")  # a kind, columns, rows, and the first byte after the table
@@ -151,8 +151,7 @@ def _check(given: dict[str, Any], limits: Limits) -> None:
     given["metadata"], meshes = dict(given["metadata"]), given.get("meshes")
     frames = given.get("frames", [given.get("positions")]) if meshes is None else [mesh.positions for mesh in meshes]
     counts = {"vertices": max(given.get("rigged", 0), *map(len, frames)), "faces": len(given["faces"])}
-    for name, count in (counts | {"frames": len(frames)}).items():
-        require_count(name, count, limits)
+    require_counts(limits, **counts, frames=len(frames))
     kinds = {given["faces"].dtype.name, *(f"{frame.dtype} of {frame.shape[1]}" for frame in frames)}
     if kinds != {"int32", "float64 of 3"} or given.get("count", 0) not in (0, len(frames)):  # 0: it is not known
         raise ValueError("arrays of another kind")

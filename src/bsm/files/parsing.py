@@ -144,11 +144,12 @@ _PIECE = 1 << 18
 _ENDING = 16  # zeros that the end of a gzip member may have; gzip skips zeros after it one at a time
 
 
-def require_count(name: str, count: int, limits: Limits) -> None:
+def require_counts(limits: Limits, **counts: int) -> None:
     """Raise `LimitError` where a file has more vertices, faces or frames than a stream may."""
-    most = int(min(getattr(limits, name), 1 << 62))
-    if count > most:
-        raise LimitError(f"{name} = {count:,} is over the limit of {most:,}; cut it into parts, as bsm tile does")
+    for name, count in counts.items():
+        most = int(min(getattr(limits, name), 1 << 62))
+        if count > most:
+            raise LimitError(f"{name} = {count:,} is over the limit of {most:,}; cut it into parts, as bsm tile does")
 
 
 def require_inflated(size: int, compressed: int, limits: Limits, vertices: int = 0) -> None:

@@ -22,7 +22,7 @@ from bsm.codec.decoding import decode
 from bsm.codec.geometry.welding import degenerate
 from bsm.files.formats.metadata import kind_of_image
 from bsm.files.images import side_of_image
-from bsm.files.parsing import in_words, require_count
+from bsm.files.parsing import in_words, require_counts
 from bsm.files.pipes import Input, file_beside, is_url
 from bsm.files.unread import Said, Taken, rows_of
 from bsm.gltf import coding
@@ -154,7 +154,7 @@ class Document:
     def _charge(self, size: int, vertices: int = 0) -> None:
         """Raise `LimitError` if everything unpacked so far and this takes too much."""
         self._taken, self._vertices = self._taken + size, self._vertices + vertices
-        require_count("vertices", self._vertices, self.limits)
+        require_counts(self.limits, vertices=self._vertices)
         self.limits.check_memory(self._taken, self._vertices, self.received)
 
     @cached_property

@@ -19,7 +19,7 @@ from bsm.files.formats import polygons as shapes
 from bsm.files.formats.appearance import Material, appearance
 from bsm.files.formats.metadata import Value, described
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, between, painted_like, rate_of_times
-from bsm.files.parsing import Doubles, Ints, as_format_error, require_count
+from bsm.files.parsing import Doubles, Ints, as_format_error, require_counts
 from bsm.gltf.coding import INSTANCING, MATTE, STRENGTH, TRIANGLES, TRIANGULAR, UNLIT, Array, Tree, texture_of
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, Document, read_document, triangles_of
 
@@ -203,7 +203,7 @@ class Scene:
             seen += vertices
             numbers += given if (key := (used, tree.get("skin"))) in made else given + moved
             made.add(key)
-        require_count("vertices", seen, self._limits)
+        require_counts(self._limits, vertices=seen)
         if numbers > MOST_NUMBERS:
             raise LimitError(f"the meshes of this glTF have {numbers} numbers; the limit is {MOST_NUMBERS}")
         self._limits.check_memory(PER_NUMBER * numbers + 4 * characters, seen, document.received)
@@ -526,7 +526,7 @@ def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fra
     keys = scene.keys
     rate = wanted.rate or _rate(keys)
     count = int(np.floor((keys[-1] - keys[0]) * rate + 1e-3)) + 1
-    require_count("frames", count, limits)
+    require_counts(limits, frames=count)
     limits.check_work(scene.work * count, scene.vertices * count, document.received)
     times = keys[0] + np.arange(count) / rate
     still = _joined(scene, document, float(times[0]), limits).checked(limits)

@@ -32,7 +32,7 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import Written
 from bsm.files.formats.polygons import Array, Column, Polygons, attributes_of, meaning_of
 from bsm.files.motion.frames import Frames, Shared
-from bsm.files.parsing import AS_NUMBERS, TREE, require_count, require_inflated
+from bsm.files.parsing import AS_NUMBERS, TREE, require_counts, require_inflated
 from bsm.files.pipes import Input, about
 
 # What numpy raises of a header, which it parses as Python.
@@ -74,7 +74,7 @@ def read_npy(file: Input, bound: str = "vertices", limits: Limits = DEFAULT_LIMI
     shape, fortran, kind = read_header(file)
     if len(shape) != 2 or shape[1] != 3:
         raise FormatError(f"an array of {kind} and shape {shape} is neither faces nor a frame: (n, 3) numbers are")
-    require_count(bound, shape[0], limits)
+    require_counts(limits, **{bound: shape[0]})
     size = math.prod(shape) * kind.itemsize
     data = file.read(size)
     if len(data) < size:
@@ -170,9 +170,7 @@ def _require_shapes(archive: zipfile.ZipFile, compressed: int, limits: Limits) -
     frames, one = (shape[0], shape[1:]) if len(shape) == 3 else (0, shape)
     if len(shape) == 3 and (0 in shape or shape[2] != 3):
         raise MeshError(f"this npz file holds {frames} frames of shape {one}; (n, 3) numbers are a frame")
-    counts = {"frames": frames, "vertices": math.prod(one) // 3, "faces": math.prod(faces.shape) // 3}
-    for name, count in counts.items():
-        require_count(name, count, limits)
+    require_counts(limits, frames=frames, vertices=math.prod(one) // 3, faces=math.prod(faces.shape) // 3)
     size = max(positions.size // max(frames, 1), AS_NUMBERS * math.prod(one))
     size += max(faces.size, AS_NUMBERS * math.prod(faces.shape))
     require_inflated(size, compressed, limits)

@@ -16,7 +16,7 @@ from bsm.files.conventions import shares_of
 from bsm.files.formats import metadata as materials
 from bsm.files.formats.appearance import is_mtl, one_line, text_of, write_mtl
 from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact, grouped, polygon_normals
-from bsm.files.parsing import Doubles, Ints, Rows, as_integers, continued, point_row, require_count, text_table
+from bsm.files.parsing import Doubles, Ints, Rows, as_integers, continued, point_row, require_counts, text_table
 
 STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
 """The value of a keyword for the faces after it, and the keyword."""
@@ -35,8 +35,7 @@ def read_obj(data: bytes, limits: Limits, seen: tuple[int, int, int] | None = No
     may refer to values elsewhere."""
     if b"\0" in data:
         raise FormatError("this is not an OBJ file: it holds binary data")
-    for name, begin in _COUNTED.items():  # before a line is an object
-        require_count(name, data.count(begin), limits)
+    require_counts(limits, **{name: data.count(begin) for name, begin in _COUNTED.items()})  # before lines are objects
     lines = _Lines(continued(data))
     points = Rows(lines.of(b"v"), "vertex")
     is_face = lines.are(b"f")

@@ -11,7 +11,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.metadata import Written, first, left_out, parse_remarks, remarks, unsaid
 from bsm.files.formats.polygons import Column, Polygons, color_column, compact
-from bsm.files.parsing import Doubles, Ints, Rows, point_row, require_count, require_lines, text_table
+from bsm.files.parsing import Doubles, Ints, Rows, point_row, require_counts, require_lines, text_table
 
 _OFF_HEADER = re.compile(
     rb"\s*(?P<extras>(?:ST|C|N)*)(?P<dimension>4?n?)OFF"
@@ -29,8 +29,7 @@ def read_off(data: bytes, limits: Limits) -> Polygons:
     if header["binary"]:
         raise MeshError("binary OFF files are not supported; save it as text, or as PLY")
     vertices, faces = int(header["vertices"]), int(header["faces"])
-    require_count("vertices", vertices, limits)
-    require_count("faces", faces, limits)
+    require_counts(limits, vertices=vertices, faces=faces)
     lines = [line for line in text[header.end() :].splitlines() if line.strip()]
     require_lines(len(lines), vertices + faces)
     points = Rows(lines[:vertices], "vertex")

@@ -16,7 +16,7 @@ from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import appearance, one_line, refers_to_image, text_of
 from bsm.files.formats.polygons import PLURALS, Array, Column, Polygons, color_column, meaning_of, unused_name
-from bsm.files.parsing import Doubles, Ints, Rows, as_integers, ranges, require_count, require_lines, single_suffices
+from bsm.files.parsing import Doubles, Ints, Rows, as_integers, ranges, require_counts, require_lines, single_suffices
 
 _WRITTEN_TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
@@ -238,9 +238,7 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
         raise NoFacesError("this PLY file is a range grid; mesh it first, for instance with MeshLab")
     if "vertex" not in names or "face" not in names:
         raise NoFacesError("this PLY file has no faces; point clouds are not supported")
-    for element in header.elements:
-        if element.name in _COUNTED:
-            require_count(_COUNTED[element.name], element.count, limits)
+    require_counts(limits, **{_COUNTED[e.name]: e.count for e in header.elements if e.name in _COUNTED})
     body = data[header.size :]
     tables = tables_of(header, body)
     vertex, face = tables["vertex"], tables["face"]

@@ -17,7 +17,7 @@ from bsm.codec.geometry.attributes import MOST_NAME_BYTES, Attribute, Domain, Se
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.conventions import shares_of
 from bsm.files.formats.metadata import fitting, named
-from bsm.files.parsing import Doubles, Ints, require_count, single_suffices
+from bsm.files.parsing import Doubles, Ints, require_counts, single_suffices
 
 Array = npt.NDArray[Any]
 PLURALS = {"color": "colors", "normal": "normals", "texcoord": "texture coordinates"}
@@ -259,9 +259,8 @@ class Polygons:
 
     def checked(self, limits: Limits, received: int = 1 << 62, cut: Cut | None = None) -> MeshFile:
         positions, sizes, corners = self.positions, self.sizes, self.corners
-        require_count("vertices", len(positions), limits)
         triangles = int(np.maximum(sizes - 2, 0).sum())
-        require_count("faces", triangles, limits)
+        require_counts(limits, vertices=len(positions), faces=triangles)
         memory = PER_TRIANGLE if (sizes == 3).all() else PER_CUT
         limits.check_memory(memory * triangles + PER_CORNER * len(corners), len(positions), received)
         if not (sizes > 0).any():
@@ -350,8 +349,7 @@ class Part:
 def joined_parts(given: Iterable[Part], counts: Sequence[tuple[int, int]], limits: Limits, received: int) -> Polygons:
     """Join the parts of a scene; `counts`, the vertices and triangles of each, are checked before a part is made."""
     vertices, triangles = (sum(count[place] for count in counts) for place in range(2))
-    require_count("vertices", vertices, limits)
-    require_count("faces", triangles, limits)
+    require_counts(limits, vertices=vertices, faces=triangles)
     memory = PER_JOINED * triangles + PER_PART * len(counts)
     limits.check_memory(memory, vertices, received)
     parts: list[Part] = []

@@ -13,7 +13,7 @@ from bsm.codec.geometry.welding import first_of, group_rows, keep_apart
 from bsm.files.formats.appearance import text_of
 from bsm.files.formats.metadata import Written, face_numbers, left_out, named
 from bsm.files.formats.polygons import Column, Polygons
-from bsm.files.parsing import NO_DOUBLES, Doubles, Rows, require_count, single_suffices
+from bsm.files.parsing import NO_DOUBLES, Doubles, Rows, require_counts, single_suffices
 from bsm.files.table import other_kind
 
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -60,7 +60,7 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
         soup, columns, metadata = _of_text(data)
     else:
         count, wrong = binary_triangles(data, len(data))
-        require_count("faces", count, limits)
+        require_counts(limits, faces=count)
         records = np.frombuffer(data, RECORD, count, HEAD)
         with np.errstate(invalid="ignore"):  # a later check refuses NaN
             soup = records["corners"].reshape(-1, 3).astype(np.float64)

@@ -22,7 +22,7 @@ from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats.metadata import Written, first, in_words, plain_fields, unsaid
 from bsm.files.formats.polygons import Array, Column, Polygons, named_column
-from bsm.files.parsing import AS_NUMBERS, TAG, Ints, require_count, require_inflated, single_suffices
+from bsm.files.parsing import AS_NUMBERS, TAG, Ints, require_counts, require_inflated, single_suffices
 
 _WHOLE = [(sign, kind, bits) for sign, kind in (("Int", "i"), ("UInt", "u")) for bits in (8, 16, 32, 64)]
 _TYPES = {f"{sign}{bits}": f"{kind}{bits // 8}" for sign, kind, bits in _WHOLE} | {"Float32": "f4", "Float64": "f8"}
@@ -183,8 +183,7 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     if _count(piece, "NumberOfStrips", 0):
         raise MeshError("this VTP file holds triangle strips; make triangles of them (ParaView's filter Triangulate)")
     points, polygons = _count(piece, "NumberOfPoints", 0), _count(piece, "NumberOfPolys", 0)
-    require_count("vertices", points, limits)
-    require_count("faces", polygons, limits)
+    require_counts(limits, vertices=points, faces=polygons)
     shape = {(around, array.get("Name", "") * (around == "Polys")): array for around, array in document.arrays}
     try:
         needed = (("Points", ""), ("Polys", "connectivity"), ("Polys", "offsets"))

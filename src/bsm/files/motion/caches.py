@@ -19,7 +19,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import USUAL_RATE, Frames, Wanted, timing_of
-from bsm.files.parsing import Doubles, require_count
+from bsm.files.parsing import Doubles, require_counts
 from bsm.files.pipes import about
 from bsm.files.table import MESH_SUFFIXES, START, STEP
 
@@ -49,8 +49,7 @@ def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
         raise FormatError(what)
     if size < (needed := cache.start + 12 * cache.points * cache.frames):
         raise TruncatedError(f"{what}, which take {needed} bytes; it has {size}")
-    require_count("vertices", cache.points, limits)
-    require_count("frames", cache.frames, limits)
+    require_counts(limits, vertices=cache.points, frames=cache.frames)
     beside = _beside(path) if wanted.mesh is None else os.fspath(wanted.mesh)
     with about(beside):
         mesh = read_mesh(beside, limits=limits, isolated=False).mesh

@@ -30,7 +30,7 @@ from bsm.files.formats import appearance as looks
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, between, painted_like
-from bsm.files.parsing import Doubles, Ints, as_format_error, as_library_error, require_count, single_suffices
+from bsm.files.parsing import Doubles, Ints, as_format_error, as_library_error, require_counts, single_suffices
 from bsm.files.unread import Said, Taken, rows_of
 from bsm.lengths import metres, unit_of
 
@@ -694,7 +694,7 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     if not np.isfinite([first, last, codes, (last - first) * rate / codes]).all():
         raise FormatError(f"the stage runs from {first:g} to {last:g} at {codes:g} codes per second")
     count = int(np.floor(max(last - first, 0.0) * rate / codes + 1e-6)) + 1
-    require_count("frames", count, limits)
+    require_counts(limits, frames=count)
     still = stage.frame(first)
     every = [first + number * codes / rate for number in range(count)]
     samples = (np.array([time for time in times if first <= time <= last]) - first) * rate / codes
