@@ -108,6 +108,24 @@ static void number_used(const GivenMesh *given, Ints place, Ints seen, JoinedMes
     }
 }
 
+/* Number the places of vertices, each in all frames; returns how many there are, -1 without memory. */
+static int64_t number_places(const GivenMesh *given, bool exact, Arena *scratch, Ints place) {
+    int64_t n = given->vertices, places = n;
+    Longs2 bits;
+    if (!take_longs2(scratch, n, 4, &bits)) return -1;
+    for (int64_t v = 0; v < n; v++) place.data[v] = 0;
+    for (int64_t t = 0; t < given->frames && places >= 0; t++) {
+        for (int64_t i = 0; i < 3 * n; i++) {
+            double value = given->positions.data[3 * n * t + i];
+            if (!exact) value += 0.0;
+            memcpy(bits.data + i / 3 * 4 + i % 3, &value, sizeof value);
+            bits.data[i / 3 * 4 + 3] = place.data[i / 3];
+        }
+        places = number_rows(bits.data, n, 4, scratch, place);
+    }
+    return places;
+}
+
 bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, JoinedMesh *joined) {
     Arena *arena = &writer->arena, *scratch = &writer->scratch;
     int64_t n = given->vertices, m = given->faces, mentioned = 0;
@@ -119,20 +137,8 @@ bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, Jo
         || !take_ints(arena, m, &joined->kept) || !take_ints2(arena, m, 3, &joined->faces)
         || !take_ints(scratch, n, &place) || !zero_ints(scratch, n, &seen))
         return false;
-    Longs2 bits;
-    if (!take_longs2(scratch, n, 4, &bits)) return false;
-    int64_t places = n;
-    for (int64_t v = 0; v < n; v++) place.data[v] = 0;
-    for (int64_t t = 0; t < given->frames; t++) {
-        for (int64_t i = 0; i < 3 * n; i++) {
-            double value = given->positions.data[3 * n * t + i];
-            if (!exact) value += 0.0;
-            memcpy(bits.data + i / 3 * 4 + i % 3, &value, sizeof value);
-            bits.data[i / 3 * 4 + 3] = place.data[i / 3];
-        }
-        if ((places = number_rows(bits.data, n, 4, scratch, place)) < 0) return false;
-    }
-    if (places < n && !keep_apart(given, scratch, place)) return false;
+    int64_t places = number_places(given, exact, scratch, place);
+    if (places < 0 || (places < n && !keep_apart(given, scratch, place))) return false;
     for (int64_t i = 0; i < 3 * m; i++) {
         mentioned += !seen.data[corners[i]];
         seen.data[corners[i]] = 1;
