@@ -22,7 +22,7 @@ using namespace nb::literals;
 #define CONSTANT(name) {#name, name}
 static const std::map<std::string_view, int> CONSTANTS = {CONSTANT(MAX_LEVEL), CONSTANT(MAJOR),
     CONSTANT(SHORT_PAYLOAD), CONSTANT(MOST_COPIES), CONSTANT(FREE_COPIES), CONSTANT(METHODS), CONSTANT(RUNS),
-    CONSTANT(WITH_ATTRIBUTES)};
+    CONSTANT(WITH_ATTRIBUTES), CONSTANT(MOST_TRANSFORMS), CONSTANT(AXIS_KINDS), CONSTANT(MOST_FINENESS)};
 
 void bind_bitstream(nb::module_ &m) {
     // A number of the format by its name in the headers.

@@ -4,7 +4,6 @@
 enum {
     AXES = 3,
     TURN_BITS = 20,
-    MOST_FINENESS = 19, /* bits of a component of a quaternion */
     CELL_BITS = 4,      /* of space, by which known vertices are found */
     MOST_VISITS = 8,   /* of one chain */
     REACH = 29,         /* in 1/16: how far an image may be from its vertex */

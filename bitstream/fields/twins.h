@@ -8,6 +8,7 @@ enum {
     MOST_IMAGES = 2 * MOST_TRANSFORMS,
     TRANSFORM_ROW = 8, /* numbers of a transform: its kind, the largest component, three others, a shift */
     AXIS_KINDS = 48,
+    MOST_FINENESS = 19, /* bits of a component of a quaternion */
     MOST_CANDIDATES = 12,
     ECHOES = 4, /* of a vertex, at most */
     MOST_ECHOES = 1 << 13, /* flaps that are remembered, a power of two */

@@ -15,7 +15,8 @@ from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
 from bsm.codec.look.measure import POWER, LookMetric
 from bsm.codec.sequence.frames import same_frames
-from bsm.codec.static.targets import COARSEST_STEP, Contract
+from bsm.codec.static.targets import WIDEST as COARSEST_STEP
+from bsm.codec.static.targets import Contract
 from bsm.codec.threads import ordered_map
 
 KNOTS = 8  # frames, evenly over a GOP, that are drawn at every attempt, besides the worst one of each attempt

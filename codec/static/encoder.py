@@ -22,7 +22,7 @@ from bsm.codec.progress import Nearing, Progress
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.choice.attributes import Sent, smallest
 from bsm.codec.static.choice.blocks import InBlocks
-from bsm.codec.static.choice.bounds import MARGIN
+from bsm.codec.static.choice.bounds import LEAST
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
@@ -233,7 +233,7 @@ class Encoder:
             self._input, draft = smallest(self._input, contract, near)
             found = self._judged(draft)
         self._verified(found.draft, near, contract)
-        require(target.excess(found) <= MARGIN, f"the target is {target.value:g}, not {target.reached(found):g}")
+        require(target.excess(found) <= LEAST, f"the target is {target.value:g}, not {target.reached(found):g}")
         return found
 
     def _within_error(self, target: Target) -> Contract:

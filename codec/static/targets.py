@@ -11,7 +11,7 @@ from bsm.bitstream.errors import OptionError, TargetError, public
 from bsm.codec.geometry.metrics import decibel
 
 ANY_ANGLE = 180.0
-WIDEST = 0.1  # of the diagonal: who asks for a wider bound took one unit for another
+WIDEST = 0.1  # bound or step, of the diagonal: who asks for a wider one took one unit for another
 
 
 @public
@@ -134,7 +134,6 @@ UNITS = {
     "bpvf": "{:.6g} bits per vertex and frame",
 }
 """Describe a value of a target of a mesh or a sequence."""
-COARSEST_STEP = 0.1
 SLACK, TRIES = 0.03, 7
 """How far below a bound, in logarithms, the search for a step may stay, and how many steps it tries."""
 
@@ -247,9 +246,9 @@ def search_step(
         return seen[-1][0]
 
     if target.shrinks_with_step:
-        secant(lambda fineness: tried(1.0 / fineness), 1.0 / first, 1.0 / COARSEST_STEP, 1.0 / finest, 2 * TRIES)
+        secant(lambda fineness: tried(1.0 / fineness), 1.0 / first, 1.0 / WIDEST, 1.0 / finest, 2 * TRIES)
     else:
-        secant(tried, first, finest, COARSEST_STEP, 2 * TRIES, rise)
+        secant(tried, first, finest, WIDEST, 2 * TRIES, rise)
     met = [outcome for outcome in seen if outcome[0] <= 0.0]
     if met:
         return max(met, key=itemgetter(0))[1]

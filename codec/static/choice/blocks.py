@@ -17,12 +17,13 @@ from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, tangent_steps
 from bsm.codec.signal.transform import packed_range, smallest_step
-from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Trial, turned
+from bsm.codec.static.choice.bounds import LEAST, SPIKE, Bounds, Trial, turned
 from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.coding import Adaptive, Packed, Scheme
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
+from bsm.codec.static.targets import WIDEST
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.block_coder import Sizing, admit, blended, encode_blocks, offer, patience
 from bsm.codec.static.ways.grid import encode_layer
@@ -33,11 +34,10 @@ MOST_APART = 3
 """Solutions before an Onorm in the paper's mode: more leave little of late columns in single precision."""
 SMOOTHING_STEPS = tuple(2.0**k if k > -4 else 0.0 for k in range(-4, 7))
 """Amounts to try, from the middle up and down while they help; a factor of sqrt 2 between them is worth 0.1 %."""
-WIDEST = 0.14
+BROADEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost decoders more time than their bytes are worth."""
 BASE = 0.36  # the step of blocks below a layer, over the square root of the layer's step
 ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
-FINEST_LAYER = 1e-6  # step of a layer, in BSM units
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
 FOLDED = 0.2  # edges folded over, for each face, above which blocks do not suit a mesh, and mending takes long
 
@@ -262,7 +262,7 @@ class Plain:
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
         self._bounds = bounds
-        self._spectral = InBlocks(prepared, options, WIDEST)
+        self._spectral = InBlocks(prepared, options, BROADEST)
         self.least, self.most = 1.01 * smallest_step(prepared.size), 0.5
         self.first = ALONE * bounds.first_step
 
@@ -272,7 +272,7 @@ class Plain:
         out = squares_of(base.positions - base.prepared.positions) > reaches**2
         if not out.any():
             return Trial(step, base.positions, lambda: base.draft, fixed)
-        layer = Layer(single(max(float(reaches[out].min()), FINEST_LAYER)), 1.0)
+        layer = Layer(single(max(float(reaches[out].min()), LEAST)), 1.0)
         levels = np.where(out[:, None], np.rint(base.offsets / layer.step), 0.0).astype(np.int32)
         moved = base.moved(layer, levels, base.known_steps(layer, levels))
         return Trial(step, moved, partial(base.refined, layer, levels, moved), fixed)
@@ -285,10 +285,10 @@ class Refined:
         self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, settled: bool = True, ratio: float = RATIO
     ) -> None:
         self._prepared, self._bounds, self._settled, self.ratio = prepared, bounds, settled, ratio
-        self._options, self._spectral = options, InBlocks(prepared, options, WIDEST)
+        self._options, self._spectral = options, InBlocks(prepared, options, BROADEST)
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
-        self.least, self.most = FINEST_LAYER, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), FINEST_LAYER)
+        self.least, self.most = LEAST, max(min(WIDEST, self._diagonal / math.sqrt(3.0)), LEAST)
         self.at = lru_cache(1)(self._made)
 
     @cached_property

@@ -20,13 +20,11 @@ from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.preamble_encoding import Draft, Prepared
-from bsm.codec.static.targets import ANY_ANGLE, SLACK, Contract
+from bsm.codec.static.targets import ANY_ANGLE, SLACK, WIDEST, Contract
 
 BOUNDS = "vertex error", "normal error", "visual error", "look"
-COARSEST, SEEN = 0.05, 1.0 / 32.0
-"""Largest step, in BSM units; and about the one, in mean edges, at which rounding has a look of 1."""
-LEAST = 1e-6  # share of a bound below which all is as good as it can be
-MARGIN = 1e-9  # of a bound, for what rounding of measures may add
+SEEN = 1.0 / 32.0  # about the step, in mean edges, at which rounding has a look of 1
+LEAST = 1e-6  # share of a bound below which all is as good as it can be; rounding of measures adds less
 SPIKE = 4.0  # steps that a vertex may be off where its place is chosen: farther ones stand out as spikes
 FINEST_PART = 0.1
 """No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
@@ -92,8 +90,7 @@ class Trial:
     fixed: int  # bytes that are the same at all steps
     unfold: Callable[[], "Trial | None"] = lambda: None
     settled: bool = False  # whether levels are kept within reach, whatever the step is
-    guess: Callable[[], float] | None = None
-    also: Callable[[Callable[[], Draft]], Draft] = lambda make: make()  # the same positions, perhaps in fewer bytes
+    repeating: Callable[[], Draft] | None = None  # the same positions, predicted by congruent parts
     decoded: Positions | None = None  # in the unit of the mesh, where `positions` are rounded
 
     @cached_property
@@ -102,13 +99,9 @@ class Trial:
 
     @cached_property
     def congruent(self) -> Draft:
-        """The stream, also predicted by congruent parts where that takes fewer bytes."""
-        return self.also(lambda: self.draft)
-
-    @cached_property
-    def size(self) -> float:
-        """About how many bytes the stream takes."""
-        return self.draft.size if self.guess is None else self.guess()
+        """The stream, predicted by congruent parts where that takes fewer bytes."""
+        other = self.draft if self.repeating is None else self.repeating()
+        return min(self.draft, other, key=lambda draft: draft.size)
 
 
 def turned(candidate: Trial) -> Trial | None:
@@ -126,7 +119,7 @@ class Bounds:
     def __init__(self, measures: Measures, contract: Contract) -> None:
         self.measures = measures
         self.contract = contract
-        self.reaches = measures.reaches(contract) * (1.0 - MARGIN)
+        self.reaches = measures.reaches(contract) * (1.0 - LEAST)
         self.gaps = measures.gaps(contract)
         self._best: tuple[float, ...] | None = None
         self._last: tuple[Trial, tuple[float, float, float, float]] | None = None
@@ -168,22 +161,22 @@ class Bounds:
     @cached_property
     def first_step(self) -> float:
         """Return a step at which rounding uses up about the whole bound, in BSM units."""
-        step, positions, metric = COARSEST, self.measures.prepared.positions, self.metric
+        step, positions, metric = WIDEST, self.measures.prepared.positions, self.metric
         for _ in range(3 if metric is None else 0):  # of errors, or of their squares
             step /= math.sqrt(max(*self._measured(np.rint(positions / step) * step), LEAST))
         if metric is None:
-            return min(step, COARSEST)
+            return min(step, WIDEST)
         # From one step for all looks, so that a stricter one begins with a finer step; but a mesh that stands for
         # another one looks different without any step.
         aim = self.contract.look if self.measures.shown else 1.0
-        step, light = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.measures.prepared.light
+        step, light = min(SEEN * self.measures.shaper.mean_edge, WIDEST), self.measures.prepared.light
         for _ in range(2):
             placed = self.measures.prepared.units.back(np.rint(positions / step) * step)
             wider = aim / max(metric.glance(placed) if light else metric.with_room(placed), LEAST)
-            step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
+            step = min(step * min(max(wider, 0.1), 10.0), WIDEST)
             if 0.5 < wider < 2.0:
                 break
-        return min(step * self.contract.look / aim, COARSEST)
+        return min(step * self.contract.look / aim, WIDEST)
 
     @property
     def had(self) -> str:

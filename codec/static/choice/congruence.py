@@ -6,17 +6,14 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._core import codec as _kernels
-from bsm.codec.arrays import Faces, Levels, Matrix, Order
-from bsm.codec.geometry.turns import UNTURNED, Turn, cross_of, quaternion_of, turned_by
+from bsm._core.bitstream import constant
+from bsm.codec.arrays import Faces, Levels, Matrix
+from bsm.codec.geometry.mesh import extent_of
+from bsm.codec.geometry.turns import Turn, cross_of, quaternion_of, turned_by
 from bsm.codec.static.preamble_encoding import Prepared
-from bsm.codec.static.ways.grid import SAMPLE, Raster
+from bsm.codec.static.ways.grid import Raster
 
-MOST_FINENESS, AXIS_KINDS = 19, 48
-"""Bits of a component of a quaternion, and transforms that are parallel to the axes (V 17.2)."""
-MOST = 16  # transforms of a grid
 WORTH = 16.0  # vertices that a transform must explain
-PARALLEL = 1e-4  # largest entry by which an axis is off
-ROOM = 1 << 18  # numbers for votes
 FINER = 0.5  # over the step of a grid: vertices that are not rounded are nearer to their images
 
 
@@ -29,32 +26,12 @@ def transforms_of(prepared: Prepared, grid: Raster) -> Levels:
 def mirrored_origin(prepared: Prepared, origin: Matrix, step: float, turn: Turn) -> Matrix:
     """The origin of a grid, at most half a cell lower, for which mirrors take cells of the grid to cells."""
     turns, shifts = _motions(prepared, step, turn)
-    moved, back = origin.copy(), np.abs(turns + np.eye(3)).max(axis=2) < PARALLEL
+    extent = extent_of(prepared.mesh.positions).max()
+    moved, back = origin.copy(), np.abs(turns + np.eye(3)).max(axis=2) * extent < step / 8.0
     for axis in np.flatnonzero(back.any(axis=0)):
         halves = (shifts[back[:, axis].argmax(), axis] - 2.0 * origin[axis]) / step
         moved[axis] -= (math.ceil(halves) - halves) * step / 2.0
     return moved
-
-
-def covered(prepared: Prepared, step: float) -> float:
-    """The share of some vertices that a transform takes to others, or others to them, within a step or so."""
-    turns, shifts = _motions(prepared, step, UNTURNED)
-    positions = prepared.mesh.positions
-    some = positions[:: 1 + len(positions) // SAMPLE]
-    if not len(turns):
-        return 0.0
-    left, cells = np.arange(len(some)), np.sort(_cells(positions / (2.0 * step)))
-    for images in (some @ turns.transpose(0, 2, 1) + shifts[:, None], (some - shifts[:, None]) @ turns):
-        for corner in np.ndindex(2, 2, 2):
-            sought = _cells(images[:, left] / (2.0 * step) + np.array(corner) - 0.5)
-            at = cells.searchsorted(sought).clip(max=len(cells) - 1)
-            left = left[(cells[at] != sought).all(axis=0)]
-    return (len(some) - len(left)) / len(some)
-
-
-def _cells(places: Matrix) -> Order:
-    """One number for all three of each place, which hardly any other has, rounded down."""
-    return np.asarray(np.floor(places).astype(np.int64) @ np.array([1 << 42, 1 << 21, 1]))
 
 
 def _motions(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Matrix]:
@@ -73,10 +50,10 @@ def _motions(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Matri
 
 def motions_between(positions: Matrix, faces: Faces) -> Matrix:
     """Turns and shifts, shape (k, 12), of positions in cells that take parts of a mesh to others."""
-    count, found = len(positions), np.empty((MOST, 12))
+    count, found = len(positions), np.empty((constant("MOST_TRANSFORMS"), 12))
     degrees = np.bincount(faces.reshape(-1), minlength=count).astype(np.int32)
     heads = np.empty(1 << max(count, len(faces), 2).bit_length(), np.int32)
-    links, covered, room = np.empty(count + len(faces), np.int32), np.zeros(48 << 14, np.uint8), np.zeros(ROOM)
+    links, covered, room = np.empty(count + len(faces), np.int32), np.zeros(48 << 14, np.uint8), np.zeros(1 << 18)
     middle = (positions.min(axis=0) + positions.max(axis=0)) / 2.0
     centered = np.ascontiguousarray(positions - middle)
     kept = _kernels.find_motions(centered, faces, degrees, WORTH, heads, links, covered, room, found)
@@ -105,7 +82,7 @@ def _turned(turns: Matrix, moved: Matrix, middle: Matrix, most: int) -> Matrix:
     mirrored = np.linalg.det(turns) < 0.0
     side = np.where(mirrored, -1.0, 1.0)[:, None, None]
     quaternion = quaternion_of(side * turns)
-    bits = min(most.bit_length() + 2, MOST_FINENESS)
+    bits = min(most.bit_length() + 2, constant("MOST_FINENESS"))
     which = np.abs(quaternion).argmax(axis=1)[:, None]
     unit = np.rint(quaternion / np.take_along_axis(quaternion, which, axis=1) * (1 << bits))
     a, v = unit[:, :1, None], unit[:, 1:]
@@ -117,4 +94,4 @@ def _turned(turns: Matrix, moved: Matrix, middle: Matrix, most: int) -> Matrix:
     turned = side * spun / np.square(unit).sum(axis=1)[:, None, None]
     quarters = np.rint(4.0 * (moved - turned @ middle)) + 12 * most
     others = unit[np.arange(4) != which].reshape(-1, 3) + (1 << bits)
-    return np.column_stack([AXIS_KINDS + mirrored, which, others, quarters])
+    return np.column_stack([constant("AXIS_KINDS") + mirrored, which, others, quarters])

@@ -1,7 +1,7 @@
 """Positions on grids whose places are rounded, or chosen for the normals: ways to code a mesh."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache, partial
 
@@ -13,17 +13,15 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix, Positions
 from bsm.codec.geometry.mesh import box_around, extent_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
-from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Trial, turned
-from bsm.codec.static.choice.congruence import MOST, covered, mirrored_origin, transforms_of
+from bsm.codec.static.choice.bounds import SEEN, SPIKE, Bounds, Trial, turned
+from bsm.codec.static.choice.congruence import mirrored_origin, transforms_of
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
+from bsm.codec.static.targets import SLACK, WIDEST
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_grid, grid_of, sampled_size
 
-MOST_CELLS = 65535  # along the longest side, where floats are exact, and of a grid on which a mesh may have been made
-PART_OF_CELL = 1.0 / 64.0
 MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
-LEAST_SAVED = 0.03  # of the bytes: a share that is worth another try, or a fifth more time of decoding
 
 
 def grid_draft(prepared: Prepared, grid: Raster, places: Levels, brief: bool = False) -> Draft:
@@ -40,17 +38,17 @@ def may_repeat(prepared: Prepared) -> bool:
 
 
 def paying(prepared: Prepared, draft: Draft) -> Draft:
-    """A draft without decisions about whole vertices if these pay little, and without quarters of its transforms."""
+    """A draft without quarters of its transforms, and with whole vertices split, which decode slowly, if that pays."""
     places, header = draft.places, draft.header
     if places is None or not header.congruence:
         return draft
     grid, transforms = grid_of(header), transforms_of(prepared, grid_of(header))[: header.transforms]
     kept = [part for part in np.array_split(transforms, 4) if len(part)]
-    for i in range(count := len(kept), max(count - 3, 0), -1):  # first without whole vertices, which decode slowly
+    for i in range(count := len(kept), max(count - 3, 0), -1):
         some = kept[:i] + kept[i + 1 :]
         grid = replace(grid, transforms=np.concatenate(some), whole=i < count and draft.header.whole)
         coded = grid_draft(prepared, grid, places, draft.may_be_brief)
-        wins = coded.size < (1.0 - LEAST_SAVED * (i == count)) * draft.size
+        wins = coded.size < (1.0 - SLACK * (i == count)) * draft.size
         draft, kept = (coded, some) if wins else (draft, kept)
     return draft
 
@@ -83,19 +81,6 @@ def _rounded(
     return Raster(corner, step, largest), places
 
 
-def _made_on_grid(positions: Matrix, cells: int) -> tuple[Raster, Levels] | None:
-    """Return the grid with `cells` cells that positions, shape (n, 3), lie on, or None."""
-    low = positions.min(axis=0)
-    near = float((positions - low).max()) / cells
-    for step in (near, math.nextafter(near, 0.0), math.nextafter(near, math.inf)):
-        if 0.0 < step < math.inf:
-            places = np.rint((positions - low) / step)
-            grid = Raster(tuple(map(float, low)), step, tuple(places.max(axis=0).astype(int).tolist()))
-            if (grid.positions(places.astype(np.int32)) == positions).all():
-                return grid, places.astype(np.int32)
-    return None
-
-
 def made_on(positions: Matrix, within: float) -> float | None:
     """The step of the coarsest grid from the lower corner on that all positions are on, within so much or rounding."""
     extent = float(extent_of(positions).max())
@@ -113,7 +98,7 @@ def made_on(positions: Matrix, within: float) -> float | None:
                 reach = max(step, float(values[0]))
             else:
                 step, reach = float(counts @ near / (counts @ counts)), 4.0 * reach
-            if step < max(1.0 / MOST_CELLS, 8.0 * noise):
+            if step < 8.0 * noise:
                 return None
         if not len(values) or (np.abs(values - np.rint(values / step) * step) > noise).any():
             return None
@@ -126,8 +111,7 @@ class Gridded:
     def __init__(self, prepared: Prepared, bounds: Bounds, worth: float = 0.0, turn: Turn = UNTURNED) -> None:
         self._prepared, self._shaper = prepared, bounds.measures.shaper
         self._worth, self.turn = worth, turn
-        self._over_light = 0.0  # bytes of the usual coder over those of the light one, about the same at all steps
-        self.transforms = -1  # 0: with twins, 1: with transforms, too, a grid surely takes fewer bytes
+        self.repeats = False  # whether a grid surely takes fewer bytes with congruent parts
         own = turned_by(prepared.mesh.positions, turn, back=True)
         self._positions = prepared.units.into(own) if any(turn) else prepared.positions
         low = box_around(own)[0]
@@ -139,14 +123,14 @@ class Gridded:
         self._low = prepared.units.into(self._origin)
         smallest = float(np.finfo(np.float32).smallest_subnormal) / prepared.units.scale
         self.least = max(float((self._positions - self._low).max()) / (MOST_GRID - 4), smallest)
-        self.most = COARSEST
+        self.most = WIDEST
         self._bounds = bounds
         self.at = lru_cache(1)(self._made)
 
     @cached_property
     def first(self) -> float:
         # Where half a diagonal of cells is beyond the least reach, it is not the look that decides.
-        return min(self._bounds.first_step, COARSEST, 2.0 * float(self._bounds.reaches.min()) / math.sqrt(3.0))
+        return min(self._bounds.first_step, WIDEST, 2.0 * float(self._bounds.reaches.min()) / math.sqrt(3.0))
 
     def _made(self, step: float, mirrored: bool = True) -> Trial:
         unit = self._prepared.units.scale
@@ -198,56 +182,40 @@ class Gridded:
             return self
         other = Gridded(prepared, self._bounds, turn=turn)
         own, others = (grid.at(self.first).congruent.size for grid in (self, other))
-        return other if others < (1.0 - LEAST_SAVED) * own else self
+        return other if others < (1.0 - SLACK) * own else self
 
     def repeat(self, first: Trial) -> Trial:
         """Predict by congruent parts from now on if that pays in the first trial; return it so."""
-        if first.congruent.size >= (1.0 - LEAST_SAVED) * first.draft.size:
+        if first.congruent.size >= (1.0 - SLACK) * first.draft.size:
             return first
-        self.transforms = min(first.congruent.header.transforms, 1)
+        self.repeats = True
         self.at.cache_clear()
-        return replace(first, make=lambda: first.congruent, guess=None, also=lambda make: make())
-
-    def covered(self, step: float) -> float:
-        """The share of vertices that congruent parts may predict at a step."""
-        return covered(self._prepared, step * self._prepared.units.scale)
+        return replace(first, make=lambda: first.congruent)
 
     def made(self) -> Iterator[Trial]:
-        """The grids that the mesh was made on, or about, in single precision; and exactly, where one holds all."""
-        positions = self._prepared.mesh.positions
-        for within in (0.0, PART_OF_CELL * self._shaper.mean_edge * self._prepared.units.scale):
-            if (step := made_on(positions, within)) is not None:
-                yield self._made(step / self._prepared.units.scale, mirrored=False)
-                exactly = _made_on_grid(positions, round(float(extent_of(positions).max()) / step))
-                yield from () if exactly is None else (self._candidate(*exactly),)
+        """The grids that the mesh was made on, or about, in single precision."""
+        for within in (0.0, SEEN * self._shaper.mean_edge):
+            if (step := made_on(self._positions, within)) is not None:
+                yield self._made(step, mirrored=False)
 
     def _candidate(self, grid: Raster, places: Levels) -> Trial:
-        repeats, quick = may_repeat(self._prepared), self._prepared.light
-        brief, step = repeats and not quick, grid.step / self._prepared.units.scale
-        linked = self._prepared.linked if brief else self._prepared.mesh.faces
-        light = partial(grid_draft, self._prepared, replace(grid, light=True), places, brief)
-        sampled, few = lru_cache(partial(sampled_size, linked, grid, places)), len(places) <= SAMPLE
+        prepared, may = self._prepared, may_repeat(self._prepared)
 
         @lru_cache
-        def coded(transforms: int) -> Draft:
-            some = None if transforms < 0 else transforms_of(self._prepared, grid)[: transforms * MOST]
-            return grid_draft(self._prepared, replace(grid, transforms=some), places, brief)
+        def coded(repeats: bool) -> Draft:
+            found = transforms_of(prepared, grid) if repeats else None
+            return grid_draft(prepared, replace(grid, transforms=found), places, may and not prepared.light)
 
-        def also(make: Callable[[], Draft]) -> Draft:
-            draft = make()
-            if self.transforms >= 0 or not repeats:
-                return draft
-            kind = replace(grid, transforms=(transforms := transforms_of(self._prepared, grid)))
-            if not len(transforms) and (quick or not (few or sampled_size(linked, kind, places) < sampled())):
-                return draft
-            return min(draft, coded(min(len(transforms), 1)), key=lambda made: made.size)
-
-        def guess() -> float:
-            self._over_light = self._over_light or sampled() / sampled(1)
-            return light().size * self._over_light
+        def repeating() -> Draft:
+            if not may or self.repeats:
+                return coded(self.repeats)
+            some, sized = transforms_of(prepared, grid), partial(sampled_size, prepared.mesh.faces, coded=places)
+            if len(some) or prepared.light or len(places) <= SAMPLE:
+                return coded(len(some) > 0 or not prepared.light)
+            return coded(sized(replace(grid, transforms=some)) < sized(grid))
 
         decoded = grid.positions(places)
-        positions = np.ascontiguousarray(self._prepared.units.into(decoded))
-        fixed = len(self._prepared.connectivity.data)
-        about = None if few or quick or self.transforms >= 0 else guess
-        return Trial(step, positions, partial(coded, self.transforms), fixed, guess=about, also=also, decoded=decoded)
+        positions = np.ascontiguousarray(prepared.units.into(decoded))
+        step, fixed = grid.step / prepared.units.scale, len(prepared.connectivity.data)
+        make = partial(coded, self.repeats)
+        return Trial(step, positions, make, fixed, repeating=repeating, decoded=decoded)

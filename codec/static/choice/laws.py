@@ -31,18 +31,14 @@ class Law:
         self._steps, self.slope, self._luck = steps, slope, luck**2
         self.mean: Matrix = steps
         self.spread: Matrix = steps
-        self.known, self.off = [(first, guess, doubt)], 0.0  # steps, values, and their doubts; and what all are more
+        self.known = [(first, guess, doubt)]  # steps, values, and their doubts
         self._fit(TRUST * luck**2)
 
     def learn(self, at: int, value: float) -> None:
         """Take in the value of a trial, and, but for the first one, how lucky it was."""
         surprise = 3.0 * ((value - self.mean[at]) / (math.pi * self.spread[at])) ** 2 if len(self.known) > 1 else 1.0
-        self.known.append((self._steps[at], value - self.off, 0.0))
+        self.known.append((self._steps[at], value, 0.0))
         self._fit(self._squares + self._luck * surprise)
-
-    def move(self, off: float) -> None:
-        """Expect so much more of all trials."""
-        self.off, self.mean = self.off + off, self.mean + off
 
     def _fit(self, squares: float) -> None:
         """The expected value at each step, and the scale of the logistic distribution around it."""
@@ -57,7 +53,6 @@ class Law:
         self.spread = np.sqrt(3.0 * (self._luck + 1.0 / total)) / math.pi
         known = np.searchsorted(self._steps, places[1:])
         self.mean[known], self.spread[known] = values[1:], LEAST
-        self.mean += self.off
 
 
 @dataclass(eq=False)
@@ -108,14 +103,12 @@ def steps_of(way: Way) -> tuple[float, Matrix]:
 
 def search(
     queue: list[Hopes],
-    coded: Callable[[Way, Trial, bool], float],
+    coded: Callable[[Way, Trial], float],
     seen: Callable[[Trial], float],
     price: float,
     least: float = math.inf,
 ) -> Iterator[tuple[Way, Trial]]:
-    """Open trials until none is worth its price; yield each one that is the best so far.
-
-    `coded`: the bytes of a trial, about or exactly."""
+    """Open trials until none is worth its price; yield each one that is the best so far."""
     while queue:
         (gain, at), hopes = max(((hopes.next(least, price), hopes) for hopes in queue), key=lambda of: of[0][0])
         if least < math.inf and gain <= 0.0:
@@ -123,15 +116,13 @@ def search(
         try:
             if hopes.left[at] > 1:
                 made = hopes.way.at(math.exp(hopes.steps[at]))
-                hopes.begin(made, coded(hopes.way, made, False) + hopes.bytes.off)
+                hopes.begin(made, coded(hopes.way, made))
             else:
                 made, hopes.left[at] = hopes.coded.pop(at), 0
                 hopes.errors.learn(at, seen(made))
                 if hopes.bound.mean[at] <= 0.0 and hopes.low.mean[at] < least:
-                    hopes.bytes.move(coded(hopes.way, made, True) - hopes.bytes.mean[at])
-                    if hopes.bound.mean[at] <= 0.0 and hopes.low.mean[at] < least:
-                        least = float(hopes.low.mean[at])
-                        yield hopes.way, made
+                    least = float(hopes.low.mean[at])
+                    yield hopes.way, made
             if len(hopes.bytes.known) > 3 * TRIES or not hopes.left.any():
                 queue.remove(hopes)
         except LimitError:  # blocks that decoders would refuse

@@ -43,14 +43,15 @@ class Search:
         grid = Gridded(self._prepared, bounds)
         kept: dict[object, Trial] = {made: made for made in grid.made() if bounds.keeps(made)}
         grid = grid.in_frame()
-        first, refined = grid.at(grid.first), Refined(self._prepared, self._options, bounds)
+        usual = grid.at(grid.first)
+        first, refined = grid.repeat(usual), Refined(self._prepared, self._options, bounds)
         ways, saved = self._ways(bounds, grid, refined), self._saved(first)
 
         def total(way: object, size: float) -> float:
             return size if isinstance(way, Gridded | Trial) else size + saved  # positions on grids predict attributes
 
-        def coded(way: Way, made: Trial, exactly: bool) -> float:
-            return math.log(total(way, made.draft.size if exactly else made.size))
+        def coded(way: Way, made: Trial) -> float:
+            return math.log(total(way, made.draft.size))
 
         def excess(made: Trial) -> float:
             over, _ = bounds.excess(made), bounds.keeps(made)
@@ -64,21 +65,16 @@ class Search:
                 made = begun[refined] = refined.at(min(max(refined.first, refined.least), refined.most))
                 if (larger := self._larger(refined, made, bounds)) is not None:
                     ways.append(larger)
-                    sizes[larger] = made.size - refined.base.coded + larger.base.coded
-        room = 1.0 - grid.covered(first.step) if len(begun) > 1 else 0.0
-        if room and min(made.size for made in begun.values()) < first.size * room:
-            other = first.size
-        else:
-            begun[grid] = grid.repeat(first)  # places that are chosen are hardly ever images of others
-            other = max(begun[grid].size, (1.0 - DOUBT) * first.draft.size)
+                    sizes[larger] = made.draft.size - refined.base.coded + larger.base.coded
+        other = max(first.draft.size, (1.0 - DOUBT) * usual.draft.size)  # few chosen places are images of others
         queue = []
         for way in ways:
-            made = begun.get(way, begun[grid])
-            size = sizes.get(way, made.size if way in begun else other)
+            made = begun.get(way, first)
+            size = sizes.get(way, made.draft.size if way in begun else other)
             queue.append(self._hopes(way, bounds, made, total(way, size)))
             if way in begun:
                 queue[-1].begin(made, queue[-1].bytes.known[0][1])
-        least = math.log(min((made.size for made in kept.values()), default=math.inf))
+        least = math.log(min((made.draft.size for made in kept.values()), default=math.inf))
         kept.update(search(queue, coded, excess, self._price, least))
         if not kept:
             raise TargetError(f"{contract} cannot be kept on this mesh; the best possible is {bounds.had}")
@@ -87,12 +83,12 @@ class Search:
     def _larger(self, way: Refined, found: Trial, bounds: Bounds) -> Refined | None:
         """The way with larger blocks, where these may take fewer bytes than those that it has come to."""
         usual, best = self._prepared.parts.size == EncodeOptions.block_size, self._options.effort == "best"
-        if bounds.contract.look == math.inf or not usual or (way.base.coded <= found.size / 4.0 and not best):
+        if bounds.contract.look == math.inf or not usual or (way.base.coded <= found.draft.size / 4.0 and not best):
             return None
         parts = replace(self._prepared.parts, size=LARGE_BLOCKS["block_size"])
         larger = Refined(replace(self._prepared, parts=parts), self._options, bounds)
         larger.first = found.step
-        saved = (way.base.coded - larger.base.coded) / found.size
+        saved = (way.base.coded - larger.base.coded) / found.draft.size
         return larger if best or larger.base.work < way.base.work * (1.0 + WORTH * saved) else None
 
     def best(self, contract: Contract, most_bytes: float) -> Draft | None:
@@ -103,23 +99,21 @@ class Search:
         kept, near = Bounds(self._measures, contract), Bounds(self._measures, replace(contract, look=1.0))
         usual = Gridded(self._prepared, near).in_frame()
         first = usual.repeat(usual.at(usual.first))
-        room = most_bytes * first.size / self._size(paying(self._prepared, first.congruent))  # for drafts
         # A step twice as wide, which looks about twice as far off, saves three bits of a vertex.
-        octaves = min(max(8.0 * (first.size - most_bytes) / (3.0 * self._prepared.graph.size), -12.0), 6.0)
+        octaves = min(max(8.0 * (first.draft.size - most_bytes) / (3.0 * self._prepared.graph.size), -12.0), 6.0)
         bounds = Bounds(self._measures, replace(contract, look=2.0**octaves))
         grid = Gridded(self._prepared, bounds, turn=usual.turn) if abs(octaves) > 1.0 else usual
-        grid.transforms = usual.transforms
+        grid.repeats = usual.repeats
         found, ways = [first, *grid.made()], self._ways(bounds, grid, Refined(self._prepared, self._options, bounds))
         queue = [self._hopes(way, bounds, first, most_bytes, most_bytes) for way in ways]
 
-        def coded(way: Way, made: Trial, exactly: bool) -> float:
-            size = self._size(paying(self._prepared, made.congruent) if exactly else made.draft)
-            return math.log(size / (room if isinstance(way, Gridded) and not exactly else most_bytes))
+        def coded(way: Way, made: Trial) -> float:
+            return math.log(self._size(made.congruent) / most_bytes)
 
         if grid is usual:
-            queue[0] = self._hopes(grid, near, first, first.size, most_bytes)
-            queue[0].begin(first, coded(grid, first, False))
-        least = min((kept.quality(made) for made in found if coded(grid, made, True) <= 0.0), default=math.inf)
+            queue[0] = self._hopes(grid, near, first, first.draft.size, most_bytes)
+            queue[0].begin(first, coded(grid, first))
+        least = min((kept.quality(made) for made in found if coded(grid, made) <= 0.0), default=math.inf)
         price = self._price / -queue[0].bytes.slope  # of bytes, in looks
         found += [made for _, made in search(queue, coded, kept.quality, price, least)]
         best = sorted(filter(kept.keeps, found), key=kept.quality)
@@ -130,7 +124,7 @@ class Search:
         """What to expect of a way if it takes about so many bytes at its first step, and others as a trial does."""
         (first, steps), look = steps_of(way), bounds.contract.look
         luck = self._prepared.graph.size**-0.25 if look < math.inf else SLACK
-        slope = -min(BYTES * self._prepared.graph.size, max(like.size - like.fixed, 1.0)) / size
+        slope = -min(BYTES * self._prepared.graph.size, max(like.draft.size - like.fixed, 1.0)) / size
         taken = Law(steps, first, math.log(size / (most_bytes or 1.0)), slope, DOUBT, SLACK)
         rise = 2.0 if bounds.contract.visual < math.inf else 1.0
         errors = Law(steps, first, math.log(look) if most_bytes else 0.0, rise, DOUBT, luck)

@@ -52,22 +52,22 @@ INLINE void place(const double *frame, const double *origin, const double *error
         to[d] = origin[d] + error[0] * frame[d] + error[1] * frame[3 + d] + error[2] * frame[6 + d];
 }
 
-/* One sweep over levels (n x axes), but for those of the first `fixed` axes: for each the least of its loss and its
- * rate. `offsets` (n x 3) is what is wanted, along axes of which a level moves a vertex by `steps` (n x 3); those that
- * have no level keep it. An error costs `losses` (n x 2) times the square of its length, and times that of its share
- * along `normals` (n x 3, in the same axes). Rates have a row for each axis and class of what is around (mean size of
- * the neighbors' levels), and depend on the distance from `pull` times the neighbors' mean. `creases` that are wrong
- * add their costs: `moved` (n x 3) is room for where vertices come to lie, whose places are `places` (n x 3), in the
- * axes `frames` (n x 9). No vertex ends up farther from its place than its `reach`, unless it was. Counts, in the shape
- * of rates, are of the levels that were taken. Returns how often one moved. */
+/* One sweep over levels (n x 3), but for those of the first `fixed` axes: for each the least of its loss and its rate.
+ * `offsets` (n x 3) is what is wanted, along axes of which a level moves a vertex by `steps` (n x 3). An error costs
+ * `losses` (n x 2) times the square of its length, and times that of its share along `normals` (n x 3, in the same
+ * axes). Rates have a row for each axis and class of what is around (mean size of the neighbors' levels), and depend on
+ * the distance from `pull` times the neighbors' mean. `creases` that are wrong add their costs: `moved` (n x 3) is room
+ * for where vertices come to lie, whose places are `places` (n x 3), in the axes `frames` (n x 9). No vertex ends up
+ * farther from its place than its `reach`, unless it was. Counts, in the shape of rates, are of the levels that were
+ * taken. Returns how often one moved. */
 KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, ConstDoubles2 losses, ConstDoubles2 steps,
                              ConstDoubles reach, ConstInts starts, ConstInts members, ConstDoubles2 rates, double pull,
                              int64_t fixed, Creases creases, ConstDoubles2 places, ConstDoubles2 frames, Doubles2 moved,
                              Ints2 levels, Doubles2 counts) {
-    int64_t n = offsets.rows, axes = levels.columns, moves = 0;
+    int64_t n = offsets.rows, moves = 0;
     if (offsets.columns != 3 || normals.rows != n || normals.columns != 3 || losses.rows != n || losses.columns != 2 ||
-        steps.rows != n || steps.columns != 3 || levels.rows != n || axes < 1 || axes > 3 || fixed < 0 ||
-        reach.size != n || !fits_rows(starts, members, n, n) || rates.rows != axes * AROUND || rates.columns != SIZES ||
+        steps.rows != n || steps.columns != 3 || levels.rows != n || levels.columns != 3 || fixed < 0 ||
+        reach.size != n || !fits_rows(starts, members, n, n) || rates.rows != 3 * AROUND || rates.columns != SIZES ||
         counts.rows != rates.rows || counts.columns != rates.columns || places.rows != n || places.columns != 3 ||
         frames.rows != n || frames.columns != 9 || moved.rows != n || moved.columns != 3 || !fits_creases(&creases, n))
         return MISUSED;
@@ -76,9 +76,7 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
     for (int64_t i = 0; i < counts.rows * counts.columns; i++) counts.data[i] = 0.0;
     for (int64_t v = 0; v < n; v++) {
         double error[3];
-        for (int a = 0; a < 3; a++)
-            error[a] = (a < (int)axes ? steps.data[3 * v + a] * levels.data[v * axes + a] : 0.0)
-                - offsets.data[3 * v + a];
+        for (int64_t i = 3 * v; i < 3 * v + 3; i++) error[i - 3 * v] = steps.data[i] * levels.data[i] - offsets.data[i];
         place(frames.data + 9 * v, places.data + 3 * v, error, moved.data + 3 * v);
     }
     for (int64_t v = 0; v < n; v++) {
@@ -87,19 +85,18 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
         double share = end > first ? 1.0 / (end - first) : 0.0;
         ErrorCost x = {normals.data + 3 * v, losses.data[2 * v + 1], losses.data[2 * v], {0.0}};
         for (int a = 0; a < 3; a++) {
-            double moved = a < (int)axes ? steps.data[3 * v + a] * levels.data[v * axes + a] : 0.0;
-            x.error[a] = moved - offsets.data[3 * v + a];
+            x.error[a] = steps.data[3 * v + a] * levels.data[3 * v + a] - offsets.data[3 * v + a];
             far += x.error[a] * x.error[a];
         }
         const double *frame = frames.data + 9 * v, *origin = places.data + 3 * v;
         double *at = moved.data + 3 * v;
         bool hangs = creases.starts.data[v + 1] > creases.starts.data[v];
         /* Normals last: they make good what was left along the surface where the axes are not quite its own. */
-        for (int a = (int)axes; a-- > (int)fixed;) {
-            int32_t *level = levels.data + v * axes + a, before = *level;
+        for (int a = 3; a-- > (int)fixed;) {
+            int32_t *level = levels.data + 3 * v + a, before = *level;
             double sum = 0.0, sizes = 0.0, step = steps.data[3 * v + a], offset = offsets.data[3 * v + a];
             for (int32_t i = first; i < end; i++) {
-                double other = levels.data[(int64_t)members.data[i] * axes + a];
+                double other = levels.data[3 * (int64_t)members.data[i] + a];
                 sum += other;
                 sizes += __builtin_fabs(other);
             }

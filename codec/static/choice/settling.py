@@ -18,12 +18,8 @@ from bsm.codec.look.pictures import CREASE, MOST_AROUND
 from bsm.codec.signal.smooth import in_frames, local_frames, tangent_steps
 
 PULL = 0.8  # a level is expected at so much of the mean of its neighbors'
-AROUND, SIZES = 10, 16
-"""Classes of the neighbors' mean size, and sizes of the rest of a level, for estimates of bits."""
-BITS = 2.0 * np.log2(1.0 + np.arange(SIZES)) + 0.5  # what they are before any is counted
 ASIDE, RATIO = 0.35, 10.0
 """Cost of rounding along a tangent over that along the normal, where the steps of a layer have this ratio."""
-SWEEPS = 2  # more move few levels, and take no bytes off: over all axes, and over those along the surface
 CREASED = 2.5
 """The cost of a crease in one of two pictures only, over an error of a step at its share of vertices."""
 WITHIN = 8.0  # degrees, on both sides of the angle that makes a crease, in which bends are watched
@@ -58,32 +54,22 @@ class Settler:
         reach: Matrix,
         ratio: float = RATIO,
     ) -> Levels:
-        """Return levels that are worth their bits, shape (n, axes)."""
-        count, axes = steps.shape
+        """Return levels that are worth their bits, shape (n, 3)."""
+        count = len(steps)
         unit = worth * float(steps[0, 0]) ** 2
         tangent = ASIDE / np.square(self._tangents(ratio))
         losses = np.column_stack([np.maximum(1.0 - tangent, 0.0), tangent]) / max(unit, 1e-300)
         normals = in_frames(self._frames[:, 0], frames)
-        levels = np.rint(offsets[:, :axes] / steps).astype(np.int32)
+        levels = np.rint(offsets / steps).astype(np.int32)
         creases = self._creases._replace(costs=self._creases.costs * (CREASED * count / max(worth, 1e-300)))
-        given, moved = np.ascontiguousarray(frames), np.empty((count, 3))
-        rates, counts = np.tile(BITS, (AROUND * axes, 1)), np.empty((AROUND * axes, SIZES))
-
-        def sweep(steps: Matrix, fixed: int) -> int:
-            return _kernels.settle_levels(
-                np.ascontiguousarray(offsets), normals, losses,
-                np.ascontiguousarray(np.broadcast_to(steps, (count, 3))), reach,
-                self._graph.offsets, self._graph.neighbors, rates, PULL, fixed, creases, self._positions, given, moved,
-                levels, counts,
+        wanted, given, moved = np.ascontiguousarray(offsets), np.ascontiguousarray(frames), np.empty((count, 3))
+        counts = np.zeros((30, 16))  # of each axis and class of what is around, of sizes: shaped as the kernel has them
+        for fixed in (0, 0, 1, 1):  # more sweeps, over all axes and along the surface, move few levels
+            _kernels.settle_levels(
+                wanted, normals, losses, known(levels) if fixed else steps, reach, self._graph.offsets,
+                self._graph.neighbors, _bits(counts), PULL, fixed, creases, self._positions, given, moved, levels,
+                counts,
             )  # fmt: skip
-
-        for _ in range(SWEEPS):
-            any_moved = sweep(steps, 0)
-            rates = _bits(counts)
-            if not any_moved:
-                break
-        for _ in range(SWEEPS if axes > 1 else 0):
-            sweep(known(levels), 1)
         return levels
 
     @cached_property
@@ -97,10 +83,10 @@ class Settler:
 
 def _bits(counts: Matrix) -> Matrix:
     """Bits of sizes that come so often, in each class; one of any sign has a bit more than none."""
-    trusted = counts + np.exp2(-BITS)
-    bits = np.log2(trusted.sum(axis=1, keepdims=True) / trusted)
-    bits[:, 1:] += 1.0
-    return np.ascontiguousarray(bits)
+    sizes = np.arange(counts.shape[1])
+    signs = np.minimum(sizes, 1)
+    trusted = counts + np.exp2(signs) / np.square(1.0 + sizes)  # before any is counted
+    return np.ascontiguousarray(np.log2(trusted.sum(axis=1, keepdims=True) / trusted) + signs)
 
 
 def creases_of(positions: Positions, faces: Faces) -> Creases:

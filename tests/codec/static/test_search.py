@@ -96,11 +96,3 @@ def test_looks_that_do_not_decide_end_at_one_grid() -> None:
     mesh = torus(14, 10)
     found = {Encoder(mesh, EncodeOptions(contract=Contract(1e-3, look=look))).encode() for look in (20.0, 30.0)}
     assert len(found) == 1
-
-
-def test_the_bytes_of_a_grid_are_about_what_is_expected() -> None:
-    mesh = torus(100, 60)
-    _, _, grid, _ = _asked(mesh, EncodeOptions())
-    made = grid.at(grid.first)
-    assert made.size == pytest.approx(made.draft.size, rel=0.1)
-    assert made.size != made.draft.size, "it is an estimate"
