@@ -92,9 +92,9 @@ FLOORS = {
 BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
 # Of these, only numpy is there wherever a mesh or a sequence is encoded.
 # The kernels of `bitstream`, writers that it calls, and the words of the public header: statuses, limits, memory.
-OF_BYTES = ("bsm._core.bitstream", "bsm._core.write_", "library.bsmdec")
+OF_BYTES = ("bsm._core.bitstream", "bsm._core.GivenMesh", "library.bsmdec")
 # What encoders call of the library.
-OF_ENCODERS = ("Chain", "Cut", "Field", "Place", "Track", "gop_memory", "rounded")
+OF_ENCODERS = ("Chain", "Cut", "Field", "GivenMesh", "Track", "gop_memory", "rounded")
 CODEC_LIBRARIES = {"numpy": "bsm.codec", "scipy": "bsm.codec.denoise", "pymetis": "bsm.codec.blocks.overlap"}
 
 

@@ -1,11 +1,11 @@
-"""Faces to bytes, exact up to numbering; and the order that a mesh had, and its vertices that became one."""
+"""Faces to bytes, exact up to numbering."""
 
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm._core import write_faces, write_order
+from bsm._core import GivenMesh
 from bsm.bitstream.errors import MeshError
 
 Ints = npt.NDArray[np.int32]
@@ -29,19 +29,6 @@ def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConne
     missing = np.bincount(given.ravel(), minlength=vertex_count) == 0
     if missing.any():
         raise MeshError(f"vertex {int(np.argmax(missing))} is in no face; remove isolated vertices first")
-    return EncodedConnectivity(*write_faces(np.ascontiguousarray(given, np.int32), vertex_count))
-
-
-@dataclass(frozen=True, eq=False)
-class Splits:
-    """The given vertices: the joined vertex of each, -1 in no face; faces of them; positions of those in no face."""
-
-    source: Ints
-    faces: Ints
-    loose: npt.NDArray[np.float64]
-
-
-def encode_order(faces: npt.ArrayLike, encoded: EncodedConnectivity, splits: Splits | None = None) -> bytes:
-    """Encode the order of `faces`, shape (m, 3), whose connectivity was encoded as `encoded`, and given vertices."""
-    joined, given = np.ascontiguousarray(faces, np.int32), () if splits is None else tuple(vars(splits).values())
-    return write_order(joined, encoded.faces, encoded.vertex_order, encoded.face_order, *given)
+    mesh = GivenMesh(np.ascontiguousarray(given, np.int32), np.arange(vertex_count, dtype=np.int32))
+    mesh.join(True, True)
+    return EncodedConnectivity(*mesh.code())

@@ -8,7 +8,6 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Indices, Mask, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.graph import components, edges_of, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 
 
@@ -24,32 +23,6 @@ def degenerate(faces: npt.NDArray[Any]) -> Mask:
     """Which faces have fewer than three different corners, shape (m,)."""
     a, b, c = faces.T
     return np.asarray((a == b) | (b == c) | (a == c))
-
-
-def keep_apart(index: Indices, faces: Faces) -> Indices:
-    """Number positions, shape (n,), anew: closed bodies share none. Vertices connect faces, and so do edges of two
-    faces; at other edges, faces that follow each other are connected, unless an even number of them already are."""
-    if len(faces) == 0 or index.max() + 1 == len(index):
-        return index
-    ends, edges, counts = edges_of(index[faces])
-    order = np.argsort(edges, kind="stable")
-    shells = _shells(len(index), faces, twos := order[counts[order] == 2])
-    alike = row_numbers(np.column_stack([edges, shells[faces[:, 0]].repeat(3)]))
-    order = order[np.bincount(alike)[alike[order]] % 2 == 1]
-    _, begins, sizes = np.unique(edges[order], return_index=True, return_counts=True)
-    alone = (begins + sizes - 1)[sizes % 2 == 1]
-    shells = _shells(len(index), faces, np.append(twos, np.delete(order, alone)))
-    unpaired = order[alone]
-    unpaired = unpaired[ends[unpaired, 0] != ends[unpaired, 1]]
-    is_body = np.bincount(shells[faces[:, 0]], minlength=len(index)) > 3
-    is_body[shells[faces[unpaired // 3, 0]]] = False
-    return group_rows(np.column_stack([index, np.where(is_body[shells], shells, -1)]).astype(np.int64))
-
-
-def _shells(vertices: int, faces: Faces, pairs: Order) -> Indices:
-    """The component of each vertex, where faces connect theirs, and so do those of each pair of their corners."""
-    links = faces[pairs.reshape(-1, 2) // 3, 0]
-    return components(graph_of_faces(np.concatenate([faces, links[:, [0, 1, 1]]]), vertices))
 
 
 def group_rows(values: npt.NDArray[Any]) -> Indices:

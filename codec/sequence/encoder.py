@@ -28,7 +28,7 @@ from bsm.codec.sequence.run_encoding import EncodedGops, FirstFrame, Kept, RunEn
 from bsm.codec.sequence.runs import Frame, JoinedRun, Run, RunSplitter, joined_runs, kind_of
 from bsm.codec.sequence.targets import RISES, SequenceComparison, compare_sequences
 from bsm.codec.sequence.verification import ExpectedFrame, Measured, SequenceVerifier
-from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
+from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, with_attributes
 from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.encoder import PROMISED_SIZES
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, prepare
@@ -241,7 +241,8 @@ class SequenceEncoder:
         self.run_starts.append(run.first)
         self._done, known = 0, meshes.find(run)
         prepared = known.prepared if known else _prepared(run.joined, options)
-        self.vertex_order, self.face_order = _orders(run.joined, prepared)
+        original = AsGiven(run.mesh, run.joined, prepared)
+        self.vertex_order, self.face_order = original.vertex_order, run.joined.kept[prepared.face_order]
         frames = (frame[prepared.coding_order] for frame in run.frames)
         longest = options.together(len(prepared.positions))
         group = next_group(frames, longest, prepared, run.moving)
@@ -257,7 +258,7 @@ class SequenceEncoder:
             mesh = replace(known, gops=encoder.again(group, known.gops))
             own, again = mesh.gops.first_frame.header, (index, known.run)
             begun = iter([Header(vertices=own.vertices, faces=own.faces, sequence=(self._count, longest), run=again)])
-        self._verifier.expect_mesh(AsGiven(run.mesh, run.joined, prepared), mesh.resting)
+        self._verifier.expect_mesh(original, mesh.resting)
         yield from begun
         for track, coder in enumerate(mesh.coders, 1):
             coder.begin(mesh.gops.encoder, track)
@@ -315,7 +316,7 @@ class SequenceEncoder:
             elif attribute.name not in may or (quality.way == "exact" and attribute.values.dtype.kind == "f"):
                 del bounds[attribute.name]
             wanted.append((attribute, quality))
-        carried = carry(place_of(given, run.joined, prepared), prepared.mesh.faces, wanted)
+        carried = carry(run.joined.coder, prepared.mesh.faces, wanted)
         carried = tuple(
             replace(a, declaration=replace(a.declaration, moves=1)) if a.declaration.name in bounds else a
             for a in carried
@@ -401,16 +402,7 @@ def _digest(run: JoinedRun) -> bytes:
 
 def _prepared(joined: JoinedMesh, options: SequenceOptions) -> Prepared:
     joined.mesh.require_sizes(*PROMISED_SIZES)
-    sizes = Parts(options.block_size, options.overlap)
-    return prepare(joined.mesh, sizes, keep_order=options.keep_order, splits=joined.splits)
-
-
-def _orders(joined: JoinedMesh, prepared: Prepared) -> tuple[Order, Order]:
-    """The given vertex and the given face that each of the decoder's is."""
-    faces = joined.kept[prepared.face_order]
-    if joined.splits is not None:
-        return np.flatnonzero(joined.index >= 0), faces
-    return joined.first[prepared.vertex_order], faces
+    return prepare(joined, Parts(options.block_size, options.overlap), keep_order=options.keep_order)
 
 
 def _positions(frame: Frame) -> Matrix:

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from bsm._core import Cut, Field
+from bsm._core import Cut, Field, GivenMesh
 from bsm._core.bitstream import constant
-from bsm.bitstream.connectivity.faces import Splits, encode_connectivity, encode_order
+from bsm.bitstream.connectivity.faces import EncodedConnectivity
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Packet, Writer, write_brief
@@ -22,7 +22,7 @@ from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_parti
 from bsm.codec.geometry.graph import Graph, components, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
-from bsm.codec.geometry.welding import degenerate, first_of, group_rows, keep_apart, weld
+from bsm.codec.geometry.welding import weld
 from bsm.codec.signal.transform import MeasuredSpectrum
 from bsm.codec.static.units import Units, checksum_of, units_of
 
@@ -31,14 +31,16 @@ MERGED = "merged"
 
 @dataclass(frozen=True, eq=False)
 class JoinedMesh:
-    """A given mesh after joining."""
+    """A given mesh after joining; `coder` has it in the order of coding as well, once that is known."""
 
     mesh: TriangleMesh
     index: Indices
     first: Order
     kept: Order
-    splits: Splits | None
+    splits: Order | None  # the given vertices that come back; None: the joined ones do
     notes: tuple[str, ...]
+    coder: GivenMesh
+    given: Positions
 
     @property
     def losses(self) -> tuple[str, ...]:
@@ -56,32 +58,19 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
 
 
 def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool = True) -> JoinedMesh:
-    notes, index = [], keep_apart(index, mesh.faces)
-    collapsed = degenerate(index[mesh.faces]) & ~degenerate(mesh.faces)
-    if keep or collapsed.all():
-        collapsed[:] = False
-    kept = np.flatnonzero(~collapsed)
-    # A vertex that no face uses is no copy of one that is used, although it is there, too.
-    given = np.bincount(mesh.faces[kept].ravel(), minlength=len(mesh.positions)) > 0
-    numbers = group_rows(index[given].astype(np.int64)[:, None])
-    first = np.flatnonzero(given)[first_of(numbers)]
-    index = np.full(len(given), -1, np.int32)
-    index[given] = numbers
-    mentioned = int(np.count_nonzero(np.bincount(mesh.faces.ravel())))
-    merged, loose = mentioned - len(first), len(index) - mentioned
-    splits = None
-    if keep and keep_loose and (merged or loose):
-        splits = Splits(index, mesh.faces, mesh.positions[~given])
-    elif keep and merged:
-        splits = Splits(index[given], (np.cumsum(given) - 1)[mesh.faces].astype(np.int32), np.zeros((0, 3)))
+    notes, splits, coder = [], None, GivenMesh(mesh.faces, index)
+    index, first, kept, merged, loose = coder.join(keep, keep and keep_loose)
+    if keep and (merged or (loose and keep_loose)):
+        splits = np.flatnonzero((index >= 0) | keep_loose)
     if merged and not keep:
         notes.append(f"{MERGED} {counted(vertices=merged)} with others at the same position")
-    if collapsed.any():
-        notes.append(f"left out {counted(faces=int(collapsed.sum()))} without area")
+    if collapsed := len(mesh.faces) - len(kept):
+        notes.append(f"left out {counted(faces=collapsed)} without area")
     if loose and not (keep and keep_loose):
         notes.append(f"left out {counted(vertices=loose)} that no face uses")
-    mesh = TriangleMesh(mesh.positions[first], index[mesh.faces[kept]])
-    return JoinedMesh(mesh, index, first, kept, splits, tuple(notes))
+    whole = TriangleMesh(mesh.positions[first], index[mesh.faces[kept]])
+    places, faces = first.astype(np.int64), kept.astype(np.int64)
+    return JoinedMesh(whole, index, places, faces, splits, tuple(notes), coder, mesh.positions)
 
 
 MOST_CELLS = 1 << 20  # along an axis of a grid
@@ -224,19 +213,13 @@ class Parts:
 
 
 def prepare(
-    mesh: TriangleMesh,
-    parts: Parts,
-    *,
-    keep_order: bool,
-    splits: Splits | None = None,
-    light: bool = False,
-    congruence: bool = False,
+    joined: JoinedMesh, parts: Parts, *, keep_order: bool, light: bool = False, congruence: bool = False
 ) -> Prepared:
-    """Code the connectivity of a mesh whose vertices are all in faces."""
-    connectivity = encode_connectivity(mesh.faces, len(mesh.positions))
+    """Code the connectivity of a mesh."""
+    mesh, connectivity = joined.mesh, EncodedConnectivity(*joined.coder.code())
     coding_order = connectivity.vertex_order.astype(np.int64)
     ordered = TriangleMesh(mesh.positions[coding_order], connectivity.faces)
-    order = (packets.Order(encode_order(mesh.faces, connectivity, splits)),) if keep_order else ()
+    order = (packets.Order(joined.coder.order(joined.given)),) if keep_order else ()
     return Prepared(
         mesh=ordered,
         graph=graph_of_faces(ordered.faces, len(coding_order)),

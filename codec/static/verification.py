@@ -33,15 +33,12 @@ class AsGiven:
     def vertex_order(self) -> Order:
         """The given vertex that each of the decoder's is, or that lies at its place."""
         splits = self.joined.splits
-        if splits is not None:  # of a sequence loose vertices are left out
-            whole = len(splits.source) == len(self.given.positions)
-            return np.arange(len(self.given.positions)) if whole else np.flatnonzero(self.joined.index >= 0)
-        return self.joined.first[self.prepared.vertex_order]
+        return self.joined.first[self.prepared.vertex_order] if splits is None else splits
 
     @property
     def loose(self) -> Positions:
         """Positions of vertices that no face uses, where the stream has them, as it has all others."""
-        return np.zeros((0, 3)) if self.joined.splits is None else self.joined.splits.loose
+        return self.joined.given[self.vertex_order[self.joined.index[self.vertex_order] < 0]]
 
     def matched(self, faces: Faces, vertices: int) -> Order:
         """Return the coded vertex of each of the decoder's, -1 for loose ones, whose faces are `faces`."""

@@ -152,44 +152,16 @@ static void write_motion(Encoder *encoder, FrameType type, int64_t first, int64_
 
 /* ---- Faces and their order ---- */
 
-static bool write_order_section(Encoder *encoder) {
-    Arena *scratch = &encoder->writer.scratch;
-    const CodedMesh *coded = &encoder->coded;
-    const JoinedMesh *joined = &encoder->joined;
-    Mark mark = mark_of(scratch);
-    Ints2 corners;
-    Doubles2 loose;
-    if (!take_ints2(scratch, encoder->given.faces, 3, &corners)
-        || !take_doubles2(scratch, joined->loose, 3, &loose))
-        return false;
-    loose.rows = 0;
-    for (int64_t i = 0; i < 3 * corners.rows; i++) corners.data[i] = (int32_t)encoder->given.corners[i];
-    for (int64_t v = 0; v < encoder->given.vertices; v++)
-        if (joined->index.data[v] < 0)
-            memcpy(loose.data + 3 * loose.rows++, encoder->given.positions.data + 3 * v, 3 * sizeof(double));
-    Arrangement arrangement = {const_ints2(joined->faces), const_ints2(coded->faces), const_ints(coded->vertex_order),
-        const_ints(coded->face_order), const_ints(joined->index), const_ints2(corners), 0, 0};
-    put_order(&encoder->out.payload, &arrangement, const_doubles2(loose), scratch);
-    put_section(&encoder->out, ORDER_FRAME);
-    release_to(scratch, mark);
-    return !failed(&encoder->writer.context);
-}
-
 /* CONNECTIVITY stays in `writing` until the header is known. */
 static bool code_faces_first(Encoder *encoder, Writing *writing) {
     Writer *writer = &encoder->writer;
-    Arena *arena = &writer->arena;
     CodedMesh *coded = &encoder->coded;
-    const JoinedMesh *joined = &encoder->joined;
-    int64_t n = joined->first.size, m = joined->faces.rows;
-    *coded = (CodedMesh){.given = &encoder->given, .joined = joined, .keeps = encoder->options.keep_order};
-    Written given = {joined->faces.data, NULL, m, n, 1};
-    return take_ints(arena, n, &coded->vertex_order) && take_ints(arena, m, &coded->face_order)
-        && take_ints2(arena, m, 3, &coded->faces) && take_bytes(arena, m, &coded->turns)
-        && write_faces(writer, given, n, writing, coded->vertex_order.data, coded->face_order.data, coded->faces.data,
-            coded->turns.data)
+    int64_t n = encoder->joined.first.size;
+    *coded = (CodedMesh){.given = &encoder->given, .joined = &encoder->joined, .keeps = encoder->options.keep_order};
+    return order_faces(writer, NULL, n, writing, coded)
         && (encoder->carried_count == 0
-            || link_mesh(&writer->context, const_ints2(coded->faces), n, arena, &writer->scratch, &coded->corners));
+            || link_mesh(&writer->context, const_ints2(coded->faces), n, &writer->arena, &writer->scratch,
+                &coded->corners));
 }
 
 /* ---- Metadata ---- */
@@ -286,7 +258,10 @@ static bool write_body(Encoder *encoder, const Writing *connectivity, Chunks *ch
     write_metadata(encoder, false);
     put_bytes(&out->payload, (Span){connectivity->data, connectivity->size});
     put_section(out, CONNECTIVITY_FRAME);
-    if (encoder->options.keep_order && !write_order_section(encoder)) return false;
+    if (encoder->options.keep_order) {
+        put_order(&out->payload, &encoder->coded, &encoder->writer.scratch);
+        put_section(out, ORDER_FRAME);
+    }
     for (int k = 0; k < encoder->carried_count; k++)
         if (!declare_carried(&encoder->writer, &encoder->coded, k, encoder->carried, out)) return false;
     if (!moves && !write_grid(encoder)) return false;

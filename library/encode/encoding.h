@@ -39,9 +39,25 @@ typedef struct {
 /* The number of each row of `width` integers: that of an equal row before it, or the next. Returns how many there are,
  * -1 without memory. */
 int64_t number_rows(const int64_t *rows, int64_t count, int width, Arena *scratch, Ints numbers);
-/* Make one vertex of those at one position in all frames; -0.0 is there where 0.0 is, unless `exact`. With `keep`,
- * faces without area stay. */
+/* Make one vertex of those with the number of one place, which becomes another where closed bodies share it. With
+ * `keep`, faces without area stay. */
+bool join_places(const GivenMesh *given, Ints place, bool keep, Writer *writer, JoinedMesh *joined);
+/* The same of those at one position in all frames; -0.0 is there where 0.0 is, unless `exact`. */
 bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, JoinedMesh *joined);
+
+/* A joined mesh in the order of coding. */
+typedef struct {
+    const GivenMesh *given;
+    const JoinedMesh *joined;
+    bool keeps;            /* vertices in no face, with the order */
+    Ints2 faces;           /* m x 3, coded */
+    Ints vertex_order, face_order; /* the joined vertex and face of each */
+    Bytes turns;           /* m: the corner of the joined face that is the first of the coded one */
+    Corners corners;
+} CodedMesh;
+/* Write CONNECTIVITY of a joined mesh of so many vertices, and put it in the order of coding. `merged`: the vertex of
+ * each of its numbers, NULL: the number itself. */
+bool order_faces(Writer *writer, const int32_t *merged, int64_t vertices, Writing *writing, CodedMesh *coded);
 
 /* Which grid positions are coded on, and where on it they are (encoder only). */
 INLINE bool is_finite(double value) { return value - value == 0.0; }
@@ -119,8 +135,8 @@ void put_record(Buffer *buffer, Fields fields, const Record *record);
 /* A map of entries in the order of their names, at most MOST_ENTRIES. */
 void put_metadata(Buffer *buffer, const bsmdec_metadata *const *entries, int count);
 
-/* The payload of ORDER; the numbers of copies and of loose vertices are counted here. `loose`: positions of these. */
-void put_order(Buffer *buffer, Arrangement *arrangement, ConstDoubles2 loose, Arena *scratch);
+/* The payload of ORDER. */
+void put_order(Buffer *buffer, const CodedMesh *coded, Arena *scratch);
 
 /* A stream as far as it is written, and the payload of its next section. */
 typedef struct {
@@ -138,17 +154,6 @@ void end_stream(StreamWriter *writer, uint32_t positions);
 void give_stream(StreamWriter *writer);
 
 /* Attributes of a given mesh in the order of coding (encoder only; specification, D). */
-
-/* A joined mesh in the order of coding. */
-typedef struct {
-    const GivenMesh *given;
-    const JoinedMesh *joined;
-    bool keeps;            /* the order, and vertices in no face */
-    Ints2 faces;           /* m x 3, coded */
-    Ints vertex_order, face_order; /* the joined vertex and face of each */
-    Bytes turns;           /* m: the corner of the joined face that is the first of the coded one */
-    Corners corners;
-} CodedMesh;
 
 /* An attribute on its way; `places`: rows on a grid, of an attribute that leans on them. */
 typedef struct {

@@ -108,42 +108,23 @@ static void number_used(const GivenMesh *given, Ints place, Ints seen, JoinedMes
     }
 }
 
-/* Number the places of vertices, each in all frames; returns how many there are, -1 without memory. */
-static int64_t number_places(const GivenMesh *given, bool exact, Arena *scratch, Ints place) {
-    int64_t n = given->vertices, places = n;
-    Longs2 bits;
-    if (!take_longs2(scratch, n, 4, &bits)) return -1;
-    for (int64_t v = 0; v < n; v++) place.data[v] = 0;
-    for (int64_t t = 0; t < given->frames && places >= 0; t++) {
-        for (int64_t i = 0; i < 3 * n; i++) {
-            double value = given->positions.data[3 * n * t + i];
-            if (!exact) value += 0.0;
-            memcpy(bits.data + i / 3 * 4 + i % 3, &value, sizeof value);
-            bits.data[i / 3 * 4 + 3] = place.data[i / 3];
-        }
-        places = number_rows(bits.data, n, 4, scratch, place);
-    }
-    return places;
-}
-
-bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, JoinedMesh *joined) {
+bool join_places(const GivenMesh *given, Ints place, bool keep, Writer *writer, JoinedMesh *joined) {
     Arena *arena = &writer->arena, *scratch = &writer->scratch;
-    int64_t n = given->vertices, m = given->faces, mentioned = 0;
+    int64_t n = given->vertices, m = given->faces, mentioned = 0, places = 0, kept = 0;
     const uint32_t *corners = given->corners;
     Mark mark = mark_of(scratch);
-    Ints place, seen;
+    Ints seen;
     *joined = (JoinedMesh){0};
     if (!take_ints(arena, n, &joined->index) || !take_ints(arena, n, &joined->first)
         || !take_ints(arena, m, &joined->kept) || !take_ints2(arena, m, 3, &joined->faces)
-        || !take_ints(scratch, n, &place) || !zero_ints(scratch, n, &seen))
+        || !zero_ints(scratch, n, &seen))
         return false;
-    int64_t places = number_places(given, exact, scratch, place);
-    if (places < 0 || (places < n && !keep_apart(given, scratch, place))) return false;
+    for (int64_t v = 0; v < n; v++) places = largest(places, place.data[v] + 1);
+    if (places < n && !keep_apart(given, scratch, place)) return false;
     for (int64_t i = 0; i < 3 * m; i++) {
         mentioned += !seen.data[corners[i]];
         seen.data[corners[i]] = 1;
     }
-    int64_t kept = 0;
     for (int64_t f = 0; f < m; f++) {
         const uint32_t *face = corners + 3 * f;
         bool was = repeats((int32_t)face[0], (int32_t)face[1], (int32_t)face[2]);
@@ -161,6 +142,38 @@ bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, Jo
     joined->collapsed = m - kept;
     release_to(scratch, mark);
     return true;
+}
+
+bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, JoinedMesh *joined) {
+    Arena *scratch = &writer->scratch;
+    int64_t n = given->vertices;
+    Mark mark = mark_of(scratch);
+    Ints place;
+    Longs2 bits;
+    if (!zero_ints(scratch, n, &place) || !take_longs2(scratch, n, 4, &bits)) return false;
+    for (int64_t t = 0; t < given->frames; t++) {
+        for (int64_t i = 0; i < 3 * n; i++) {
+            double value = given->positions.data[3 * n * t + i];
+            if (!exact) value += 0.0;
+            memcpy(bits.data + i / 3 * 4 + i % 3, &value, sizeof value);
+            bits.data[i / 3 * 4 + 3] = place.data[i / 3];
+        }
+        if (number_rows(bits.data, n, 4, scratch, place) < 0) return false;
+    }
+    bool done = join_places(given, place, keep, writer, joined);
+    release_to(scratch, mark);
+    return done;
+}
+
+bool order_faces(Writer *writer, const int32_t *merged, int64_t vertices, Writing *writing, CodedMesh *coded) {
+    Arena *arena = &writer->arena;
+    const JoinedMesh *joined = coded->joined;
+    int64_t m = joined->faces.rows;
+    Written given = {joined->faces.data, merged, m, joined->first.size, 1};
+    return take_ints(arena, vertices, &coded->vertex_order) && take_ints(arena, m, &coded->face_order)
+        && take_ints2(arena, m, 3, &coded->faces) && take_bytes(arena, m, &coded->turns)
+        && write_faces(writer, given, vertices, writing, coded->vertex_order.data, coded->face_order.data,
+            coded->faces.data, coded->turns.data);
 }
 
 #endif

@@ -122,15 +122,34 @@ void put_metadata(Buffer *buffer, const bsmdec_metadata *const *entries, int cou
     }
 }
 
-void put_order(Buffer *buffer, Arrangement *a, ConstDoubles2 loose, Arena *scratch) {
+void put_order(Buffer *buffer, const CodedMesh *coded, Arena *scratch) {
+    const GivenMesh *given = coded->given;
+    const JoinedMesh *joined = coded->joined;
     Context *context = buffer->context;
-    Writing writing;
-    for (int64_t v = 0; v < a->source.size; v++) a->loose += a->source.data[v] < 0;
-    a->copies = a->source.size > 0 ? a->source.size - a->loose - a->vertices.size : 0;
-    if (begin_payloads(context, 1 << 12, &writing) && write_order(context, a, scratch, &writing)) {
-        put_varint(buffer, a->copies);
-        put_varint(buffer, a->loose);
-        for (int64_t i = 0; i < 3 * a->loose; i++) {
+    Mark mark = mark_of(scratch);
+    Writing writing = {0};
+    Ints source, number; /* the joined vertex of each given one that comes back; their numbers */
+    Ints2 corners;
+    Doubles2 loose;
+    if (!take_ints(scratch, given->vertices, &source) || !take_ints(scratch, given->vertices, &number)
+        || !take_ints2(scratch, given->faces, 3, &corners) || !take_doubles2(scratch, joined->loose, 3, &loose))
+        return;
+    source.size = loose.rows = 0;
+    for (int64_t v = 0; v < given->vertices; v++) {
+        int32_t index = joined->index.data[v];
+        number.data[v] = (int32_t)source.size;
+        if (index < 0 && coded->keeps)
+            memcpy(loose.data + 3 * loose.rows++, given->positions.data + 3 * v, 3 * sizeof *loose.data);
+        if (index >= 0 || coded->keeps) source.data[source.size++] = index;
+    }
+    for (int64_t i = 0; i < 3 * corners.rows; i++) corners.data[i] = number.data[given->corners[i]];
+    Arrangement arrangement = {const_ints2(joined->faces), const_ints2(coded->faces), const_ints(coded->vertex_order),
+        const_ints(coded->face_order), const_ints(source), const_ints2(corners),
+        source.size - loose.rows - coded->vertex_order.size, loose.rows};
+    if (begin_payloads(context, 1 << 12, &writing) && write_order(context, &arrangement, scratch, &writing)) {
+        put_varint(buffer, arrangement.copies);
+        put_varint(buffer, arrangement.loose);
+        for (int64_t i = 0; i < 3 * loose.rows; i++) {
             uint64_t bits;
             memcpy(&bits, loose.data + i, sizeof bits);
             put_little(buffer, bits, 8);
@@ -138,6 +157,7 @@ void put_order(Buffer *buffer, Arrangement *a, ConstDoubles2 loose, Arena *scrat
         put_bytes(buffer, (Span){writing.data, writing.size});
     }
     end_payloads(context, &writing);
+    release_to(scratch, mark);
 }
 
 void start_stream(StreamWriter *writer, Context *context) {

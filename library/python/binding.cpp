@@ -350,47 +350,27 @@ class Output {
     Encoding *encoding;
 };
 
-// The payload of faces, the order of vertices and of faces in it, the decoded faces and their turns (see writing.h).
-auto faces_to_bytes(Rows<int32_t, 3> faces, int64_t vertices, std::optional<Row<int32_t>> merged) {
-    Output output;
-    int64_t count = (int64_t)faces.shape(0);
-    Written given = {faces.data(), merged ? merged->data() : nullptr, count,
-        merged ? (int64_t)merged->size() : vertices, 1};
-    Made<int32_t> order = made_of<int32_t>(vertices), face_order = made_of<int32_t>(count);
-    Made<int32_t> coded = made_of<int32_t>(count, 3);
-    Made<uint8_t> turns = made_of<uint8_t>(count);
-    output.run([&] {
-        return encode_faces(output.encoding, given, vertices, order.data, face_order.data, coded.data, turns.data);
-    });
-    return std::make_tuple(nb::bytes(output.payloads()[0]), order, face_order, coded, turns);
-}
-
-// The payload of ORDER (see inside.h); a mesh whose vertices are several given ones, or none, has `source`.
-nb::bytes order_to_bytes(Rows<int32_t, 3> faces, Rows<int32_t, 3> coded, Row<int32_t> vertices,
-    Row<int32_t> face_places, std::optional<Row<int32_t>> source, std::optional<Rows<int32_t, 3>> corners,
-    std::optional<Rows<double, 3>> loose) {
-    size_t count = faces.shape(0);
-    if (coded.shape(0) != count || face_places.size() != count || !source != !corners || !source != !loose
-        || (corners && corners->shape(0) != count))
-        throw nb::value_error("vertices and faces do not fit together");
-    Output output;
-    Written given = {faces.data(), coded.data(), (int64_t)count, (int64_t)vertices.size(), 3};
-    output.run([&] {
-        return encode_order(output.encoding, given, vertices.data(), face_places.data(),
-            source ? source->data() : nullptr, source ? (int64_t)source->size() : 0,
-            corners ? corners->data() : nullptr, loose ? loose->data() : nullptr,
-            loose ? (int64_t)loose->shape(0) : 0);
-    });
-    return nb::bytes(output.payloads()[0]);
-}
-
-// A mesh in the order of coding, and the attributes that are carried there (see inside.h).
+// A given mesh, joined and in the order of coding, and the attributes that are carried there (see inside.h).
 class OrderedMesh : public Shared, Output {
   public:
-    OrderedMesh(ConstInts2 given, ConstInts index, ConstInts kept, ConstInts face_order, ConstBytes turns,
-        ConstInts2 faces, int64_t vertices, bool keeps)
-        : faces(faces.rows) {
-        run([&] { return encode_place(encoding, given, index, kept, face_order, turns, faces, vertices, keeps); });
+    OrderedMesh(ConstInts2 faces, ConstInts places) : given(faces), places(places) {}
+    auto join(bool keep, bool keeps) {
+        JoinedArrays found;
+        run([&] { return encode_joined(encoding, given, places, keep, keeps, &found); });
+        return std::make_tuple(copied(found.index), copied(found.first), copied(found.kept), found.merged, found.loose);
+    }
+    // The payload of faces, the order of vertices and of faces in it, the decoded faces and their turns.
+    auto code(std::optional<Row<int32_t>> merged) {
+        CodedArrays found;
+        ConstInts own = {merged ? merged->data() : nullptr, merged ? (int64_t)merged->size() : 0};
+        run([&] { return encode_faces(encoding, own, &found); });
+        coded = found.faces.rows;
+        return std::make_tuple(nb::bytes(payloads()[0]), copied(found.vertices), copied(found.face_order),
+            copy_of(found.faces.data, coded, 3), copied(found.turns));
+    }
+    nb::bytes order(ConstDoubles2 positions) {
+        run([&] { return encode_order(encoding, positions); });
+        return nb::bytes(payloads()[0]);
     }
     // The numbers of the declaration, own seams, coded numbers, decoded values, the value of each corner, if that is
     // not its vertex, the vertex of each value, whether it leans; and the outcome: error, step of integers, bits,
@@ -420,13 +400,15 @@ class OrderedMesh : public Shared, Output {
         const bsmenc_outcome &outcome = whole.outcome;
         return std::make_tuple(numbers_by_key((const Encoding *)encoding, carried_field),
             nb::bytes(seams.data, (size_t)seams.size), copy_of(whole.pieces, whole.rows, whole.columns), decoded,
-            whole.faces == nullptr ? std::nullopt : std::optional(copy_of(whole.faces, faces, 3)),
+            whole.faces == nullptr ? std::nullopt : std::optional(copy_of(whole.faces, coded, 3)),
             copy_of(whole.vertices, whole.vertices_count), whole.leans,
             std::make_tuple(outcome.error, outcome.step, outcome.bits, outcome.zeros, outcome.scaled != 0));
     }
 
   private:
-    int64_t faces;
+    ConstInts2 given;
+    ConstInts places;
+    int64_t coded = 0;
 };
 
 // Positions on a grid: its origin, step and largest places, and the places.
@@ -678,15 +660,12 @@ NB_MODULE(_core, m) {
     bind_bitstream(bitstream);
     bind_codec(codec);
     bind_bsm(m);
-    m.def("write_faces", faces_to_bytes, "faces"_a, "vertices"_a, "merged"_a.none() = nb::none());
-    m.def("write_order", order_to_bytes, "faces"_a, "coded"_a, "vertices"_a, "face_places"_a,
-        "source"_a.none() = nb::none(), "corners"_a.none() = nb::none(), "loose"_a.none() = nb::none());
     m.def("rounded", places_on_grid, "positions"_a, "bits"_a, "cell"_a, "origin"_a);
-    nb::class_<OrderedMesh>(m, "Place")
-        .def(nb::init<ConstInts2, ConstInts, ConstInts, ConstInts, ConstBytes, ConstInts2, int64_t, bool>(), "given"_a,
-            "index"_a, "kept"_a, "face_order"_a, "turns"_a, "faces"_a, "vertices"_a, "keeps"_a, nb::keep_alive<1, 2>(),
-            nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
-            nb::keep_alive<1, 7>())
+    nb::class_<OrderedMesh>(m, "GivenMesh")
+        .def(nb::init<ConstInts2, ConstInts>(), "faces"_a, "places"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
+        .def("join", in_turn(&OrderedMesh::join), "keep"_a, "keeps"_a)
+        .def("code", in_turn(&OrderedMesh::code), "merged"_a.none() = nb::none())
+        .def("order", in_turn(&OrderedMesh::order), "positions"_a)
         .def("carry", in_turn(&OrderedMesh::carry), "first"_a, "name"_a, "values"_a, "kind"_a, "domain"_a, "semantic"_a,
             "indices"_a.none(), "quality"_a, "amount"_a);
     nb::class_<FieldCoder>(m, "Field")

@@ -94,50 +94,49 @@ Writing *encoding_anew(Encoding *encoding) {
     return begin_again(encoding, 1 << 12) ? &encoding->payloads : NULL;
 }
 
-bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
-    int32_t *faces, uint8_t *turns) {
-    return begin_again(encoding, 1 << 16)
-        && write_faces(&encoding->writer, given, vertices, &encoding->payloads, order, face_order, faces, turns);
-}
-
-bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, const int32_t *face_places,
-    const int32_t *source, int64_t sources, const int32_t *corners, const double *loose, int64_t loose_count) {
+bool encode_joined(Encoding *encoding, ConstInts2 faces, ConstInts places, bool keep, bool keeps,
+    JoinedArrays *arrays) {
     Writer *writer = &encoding->writer;
-    int64_t m = given.faces_count, n = given.rows, unused = 0;
-    Arrangement arrangement = {{given.faces, m, 3}, {given.values, m, 3}, {vertices, n}, {face_places, m},
-        {source, sources}, {corners, m, 3}, 0, 0};
-    for (int64_t v = 0; v < sources; v++) unused += source[v] < 0;
-    bool fits = are_below(given.faces, 3 * m, 0, n) && are_below(given.values, 3 * m, 0, n)
-        && are_below(vertices, n, 0, n) && are_below(face_places, m, 0, m) && are_below(source, sources, -1, n)
-        && unused == loose_count && (sources == 0 || are_below(corners, 3 * m, 0, sources))
-        && are_all_there(writer, vertices, n, n) && are_all_there(writer, face_places, m, m)
-        && (sources == 0 || are_all_there(writer, source, sources, n));
-    for (int64_t i = 0; fits && sources > 0 && i < 3 * m; i++) fits = source[corners[i]] >= 0;
-    if (!fits) return FAIL(&writer->context, MISUSED, "orders of vertices and faces do not fit together");
-    Buffer section = {.context = &writer->context};
-    put_order(&section, &arrangement, (ConstDoubles2){loose, loose_count, 3}, &writer->scratch);
-    encoding->payloads = (Writing){section.data, section.capacity, section.size, {section.size}, 1};
-    return !failed(&writer->context);
-}
-
-bool encode_place(Encoding *encoding, ConstInts2 given, ConstInts index, ConstInts kept, ConstInts face_order,
-    ConstBytes turns, ConstInts2 faces, int64_t vertices, bool keeps) {
-    Writer *writer = &encoding->writer;
-    int64_t m = faces.rows;
-    if (given.columns != 3 || faces.columns != 3 || m < 1 || face_order.size != m || turns.size != m
-        || !are_below(given.data, 3 * given.rows, 0, index.size) || !are_below(kept.data, kept.size, 0, given.rows)
-        || !are_below(face_order.data, m, 0, kept.size) || !are_below(faces.data, 3 * m, 0, vertices))
-        return FAIL(&writer->context, MISUSED, "a mesh and its order of coding do not fit together");
-    encoding->given = (GivenMesh){index.size, given.rows, 1, {NULL, 0, 3}, (const uint32_t *)given.data};
-    encoding->joined = (JoinedMesh){.index = {(int32_t *)index.data, index.size},
-        .kept = {(int32_t *)kept.data, kept.size}}; /* only read */
-    encoding->coded = (CodedMesh){.given = &encoding->given, .joined = &encoding->joined, .keeps = keeps,
-        .faces = {(int32_t *)faces.data, m, 3}, .vertex_order = {NULL, vertices},
-        .face_order = {(int32_t *)face_order.data, m}, .turns = {(uint8_t *)turns.data, m}};
-    bool done = TAKE_ZEROS(&writer->arena, MOST_ATTRIBUTES, encoding->carried)
-        && link_mesh(&writer->context, faces, vertices, &writer->arena, &writer->scratch, &encoding->coded.corners);
-    encoding->mark = mark_of(&writer->arena);
+    JoinedMesh *joined = &encoding->joined;
+    int64_t n = places.size;
+    Ints place;
+    if (faces.columns != 3 || !are_below(faces.data, 3 * faces.rows, 0, n) || !are_below(places.data, n, 0, n))
+        return FAIL(&writer->context, MISUSED, "faces and places do not fit together");
+    encoding->given = (GivenMesh){n, faces.rows, 1, {NULL, 0, 3}, (const uint32_t *)faces.data};
+    encoding->coded = (CodedMesh){.given = &encoding->given, .joined = joined, .keeps = keeps};
+    if (!take_ints(&writer->scratch, n, &place)) return false;
+    memcpy(place.data, places.data, (size_t)n * sizeof *place.data);
+    bool done = join_places(&encoding->given, place, keep, writer, joined);
+    release_all(&writer->scratch);
+    *arrays = (JoinedArrays){const_ints(joined->index), const_ints(joined->first), const_ints(joined->kept),
+        joined->merged, joined->loose};
     return done;
+}
+
+bool encode_faces(Encoding *encoding, ConstInts merged, CodedArrays *arrays) {
+    int64_t n = encoding->joined.first.size, vertices = merged.size > 0 ? 0 : n;
+    CodedMesh *coded = &encoding->coded;
+    if (merged.size > 0 && (merged.size != n || !are_below(merged.data, n, 0, n)))
+        return FAIL(&encoding->writer.context, MISUSED, "# vertices are merged of #", merged.size, n);
+    for (int64_t i = 0; i < merged.size; i++) vertices = largest(vertices, merged.data[i] + 1);
+    encoding->carried = NULL; /* the attributes of another order */
+    if (!begin_again(encoding, 1 << 16)
+        || !order_faces(&encoding->writer, merged.data, vertices, &encoding->payloads, coded))
+        return false;
+    *arrays = (CodedArrays){const_ints(coded->vertex_order), const_ints(coded->face_order), const_ints2(coded->faces),
+        const_bytes(coded->turns)};
+    return true;
+}
+
+bool encode_order(Encoding *encoding, ConstDoubles2 positions) {
+    Buffer section = {.context = &encoding->writer.context};
+    if (positions.rows != encoding->given.vertices || positions.columns != 3 || encoding->coded.faces.rows == 0)
+        return FAIL(section.context, MISUSED, "# positions for # vertices", positions.rows, encoding->given.vertices);
+    encoding->given.positions = positions;
+    end_payloads(section.context, &encoding->payloads);
+    put_order(&section, &encoding->coded, &encoding->writer.scratch);
+    encoding->payloads = (Writing){section.data, section.capacity, section.size, {section.size}, 1};
+    return !failed(section.context);
 }
 
 bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, CarriedOutcome *whole) {
@@ -145,6 +144,13 @@ bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool firs
     const CodedMesh *coded = &encoding->coded;
     bool by_vertex = given->domain == BSMDEC_VERTEX, by_face = given->domain == BSMDEC_FACE;
     int64_t rows = by_vertex ? encoding->given.vertices : by_face ? encoding->given.faces : given->rows;
+    if (encoding->carried == NULL) {
+        if (!TAKE_ZEROS(&writer->arena, MOST_ATTRIBUTES, encoding->carried)
+            || !link_mesh(&writer->context, const_ints2(coded->faces), coded->vertex_order.size, &writer->arena,
+                &writer->scratch, &encoding->coded.corners))
+            return false;
+        encoding->mark = mark_of(&writer->arena);
+    }
     if (first) encoding->carried_count = 0;
     int number = encoding->carried_count;
     Carried *carried = encoding->carried + number;

@@ -44,15 +44,24 @@ const bsmdec_error *encoding_error(const Encoding *encoding);
 const Writing *encoding_payloads(const Encoding *encoding);
 /* Where payloads are written next, in the place of these; NULL without memory. */
 Writing *encoding_anew(Encoding *encoding);
-bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
-    int32_t *faces, uint8_t *turns);
-/* ORDER of joined faces, which `values` has as they are coded, and of given vertices and faces, or NULL. */
-bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, const int32_t *face_places,
-    const int32_t *source, int64_t sources, const int32_t *corners, const double *loose, int64_t loose_count);
-/* A given mesh and its faces in the order of coding: which given vertex was joined (-1: loose), the given face of each
- * joined one, the joined one of each coded one, and its corner that is the first. Arrays must outlive this. */
-bool encode_place(Encoding *encoding, ConstInts2 given, ConstInts index, ConstInts kept, ConstInts face_order,
-    ConstBytes turns, ConstInts2 faces, int64_t vertices, bool keeps);
+/* Join the vertices of a given mesh at one place (library/encode/encoding.h): the joined vertex of each (-1: in no face
+ * that is kept), the first given vertex and the given face of each joined one; how many are merged, or in no face. With
+ * `keeps`, those in no face come back. Faces must outlive this. */
+typedef struct {
+    ConstInts index, first, kept;
+    int64_t merged, loose;
+} JoinedArrays;
+bool encode_joined(Encoding *encoding, ConstInts2 faces, ConstInts places, bool keep, bool keeps,
+    JoinedArrays *arrays);
+/* Write its faces: the joined vertex and face of each coded one, coded faces, and the corner of each joined face that
+ * is the first. If `merged` has numbers, they are the vertices of joined ones. Then write ORDER, of given positions. */
+typedef struct {
+    ConstInts vertices, face_order;
+    ConstInts2 faces;
+    ConstBytes turns;
+} CodedArrays;
+bool encode_faces(Encoding *encoding, ConstInts merged, CodedArrays *arrays);
+bool encode_order(Encoding *encoding, ConstDoubles2 positions);
 /* The outcome of an attribute in such a place (library/encode/encoding.h), and arrays of the encoding: coded numbers,
  * the coded value of each corner (NULL: its vertex), the vertex of each. */
 typedef struct {

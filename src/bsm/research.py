@@ -274,7 +274,7 @@ def _prepared(mesh: TriangleMesh, idea: Idea, options: EncodeOptions) -> Prepare
     parts = Parts(size, overlap, options.paper.partition == "metis")
     if idea.partition is not None:
         parts = _OwnParts(size, overlap, metis=True, labeled=idea.partition)
-    return prepare(mesh, parts, keep_order=options.keep_order)
+    return prepare(join(mesh, keep=options.keep_order), parts, keep_order=options.keep_order)
 
 
 def _decoded(prepared: Prepared, draft: Draft, options: EncodeOptions) -> TriangleMesh:

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm._core import Cut, Place, write_faces
+from bsm._core import Cut, GivenMesh
 from bsm.bitstream.coefficients.packed import pack_coefficients
-from bsm.bitstream.connectivity.faces import EncodedConnectivity, Splits, encode_connectivity, encode_order
+from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopField, GopMethod, write_gop_body
 from bsm.bitstream.container.header import AS_CODED, FACE, HEADER_FIELDS, OTHERWISE, RECOMPUTED, Declaration
@@ -46,7 +46,9 @@ def _glued(rows: int, columns: int) -> EncodedConnectivity:
     """A torus whose vertices are three, again and again, as no encoder would code it."""
     place = np.arange(rows * columns, dtype=np.int32)
     colors = ((place // columns + place % columns) % 3).astype(np.int32)
-    return EncodedConnectivity(*write_faces(torus(rows, columns).faces, 3, colors))
+    mesh = GivenMesh(torus(rows, columns).faces, place)
+    mesh.join(True, True)
+    return EncodedConnectivity(*mesh.code(colors))
 
 
 def _wheels(hubs: int, rim: int) -> Faces:
@@ -79,9 +81,16 @@ def _pieces(count: int) -> Faces:
     return np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
 
 
+def _heap(rows: int, columns: int, count: int) -> Faces:
+    """A torus, and one of its faces again and again."""
+    faces = torus(rows, columns).faces
+    return np.concatenate([faces, np.tile(faces[0], (count, 1))])
+
+
 SHAPES: dict[str, Callable[..., Faces]] = {
     "torus": lambda rows, columns: torus(rows, columns).faces,
     "wheels": _wheels,
+    "heap": _heap,
     "soup": _soup,
     "repeated": _repeated,
     "pieces": _pieces,
@@ -178,17 +187,21 @@ def _layers(rows: int, columns: int, chunk: int) -> bytes:
     return stream_of(frames)
 
 
-def _copies(rows: int, columns: int) -> bytes:
-    """As many copies of one vertex as there may be, in as many blocks."""
-    coded = _coded("torus", rows, columns)
-    size, faces = len(coded.vertex_order), coded.faces
-    in_order = np.arange(max(size, len(faces)), dtype=np.int32)
-    as_coded = replace(coded, vertex_order=in_order[:size], face_order=in_order[: len(faces)])
-    copies = 3 * len(faces) - size
-    source = np.concatenate([np.arange(size), np.zeros(copies, np.int64)]).astype(np.int32)
-    order = (FrameType.ORDER, encode_order(faces, as_coded, Splits(source, faces, np.zeros((0, 3)))))
-    blocks = size // 4
-    return _blocky(("torus", rows, columns), order, blocks=blocks, block_size=min(size, 64), power=1)
+def _copies(rows: int, columns: int, count: int) -> bytes:
+    """So many copies of one vertex, in as many blocks as there may be."""
+    shape, size = ("heap", rows, columns, count), rows * columns
+    faces = _heap(rows, columns, count)
+    places = np.append(np.arange(size, dtype=np.int32), faces[-count:, 0])
+    faces[-count:, 0] = size + np.arange(count)
+    return _blocky(shape, _order(faces, places), blocks=size // 4, block_size=min(size, 64), power=1)
+
+
+def _order(faces: Faces, places: npt.NDArray[np.int32]) -> tuple[int, bytes]:
+    """The order of faces whose vertices are at some places."""
+    mesh = GivenMesh(faces, places)
+    mesh.join(True, True)
+    mesh.code()
+    return FrameType.ORDER, mesh.order(np.zeros((len(places), 3)))
 
 
 def _sequence(rows: int, columns: int, gops: Iterable[GopBody], *, width: int, part: int = 400, **fields: Any) -> bytes:
@@ -280,13 +293,6 @@ def _attributed_run(count: int) -> bytes:
     return _run(*declared, behind=chunks, attributes=count)
 
 
-def _in_order() -> tuple[int, bytes]:
-    """The order of nine vertices as they were coded."""
-    coded, own = _coded("torus", 3, 3), np.arange(9, dtype=np.int32)
-    as_coded = replace(coded, vertex_order=own, face_order=np.arange(18, dtype=np.int32))
-    return FrameType.ORDER, encode_order(coded.faces, as_coded, Splits(own, coded.faces, np.zeros((0, 3))))
-
-
 def _before_faces(frames: Frames) -> bytes:
     """A small mesh with frames behind its header."""
     small = frames_of(one_block(3, 3, 1))
@@ -358,9 +364,9 @@ def _seamed(rows: int, columns: int, count: int) -> bytes:
     blocks = {"blocks": 1 + size // 4000, "block_size": min(size, 8000), "power": 1}
     frames = frames_of(_blocky(("torus", rows, columns), attributes=count, **blocks))
     faces = _coded("torus", rows, columns).faces
-    order = np.arange(len(faces), dtype=np.int32)
-    vertices, none = np.arange(size, dtype=np.int32), np.zeros(len(faces), np.uint8)
-    place = Place(faces, vertices, order, order, none, faces, size, False)
+    place = GivenMesh(torus(rows, columns).faces, np.arange(size, dtype=np.int32))
+    place.join(True, False)
+    place.code()
     values, exact = np.arange(2, dtype=np.uint8)[:, None], Quality("exact")
     own = [(np.arange(faces.size, dtype=np.int32) == corner).reshape(-1, 3).astype(np.int32) for corner in range(3)]
     wanted = [(Attribute("0", values, "corner", indices=at), exact) for at in own]
@@ -470,7 +476,7 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "mesh": lambda: _blocky(ring(1024, 1024), sent=0, blocks=160, block_size=8192),  # a million vertices and no block
     # A million vertices in large blocks
     "mesh-blocks": lambda: _blocky(ring(1024, 1024), blocks=160, block_size=8192, power=2, columns=8),
-    "copies": lambda: _copies(64, 64),  # copies of one vertex in every block
+    "copies": lambda: _copies(64, 64, 20_000),  # copies of one vertex in many blocks
     "grid": lambda: _grid(ring(1024, 1024), 1 << 15),  # a grid of a million vertices
     "grid-chunks": lambda: _grid(ring(100, 100), 1),  # a grid, vertex by vertex
     "congruent": lambda: _grid(ring(1024, 1024), 1 << 15, transforms=STAYING),  # images of everything
@@ -552,7 +558,7 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "runs": lambda: _joined([_run()] * 300),
     "runs-again": lambda: _joined([_run()], [0] * 1500, NOTHING),
     "runs-parts": lambda: _joined([_run(_scattered(ring(3, 3), 3), part=3)] * 200),
-    "runs-order": lambda: _joined([_run(_in_order())] * 300),
+    "runs-order": lambda: _joined([_run(_order(torus(3, 3).faces, np.arange(9, dtype=np.int32)))] * 300),
     "runs-attributes": lambda: _joined([_attributed_run(10)] * 50),
     "metadata-entries": lambda: _before_faces(
         [(FrameType.METADATA, write_map([(f"{k:04}{entry:03}", 1) for entry in range(256)])) for k in range(300)]

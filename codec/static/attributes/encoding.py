@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm._core import Field, Place
+from bsm._core import Field, GivenMesh
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import FACE, MOST_ATTRIBUTES, RECOMPUTED, Declaration, entries_of, values_of
 from bsm.bitstream.container.packets import Packet
@@ -16,23 +16,15 @@ from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix
 from bsm.codec.geometry.attributes import DOMAINS, KINDS, SEMANTICS, Attribute
-from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.mesh import Metadata
 from bsm.codec.look.measure import of_length_1, painted
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.attributes.quality import Quality
-from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Prepared
+from bsm.codec.static.preamble_encoding import Draft
 
 Values = npt.NDArray[Any]
 CHUNK = 1 << 15  # values of a frame
 WAYS = ("default", "exact", "bits", "bound", "share", "angle", "recompute", "none")  # as library/bsmenc.h numbers them
-
-
-def place_of(given: TriangleMesh, joined: JoinedMesh, prepared: Prepared) -> Place:
-    """A mesh that was joined and prepared, as the place of its attributes in the order of coding."""
-    keeps = joined.splits is not None and len(joined.splits.loose) > 0
-    kept, order = joined.kept.astype(np.int32), prepared.coding_faces.astype(np.int32)
-    index, coded, turns = np.ascontiguousarray(joined.index, np.int32), prepared.mesh, prepared.turns.astype(np.uint8)
-    return Place(given.faces, index, kept, order, turns, coded.faces, len(coded.positions), keeps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +87,7 @@ class PreparedAttribute:
         return tuple(write_values(field, count) for _, count in ranges(self.declaration.rows, size))
 
 
-def carry(place: Place, faces: Faces, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
+def carry(place: GivenMesh, faces: Faces, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
     """Attributes in the order of coding, on coded faces."""
     wanted = tuple(wanted)
     if len(wanted) > MOST_ATTRIBUTES:
@@ -103,7 +95,7 @@ def carry(place: Place, faces: Faces, wanted: Iterable[tuple[Attribute, Quality]
     return tuple(_carry(place, faces, not number, *each) for number, each in enumerate(wanted))
 
 
-def _carry(place: Place, faces: Faces, first: bool, attribute: Attribute, quality: Quality) -> PreparedAttribute:
+def _carry(place: GivenMesh, faces: Faces, first: bool, attribute: Attribute, quality: Quality) -> PreparedAttribute:
     """The first attribute, or the next one."""
     kind, semantic = KINDS.index(attribute.values.dtype.name), SEMANTICS.index(attribute.semantic)
     domain, way = DOMAINS.index(attribute.domain), WAYS.index(quality.way)

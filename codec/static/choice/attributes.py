@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from bsm._core import Place
 from bsm.bitstream.errors import TargetError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Positions
@@ -22,7 +21,7 @@ from bsm.codec.geometry.welding import row_numbers
 from bsm.codec.look.measure import AttributeLook, LookMetric, has_look, own_normals, shades
 from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
-from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, cheaper, place_of, with_attributes
+from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, cheaper, with_attributes
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality, qualities
 from bsm.codec.static.choice.bounds import Bounds, Measures, Trial
 from bsm.codec.static.choice.search import Search
@@ -57,10 +56,9 @@ class Sent:
         options = self.options
         parts = Parts(options.block_size, options.growth, options.paper.partition == "metis")
         return prepare(
-            self.joined.mesh,
+            self.joined,
             parts,
             keep_order=options.keep_order,
-            splits=self.joined.splits,
             light=options.effort == "quick",
             congruence=options.congruence,
         )
@@ -75,11 +73,7 @@ class Sent:
         return self.carry(self.wanted)
 
     def carry(self, wanted: Sequence[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
-        return carry(self._place, self.prepared.mesh.faces, wanted) if wanted else ()
-
-    @cached_property
-    def _place(self) -> Place:
-        return place_of(self.given, self.joined, self.prepared)
+        return carry(self.joined.coder, self.prepared.mesh.faces, wanted) if wanted else ()
 
     def wanted_with(self, index: int, quality: Quality) -> tuple[tuple[Attribute, Quality], ...]:
         """All attributes, one of them with another quality."""

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm._core import Place
+from bsm._core import GivenMesh
 from bsm.bitstream.container.header import CORNER, FACE, GENERIC, NORMAL, Declaration, values_of
 from bsm.codec.static.attributes.encoding import WAYS
 from tests.bitstream.fields.fields import decode, encode, field_of, unfolded
@@ -15,10 +15,11 @@ from tools.measure.grids import welded
 
 
 def place_of(faces):
-    """The mesh of these faces, whose order of coding is that of the faces."""
-    order, vertices = np.arange(len(faces), dtype=np.int32), int(faces.max()) + 1
-    index, turns = np.arange(vertices, dtype=np.int32), np.zeros(len(faces), np.uint8)
-    return Place(faces, index, order, order, turns, faces, vertices, False)
+    """The mesh of these faces, in the order of coding."""
+    mesh = GivenMesh(faces, np.arange(int(faces.max()) + 1, dtype=np.int32))
+    mesh.join(True, False)
+    mesh.code()
+    return mesh
 
 
 def carried(normals, bits):

@@ -5,11 +5,12 @@ from codecs import BOM_UTF8
 
 import numpy as np
 
+from bsm._core import GivenMesh
 from bsm.bitstream.errors import FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
-from bsm.codec.geometry.welding import first_of, group_rows, keep_apart
+from bsm.codec.geometry.welding import group_rows
 from bsm.files.formats.appearance import text_of
 from bsm.files.formats.metadata import Written, face_numbers, left_out, named
 from bsm.files.formats.polygons import Column, Polygons
@@ -69,8 +70,8 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
         metadata = {said: header.decode("latin-1")} if header.strip(b"\0 ") else {}
         if records["attribute"].any():
             columns = [Column(_ATTRIBUTE, records["attribute"][:, None], "face")]
-    corners = keep_apart(group_rows(soup), np.arange(len(soup), dtype=np.int32).reshape(-1, 3))
-    first = first_of(corners)
+    faces = np.arange(len(soup), dtype=np.int32).reshape(-1, 3)
+    corners, first, *_ = GivenMesh(faces, group_rows(soup)).join(True, True)
     note = f"STL knows no vertices: {len(soup)} corners with equal coordinates were joined to {len(first)} vertices"
     sizes, dropped = np.full(len(soup) // 3, 3), (wrong,) if wrong else ()
     return Polygons(soup[first], sizes, corners.astype(np.int64), (note,), dropped, tuple(columns), metadata)
