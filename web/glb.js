@@ -1,5 +1,5 @@
 /** A decoded mesh, with its materials and images, or a sequence, each frame a morph target, as GLB; what `bsm decode` writes has the same places. */
-import { dressed, linearOf, numbersOf } from "bsm-decoder";
+import { drawnFaces, linearOf, numbersOf } from "bsm-decoder";
 
 const [FLOAT, UINT] = [5126, 5125];
 const TYPES = ["", "SCALAR", "VEC2", "VEC3", "VEC4"];
@@ -146,7 +146,7 @@ export function glbOf({ faces, attributes, metadata, frames, colors, rate, isMov
     if (frames.length > MOST_FRAMES) throw new Error(`a GLB holds each frame as a morph target, of which viewers take ${MOST_FRAMES}; name a folder, or a .npz, .pc2 or .mdd file`);
     const scene = new Scene();
     const all = Int32Array.from({ length: faces.length / 3 }, (_, face) => face);
-    const { index, vertices, pieces, attributes: drawn, own } = dressed(faces, all, attributes, frames[0].length / 3);
+    const { index, vertices, pieces, attributes: drawn, own } = drawnFaces(faces, all, attributes, frames[0].length / 3);
     const middle = middleOf(frames[0]);
     const places = frames.map((frame) => spread(frame.map((x, i) => x - middle[i % 3]), 3, vertices));
     const arrays = drawn.map(arrayOf);
