@@ -58,8 +58,9 @@ def encode(
     metadata : mapping from str to str, int, float or bytes, optional
         Added to the metadata of the mesh.
     simplify : bool
-        Also try fewer triangles: the smallest stream counts that keeps the promised look, and `max_error` as the
-        distance between the surfaces. Attributes other than normals and colors of vertices are errors.
+        Also try fewer triangles, and vertices that slide along the surface: the smallest stream counts that keeps the
+        promised look, and `max_error` as the distance between the surfaces. Attributes other than normals and colors of
+        vertices are errors.
     progress : callable, optional
         Called in this thread with the finished work and the total; the first number never falls. If it raises an
         exception, the work ends, the exception reaches the caller, and unfinished files are removed.

@@ -1,8 +1,10 @@
 """Fewer triangles, and the smallest stream of them that keeps the promise to the original."""
 
 import math
+from bisect import bisect_left
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -15,11 +17,12 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Positions
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, at_corners
-from bsm.codec.geometry.graph import edges_of
+from bsm.codec.geometry.graph import edges_of, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import distances_to_surface, surface_distance
 from bsm.codec.geometry.welding import degenerate
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
+from bsm.codec.signal.smooth import smooth
 from bsm.codec.static.choice.attributes import Sent
 from bsm.codec.static.choice.bounds import gaps, reaches
 from bsm.codec.static.encoder import Attempt, Encoder
@@ -29,12 +32,15 @@ from bsm.console import Progress
 
 _TERMS, _BUCKETS = 10, 1 << 15  # of the scratch memory of the kernel
 _SEAM, _FIXED, _STEADY = 2, 4, 8  # states of vertices in the kernel
-SHARES = tuple(2.0 ** (-k / 4) for k in range(1, 17))  # of the triangles of the original
+RUNG, RUNGS = 2.0 ** (-1 / 16), 64  # triangles over those of the rung before; rungs, down to a sixteenth
+LOOSEST, LOOSER, LADDER = 0.1, 0.4, 9  # what it costs to be rough over leaving the surface: most, each over the last
+SMOOTHING, SWEEPS, PACE = 0.5, 8, 0.7  # of vertices that slide: the filter, how often, and how much of the way
+SLID = 0.25  # of the promise, what sliding may take before any triangle is left out
+SPENT = {False: (0.65, 0.8), True: (0.38, 0.53, 0.68)}
+"""Of the promise, what fewer triangles may take, and sliding if vertices slide: more as long as bytes get fewer."""
 TRIES = 3  # streams of one simplified mesh, each under the promise that the one before calls for
-MOST, NEAR = 1.5, 1.03
-"""Triangles to encode, over the original's; and guessed bytes over the least so far, up to which a mesh is encoded."""
-POWER = 0.6  # of the share of the look that is left: about the median of seven scans
 AIM = 0.98  # the share of a bound that is aimed at
+NEAR = 0.1  # the share of a bound on distances within which it does not matter how far
 ENOUGH = 1.2  # times the triangles that were asked for, above which simplifying has failed
 
 
@@ -59,36 +65,26 @@ def encode_source(mesh: TriangleMesh, options: EncodeOptions, progress: Progress
     with progress.part("encoding all triangles", 0.3):
         encoder = Encoder(mesh, options)
         best = Chosen(encoder, encoder.result(progress), source.whole)
-    found = source.stand_ins(progress)
-    whole = Sent(source.whole, options).prepared.connectivity.data
-    shape, power, work = best.attempt.size - len(whole), POWER, 0.0
-    while found:
-        # As many bytes for the faces as there are, for the places a share of all; more of them where less look is left.
-        plain = {one: one.of_faces + one.share * shape for one in found}
-        guessed = {size * one.left**-power: one for one, size in plain.items()}
-        one = guessed[min(guessed)]
-        work += one.share
-        if min(guessed) > NEAR * best.attempt.size or work > MOST:
-            break
-        found.remove(one)
-        with progress.part(f"encoding {one.share:.0%} of the triangles", 0.5):
-            made = source.encoded(one, progress)
-        if made is None:
-            continue
-        power = math.log(max(made.attempt.size / plain[one], 1.0)) / -math.log(one.left)
-        best = min(best, made, key=lambda made: made.attempt.size)
+    if degenerate(source.whole.faces).all():
+        return best
+    # Smooth positions save most where blocks are refined; on grids, those that were regular may take fewer bytes.
+    for slides in (True,) if best.attempt.header.refinement else SPENT:
+        for share in SPENT[slides]:
+            with progress.part("encoding fewer triangles", 0.4):
+                made = source.encoded(source.taking(share, slides), best.attempt.size, progress)
+            if made is None:
+                break
+            best = made
     return best if best.decoded is None else replace(best, apart=source.distance(best.decoded))
 
 
 @dataclass(frozen=True, eq=False)
 class StandIn:
-    """A mesh with a share of the triangles of another one."""
+    """A mesh with fewer triangles than another one, whose vertices have slid along the surface."""
 
     mesh: TriangleMesh
     reach: Matrix  # how far each vertex may be off
-    share: float
-    of_faces: int  # bytes
-    left: float  # of the bound that must be kept
+    spent: float  # of the promise
 
 
 class _Encoder(Encoder):
@@ -110,7 +106,7 @@ class Source:
             raise OptionError("simplify changes vertices and faces; it excludes keep_order")
         if options.target or promise.angle < ANY_ANGLE or promise.visual < math.inf:
             raise OptionError("simplify keeps the look and the largest error; it excludes targets and other bounds")
-        self.options, self.promise, self._given = options, promise, mesh
+        self.promise, self._given = promise, mesh
         self._input = Sent(mesh, options)
         joined, prepared = self._input.joined, self._input.prepared
         sent = (attribute for attribute, _ in self._input.wanted)
@@ -118,6 +114,10 @@ class Source:
         attributes = tuple(replace(one, values=one.values[prepared.coding_order]) for one in found)
         # In the order of coding, in which neighbors are near each other.
         self.whole = replace(prepared.mesh, attributes=attributes, metadata=mesh.metadata)
+        kept = {"*", *(attribute.name for attribute in attributes)}
+        asked = {name: quality for name, quality in dict(options.attributes).items() if name in kept}
+        self.options = replace(options, attributes=asked)
+        self.stand_in = lru_cache(16)(self._stand_in)
 
     @cached_property
     def _reach(self) -> Matrix:
@@ -143,13 +143,13 @@ class Source:
         found = (look.distance if isinstance(look, Look) else math.inf if look is None else look for look in looks)
         return max(found, default=0.0) / self.promise.look
 
-    def apart(self, other: TriangleMesh, reach: Matrix) -> float:
-        """The largest distance of both surfaces as a share of the bound (others: `reach`); exact if above 1."""
+    def apart(self, other: TriangleMesh, reach: Matrix, enough: float = 1.0) -> float:
+        """The largest distance of both surfaces as a share of the bound (others: `reach`); exact if above `enough`."""
         shares = []
         for one, two, bound in ((self.whole, other, self._reach), (other, self.whole, reach)):
             allowed = np.concatenate([bound, *_of_sides(bound[one.faces], np.min)])
             places = np.concatenate([one.positions, *_of_sides(one.positions[one.faces], np.mean)])
-            far = distances_to_surface(places, two.positions, two.faces, enough=allowed)
+            far = distances_to_surface(places, two.positions, two.faces, enough=enough * allowed)
             shares.append(float((far / allowed).max()))
         return max(shares)
 
@@ -157,43 +157,37 @@ class Source:
         """The largest distance of both surfaces where `bsm compare` measures, in the unit of the mesh."""
         return surface_distance(self._given.positions, self._given.faces, other.positions, other.faces).hausdorff
 
-    def _moved(self, other: TriangleMesh, reach: Matrix) -> float:
-        """About the same as `apart`: of the vertices only."""
+    def _stand_in(self, rung: int, loose: int | None) -> StandIn:
+        """A mesh on a rung, of which vertices may be as loose as another one says, with attributes of nearest ones."""
         whole = self.whole
-        there = distances_to_surface(whole.positions, other.positions, other.faces)
-        back = distances_to_surface(other.positions, whole.positions, whole.faces)
-        return max(float((there / self._reach).max()), float((back / reach).max()))
-
-    def simplified(self, target: int) -> tuple[TriangleMesh, Matrix]:
-        """The mesh with about `target` triangles and attributes of nearest vertices; and how far each may be off."""
-        whole = self.whole
-        low, scale = whole.positions.min(axis=0), whole.diagonal or 1.0
+        low, scale, target = whole.positions.min(axis=0), whole.diagonal or 1.0, RUNG**rung * len(whole.faces)
         placed = (whole.positions - low) / scale
-        new, faces, owners, _ = collapsed(placed, whole.faces, np.zeros(len(placed), np.bool_), target)
+        new, faces, owners, _, quadrics = collapsed(placed, whole.faces, np.zeros(len(placed), np.bool_), round(target))
+        new = new if loose is None else slid(new, faces, quadrics, LOOSEST * LOOSER**loose)
         kept = np.flatnonzero(owners >= 0)
         kept = kept[np.lexsort((np.square(new[owners] - placed).sum(axis=1)[kept], owners[kept]))]
         nearest = kept[np.unique(owners[kept], return_index=True)[1]]
         reach = np.full(len(new), np.inf)
         np.minimum.at(reach, owners[kept], self._reach[kept])
         attributes = tuple(replace(attribute, values=attribute.values[nearest]) for attribute in whole.attributes)
-        return TriangleMesh(new * scale + low, faces, attributes, whole.metadata), reach
+        mesh = TriangleMesh(new * scale + low, faces, attributes, whole.metadata)
+        spent = math.inf if len(faces) > ENOUGH * target else self.look(mesh)
+        return StandIn(mesh, reach, spent if self._looks else max(spent, self.apart(mesh, reach, NEAR)))
 
-    def stand_ins(self, progress: Progress) -> list[StandIn]:
-        """Meshes of fewer and fewer triangles that could keep the promise."""
-        found = list[StandIn]()
-        for share in SHARES if not degenerate(self.whole.faces).all() else ():
-            with progress.part("simplifying", 0.1):
-                mesh, reach = self.simplified(round(share * len(self.whole.faces)))
-                left = 1.0 - (self.look(mesh) if self._looks else self._moved(mesh, reach))
-            if left <= 1.0 - AIM or len(mesh.faces) > ENOUGH * share * len(self.whole.faces):
-                break
-            faces = Sent(mesh, self.options).prepared.connectivity.data
-            found.append(StandIn(mesh, reach, len(mesh.faces) / len(self.whole.faces), len(faces), min(left, AIM)))
-        return found
+    @cached_property
+    def _loose(self) -> int:
+        """The rung on which vertices are as loose as they may be."""
+        return bisect_left(range(LADDER), True, key=lambda loose: self.stand_in(0, loose).spent <= SLID)
 
-    def encoded(self, one: StandIn, progress: Progress) -> Chosen | None:
-        """Return the smallest stream of a stand-in that was found to keep the promise, if any."""
-        promise, look, off, reach = self.promise, self.promise.look, self._moved(one.mesh, one.reach), one.reach
+    def taking(self, share: float, slides: bool) -> StandIn:
+        """The stand-in of fewest triangles that takes such a share of the promise at most."""
+        loose = self._loose if slides else None
+        rung = bisect_left(range(RUNGS), True, key=lambda rung: self.stand_in(rung + 1, loose).spent > share)
+        return self.stand_in(rung, loose)
+
+    def encoded(self, one: StandIn, most: int, progress: Progress) -> Chosen | None:
+        """Return a stream of a stand-in in fewer bytes than `most` that was found to keep the promise, if any."""
+        promise, look, off = self.promise, self.promise.look, 0.0 if self._looks else one.spent
         for _ in range(TRIES):
             if not off < AIM:
                 break
@@ -205,9 +199,11 @@ class Source:
                     attempt = encoder.result(progress)
             except TargetError:
                 break
+            if attempt.size >= most:
+                break
             decoded = decode(b"".join(attempt.frames), NAMED_LIMITS[self.options.limits](), self.options.threads)
             placed = np.full(len(decoded.positions), np.inf)
-            np.minimum.at(placed, encoder.vertex_index, reach)
+            np.minimum.at(placed, encoder.vertex_index, one.reach)
             share, seen = self.apart(decoded, placed), self.look(decoded)
             if max(share, seen) <= 1.0:
                 encoder.look = seen * promise.look if self._metric else None
@@ -232,9 +228,10 @@ def _of_vertices(attribute: Attribute, mesh: TriangleMesh, faces: Faces, kept: n
 
 def collapsed(
     positions: Positions, faces: Faces, locked: Mask, target: int, wedges: Faces | None = None
-) -> tuple[Positions, Faces, Indices, Faces]:
-    """Simplify to about `target` triangles; locked and border vertices stay. Also return new numbers, or -1, and the
-    `wedges` left: numbers of the values of corners. With these, vertices stay or vanish, and seams stay seams."""
+) -> tuple[Positions, Faces, Indices, Faces, Matrix]:
+    """Simplify to about `target` triangles; locked and border vertices stay. Also return new numbers, or -1, the
+    `wedges` left: numbers of the values of corners, and quadrics of vertices that may move. With wedges, vertices stay
+    or vanish, and seams stay seams."""
     count, sides, own = len(positions), 3 * len(faces), faces if wedges is None else wedges
     sides_of, _, uses = edges_of(faces)
     stay = np.where(locked, _FIXED, 0 if wedges is None else _STEADY).astype(np.uint8)
@@ -250,7 +247,8 @@ def collapsed(
     buckets = np.empty(sides // 2, np.float32), np.empty(_BUCKETS, np.int32)
     size = _kernels.simplify(moved, left, own, stay, *scratch, joins, owners, *buckets, target)
     kept, corners, numbers = compact(moved, left[:size])
-    return kept, corners, numbers[owners], own[:size]
+    scratch[0][stay & _FIXED > 0] = 0.0
+    return kept, corners, numbers[owners], own[:size], scratch[0][numbers >= 0]
 
 
 def compact(rows: npt.NDArray[Any], faces: Faces) -> tuple[npt.NDArray[Any], Faces, Indices]:
@@ -259,6 +257,20 @@ def compact(rows: npt.NDArray[Any], faces: Faces) -> tuple[npt.NDArray[Any], Fac
     used[faces] = True
     numbers = np.where(used, np.cumsum(used, dtype=np.int32) - 1, -1).astype(np.int32)
     return rows[used], numbers[faces], numbers
+
+
+def slid(positions: Positions, faces: Faces, quadrics: Matrix, worth: float) -> Positions:
+    """Positions that have slid along the surface to where they are smooth on the graph, and take fewer bytes."""
+    graph = graph_of_faces(faces, len(positions))
+    squares, places = quadrics[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3), -quadrics[:, 6:9]
+    areas = np.trace(squares, axis1=1, axis2=2)
+    loose = worth * (areas[:, None, None] * np.eye(3) - squares)  # but across the surface
+    solved = np.linalg.inv(np.where(areas[:, None, None] > 0.0, squares + loose, np.eye(3)))
+    for _ in range(SWEEPS):
+        wanted = places + np.einsum("nij,nj->ni", loose, smooth(graph, positions, SMOOTHING))
+        moved = positions + PACE * (np.einsum("nij,nj->ni", solved, wanted) - positions)
+        positions = np.where(areas[:, None] > 0.0, moved, positions)
+    return positions
 
 
 def _of_sides(corners: Matrix, each: Callable[..., Matrix]) -> list[Matrix]:

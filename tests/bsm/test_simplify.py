@@ -8,10 +8,10 @@ from scipy.spatial import ConvexHull
 
 import bsm
 from bsm.codec.geometry.metrics import distances_to_surface, surface_distance
-from bsm.simplification import Source
+from bsm.simplification import Source, collapsed, slid
 from tests.bsm.program import bsm as program
 from tests.bsm.program import process
-from tests.shapes import together, torus
+from tests.shapes import grid_faces, together, torus
 
 
 def ball(vertices: int, rough: float = 0.0) -> bsm.TriangleMesh:
@@ -36,11 +36,10 @@ def test_a_smooth_ball_gets_smaller_and_keeps_the_promise(tmp_path):
     assert done.returncode == 0, done.stderr
     facts, decoded = json.loads(done.stdout), bsm.decode(stream)
     plain = bsm.encode(path, preset="small")
-    assert len(decoded.faces) == facts["faces"] <= 0.7 * len(SMOOTH.faces)
+    assert len(decoded.faces) == facts["faces"] <= 0.8 * len(SMOOTH.faces)
     assert facts["faces_before"] == len(SMOOTH.faces)
-    assert (
-        f"{len(decoded.faces)} faces" in done.stderr and f"{len(SMOOTH.faces)} faces before simplifying" in done.stderr
-    )
+    assert f"{len(decoded.faces)} faces, " in done.stderr
+    assert f"{len(SMOOTH.faces)} faces before simplifying" in done.stderr
     assert facts["bytes"] < 0.85 * len(plain)
     assert bsm.look(path, stream).distance == pytest.approx(facts["look"])
     assert facts["look"] <= 3.0
@@ -68,12 +67,20 @@ def test_without_a_look_the_distance_between_surfaces_is_kept():
         assert far <= 0.004 * SMOOTH.diagonal
 
 
+def test_vertices_slide_in_the_plane_to_where_they_are_even_and_borders_stay():
+    even = np.insert(np.argwhere(np.ones((12, 12))) / 12.0, 2, 0.0, axis=1)
+    inside = ((even[:, :2] > 0.01) & (even[:, :2] < 0.9)).all(axis=1)
+    moved = even + inside[:, None] * np.random.default_rng(0).uniform(-0.03, 0.03, even.shape) * [1, 1, 0]
+    positions, faces, *_, quadrics = collapsed(moved, grid_faces(12, 12), np.zeros(144, bool), 242)
+    found = slid(positions, faces, quadrics, 0.1)
+    assert np.abs(found[:, 2]).max() < 1e-12 and np.array_equal(found[~inside], even[~inside])
+    assert np.square(found - even).sum() < 0.4 * np.square(moved - even).sum()
+
+
 def test_a_small_part_has_a_bound_of_its_own():
-    small = ball(1000)
-    small = bsm.TriangleMesh(small.positions * 0.05 + [1.5, 0, 0], small.faces)
-    both = bsm.TriangleMesh(
-        np.concatenate([SMOOTH.positions, small.positions]), np.concatenate([SMOOTH.faces, small.faces + 4000])
-    )
+    small = bsm.TriangleMesh(0.05 * ball(1000).positions + [1.5, 0, 0], ball(1000).faces)
+    faces = np.concatenate([SMOOTH.faces, small.faces + 4000])
+    both = bsm.TriangleMesh(np.concatenate([SMOOTH.positions, small.positions]), faces)
     source = Source(both, bsm.EncodeOptions(contract=bsm.Contract(0.01, by_part=0.01)))
     reach = np.repeat([0.01, 0.001], [4000, 1000]) * both.diagonal
     parts = slice(4000), slice(4000, None)
@@ -103,19 +110,17 @@ def test_colors_and_normals_stay():
     spots = bsm.Attribute("color", speckles, semantic="color")
     noisy = Source(bsm.TriangleMesh(mesh.positions, mesh.faces, [spots]), bsm.PRESETS["small"])
     assert noisy.look(noisy.whole) == 0.0
-    assert noisy.look(noisy.simplified(1500)[0]) > 1.0
+    assert noisy.stand_in(16, 0).spent > 1.0
 
 
 @pytest.mark.parametrize(
     ("options", "reason"),
     [
         ({"preset": "lossless"}, "needs a promise"),
-        ({"preset": "grid14"}, "needs a promise"),
         ({"grid": 12, "preset": "none"}, "needs a promise"),
         ({"step": 0.01}, "needs a promise"),
         ({"keep_order": True}, "excludes keep_order"),
         ({"theta": 5.0}, "excludes targets"),
-        ({"size": 2000}, "excludes targets"),
     ],
 )
 def test_what_needs_the_triangles_of_the_original_is_refused(options, reason):
@@ -137,13 +142,9 @@ def test_seams_and_other_attributes_are_refused():
 
 
 def test_sequences_and_permutations_are_refused(tmp_path):
-    for name in ("a.ply", "a_0.ply", "a_1.ply"):
-        bsm.save(torus(), tmp_path / name)
+    bsm.save(torus(), tmp_path / "a.ply")
     order = program("encode", tmp_path / "a.ply", "--simplify", "--permutation", tmp_path / "p.npy", text=True)
     assert order.returncode == 2 and "--permutation orders all vertices" in order.stderr
-    many = ["encode", tmp_path / "a_0.ply", tmp_path / "a_1.ply", "-o", tmp_path / "b.bsm", "--simplify"]
-    done = program(*many, text=True)
-    assert done.returncode == 2 and "is for single meshes" in done.stderr
     with pytest.raises(bsm.ArgumentError, match="simplify is for single meshes"):
         bsm.encode_sequence(np.array([torus().positions] * 2), torus().faces, simplify=True)
 

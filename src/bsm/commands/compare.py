@@ -178,7 +178,7 @@ def _compared(
     result |= {"folded_before": folded_edges(before, faces), "folded_after": folded_edges(after, faces)}
     if args.surface:  # what the literature on denoising measures
         result |= {"mnd": Reference(before, faces).mnd(after), "rms_over_edge": rms_over_edge(before, after, faces)}
-        result |= _apart(paired.original, TriangleMesh(after, faces))
+        result |= _apart(original, decoded)
     return {**{name: finite(value) for name, value in result.items()}, "attributes": attributes}
 
 

@@ -188,7 +188,7 @@ def simplified(
 ) -> tuple[Places, Faces, Faces]:
     """Simplify to about `target` triangles; locked and border vertices stay. Also return the wedges of the result."""
     low = places.min(axis=0).astype(np.float64)
-    kept, corners, _, left = collapsed(places - low, faces, locked, target, wedges)
+    kept, corners, _, left, _ = collapsed(places - low, faces, locked, target, wedges)
     new, numbers, _ = welded(np.rint(kept + low).astype(np.int32))
     there = ~degenerate(corners := numbers[corners])
     new, smaller, _ = compact(new, corners[there])
