@@ -245,10 +245,9 @@ def search_step(
         seen.append((target.excess(outcome), outcome))
         return seen[-1][0]
 
-    if target.shrinks_with_step:
-        secant(lambda fineness: tried(1.0 / fineness), 1.0 / first, 1.0 / WIDEST, 1.0 / finest, 2 * TRIES)
-    else:
-        secant(tried, first, finest, WIDEST, 2 * TRIES, rise)
+    power = -1.0 if target.shrinks_with_step else 1.0
+    ends = sorted((finest**power, WIDEST**power))
+    secant(lambda tested: tried(tested**power), first**power, *ends, 2 * TRIES, rise)
     met = [outcome for outcome in seen if outcome[0] <= 0.0]
     if met:
         return max(met, key=itemgetter(0))[1]

@@ -19,7 +19,6 @@ from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smoo
 from bsm.codec.signal.transform import packed_range, smallest_step
 from bsm.codec.static.choice.bounds import LEAST, SPIKE, Bounds, Trial, turned
 from bsm.codec.static.choice.settling import RATIO, Settler
-from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.coding import Adaptive, Packed, Scheme
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
@@ -344,11 +343,11 @@ class Refined:
     def _shaped(self, base: RefinementBase, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""
         shaper = self._bounds.measures.shaper
-        aim = Aim(layer.step / shaper.mean_edge, float(self._bounds.reaches.max()))
-        heights = shaper.levels(base.positions, *base.wanted(base.expected_steps(layer)), aim)
+        aim = layer.step / shaper.mean_edge, float(self._bounds.reaches.max())
+        heights = shaper.levels(base.positions, *base.wanted(base.expected_steps(layer)), *aim)
         wanted, directions = base.wanted(base.known_steps(layer, heights))
         wanted[:, 0] = heights[:, 0]
-        return shaper.levels(base.positions, wanted, directions, aim)
+        return shaper.levels(base.positions, wanted, directions, *aim)
 
     @cached_property
     def _settler(self) -> Settler:

@@ -29,9 +29,7 @@ SPIKE = 4.0  # steps that a vertex may be off where its place is chosen: farther
 FINEST_PART = 0.1
 """No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
 pixel in a picture of 512. Of a gap between parts, as much is left."""
-LEAST_GAP, MOST_PARTS = 2e-4, 64
-"""Parts nearer to each other than this, in BSM units, touch, so that none is before the other; and of more parts than
-these, none is asked how near it is to others."""
+MOST_PARTS = 64  # of more parts than these, none is asked how near it is to others
 
 
 class Measures:
@@ -265,5 +263,6 @@ def gaps(prepared: Prepared, contract: Contract) -> Gaps:
     across = -(weights * positions[ends]).sum(axis=1)
     squares, of = squares_of(across), part[ends[:, :2]]
     np.minimum.at(nearest, of, np.sqrt(squares)[:, None])
-    free = (squares < reach**2) & (nearest[of].max(axis=1) >= LEAST_GAP)
+    touching = FINEST_PART**2 * reach  # none of such parts is before the other
+    free = (squares < reach**2) & (nearest[of].max(axis=1) >= touching)
     return Gaps(ends[free], (weights * across[:, None])[free] / squares[free, None, None])

@@ -15,7 +15,6 @@ from bsm.codec.geometry.mesh import box_around, extent_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
 from bsm.codec.static.choice.bounds import SEEN, SPIKE, Bounds, Trial, turned
 from bsm.codec.static.choice.congruence import mirrored_origin, transforms_of
-from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import SLACK, WIDEST
 from bsm.codec.static.units import single
@@ -142,7 +141,7 @@ class Gridded:
         places = np.floor((self._positions - low) / (held / unit) + 0.5).astype(np.int32)
         if self._worth:
             worth, reach = self._worth * step / self._shaper.mean_edge, float(self._bounds.reaches.min())
-            places = self._shaper.places(places, low, held / unit, Aim(worth, min(reach, SPIKE * step), 3))
+            places = self._shaper.places(places, low, held / unit, worth, min(reach, SPIKE * step))
         candidate = self._placed(held, self._apart(places, low, held / unit), origin)
         return turned(candidate) or candidate
 
@@ -194,9 +193,10 @@ class Gridded:
 
     def made(self) -> Iterator[Trial]:
         """The grids that the mesh was made on, or about, in single precision."""
-        for within in (0.0, SEEN * self._shaper.mean_edge):
-            if (step := made_on(self._positions, within)) is not None:
-                yield self._made(step, mirrored=False)
+        unit = self._prepared.units.scale
+        for within in (0.0, SEEN * self._shaper.mean_edge * unit):
+            if (step := made_on(self._prepared.mesh.positions, within)) is not None:
+                yield self._made(step / unit, mirrored=False)
 
     def _candidate(self, grid: Raster, places: Levels) -> Trial:
         prepared, may = self._prepared, may_repeat(self._prepared)

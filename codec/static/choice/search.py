@@ -99,8 +99,8 @@ class Search:
         kept, near = Bounds(self._measures, contract), Bounds(self._measures, replace(contract, look=1.0))
         usual = Gridded(self._prepared, near).in_frame()
         first = usual.repeat(usual.at(usual.first))
-        # A step twice as wide, which looks about twice as far off, saves three bits of a vertex.
-        octaves = min(max(8.0 * (first.draft.size - most_bytes) / (3.0 * self._prepared.graph.size), -12.0), 6.0)
+        octave = BYTES * math.log(2.0) * self._prepared.graph.size  # a step twice as wide looks about twice as far off
+        octaves = min(max((first.draft.size - most_bytes) / octave, -12.0), 6.0)
         bounds = Bounds(self._measures, replace(contract, look=2.0**octaves))
         grid = Gridded(self._prepared, bounds, turn=usual.turn) if abs(octaves) > 1.0 else usual
         grid.repeats = usual.repeats
@@ -113,7 +113,8 @@ class Search:
         if grid is usual:
             queue[0] = self._hopes(grid, near, first, first.draft.size, most_bytes)
             queue[0].begin(first, coded(grid, first))
-        least = min((kept.quality(made) for made in found if coded(grid, made) <= 0.0), default=math.inf)
+        fitting = (made for made in found if self._size(paying(self._prepared, made.congruent)) <= most_bytes)
+        least = min(map(kept.quality, fitting), default=math.inf)
         price = self._price / -queue[0].bytes.slope  # of bytes, in looks
         found += [made for _, made in search(queue, coded, kept.quality, price, least)]
         best = sorted(filter(kept.keeps, found), key=kept.quality)

@@ -5,8 +5,6 @@ the vertices that takes, of the levels nearby, the one at which faces are bent l
 angle between normals the levels can be twice as coarse. The cost of a level is an estimate of its bits.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from bsm._core import codec as _kernels
@@ -19,14 +17,6 @@ from bsm.codec.static.choice.settling import PULL
 
 RATES = np.log1p(np.arange(4096.0))
 """Bits, but for a factor, of a place on a grid that is so far from where a parallelogram would have it."""
-
-
-class Aim(NamedTuple):
-    """What shaping is after."""
-
-    worth: float
-    reach: float = np.inf
-    sweeps: int = 6
 
 
 class Shaper:
@@ -49,23 +39,25 @@ class Shaper:
         a, b = (self._original.positions[corner] for corner in self._original.faces[:, :2].T)
         return float(np.sqrt(squares_of(a - b)).mean()) or 1.0
 
-    def levels(self, base: Positions, wanted: Levels, directions: Matrix, aim: Aim) -> Levels:
+    def levels(self, base: Positions, wanted: Levels, directions: Matrix, worth: float, reach: float) -> Levels:
         """Levels along fixed directions."""
         chosen = np.array(wanted, np.int32, order="C")
         scales = np.maximum(np.abs(chosen).mean(axis=0), 0.4)
         moved = np.ascontiguousarray(base + np.einsum("na,naj->nj", chosen.astype(np.float64), directions))
         flat = np.ascontiguousarray(directions.reshape(len(base), -1))
-        _kernels.shape_levels(self._wanted, self._aim(aim, 1), moved, chosen, flat, scales, PULL, self._open)
+        aim = worth / len(base), reach, 6
+        _kernels.shape_levels(self._wanted, aim, moved, chosen, flat, scales, PULL, self._open)
         return chosen
 
-    def places(self, wanted: Levels, origin: Matrix, step: float, aim: Aim) -> Levels:
+    def places(self, wanted: Levels, origin: Matrix, step: float, worth: float, reach: float) -> Levels:
         """Places on a grid."""
         chosen = np.array(wanted, np.int32, order="C")
         flaps, starts, members = self._flaps
         bends = chosen[flaps[:, 0]] + chosen[flaps[:, 1]] - chosen[flaps[:, 2]] - chosen[flaps[:, 3]]
         moved = np.ascontiguousarray(chosen * step + origin)
+        aim = worth / (3 * len(chosen)), reach, 6
         _kernels.shape_grid(
-            self._wanted, self._aim(aim, 3), moved, chosen, step, flaps, starts, members, bends, RATES,
+            self._wanted, aim, moved, chosen, step, flaps, starts, members, bends, RATES,
             self._open,
         )  # fmt: skip
         return chosen
@@ -85,9 +77,6 @@ class Shaper:
     def most_folded(self) -> int:
         """How many may be: one in 10,000 faces more than were."""
         return self.folded(self._original.positions) - -len(self._original.faces) // 10_000
-
-    def _aim(self, aim: Aim, share: int) -> tuple[float, float, int]:
-        return aim.worth / (share * len(self._open)), float(aim.reach), aim.sweeps
 
     @cached_property
     def _flaps(self) -> tuple[Indices, Indices, Indices]:
