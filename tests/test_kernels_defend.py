@@ -37,7 +37,7 @@ KERNELS = {
 }
 REFUSALS = 40
 """Of a kernel, after which it is left alone."""
-NOTHING_SHORT = {"priors", "start", "constant"}
+NOTHING_SHORT = {"priors", "start", "constant", "fields"}
 """Kernels that are given no array, or one that may be of any length."""
 
 
