@@ -47,8 +47,10 @@ def paying(prepared: Prepared, draft: Draft) -> Draft:
         some = kept[:i] + kept[i + 1 :]
         grid = replace(grid, transforms=np.concatenate(some), whole=i < count and draft.header.whole)
         coded = grid_draft(prepared, grid, places, draft.may_be_brief)
-        wins = coded.size < (1.0 - SLACK * (i == count)) * draft.size
-        draft, kept = (coded, some) if wins else (draft, kept)
+        if coded.size < (1.0 - SLACK * (i == count)) * draft.size:
+            draft, kept = coded, some
+        elif i < count:
+            break  # the quarters before explain more vertices
     return draft
 
 
