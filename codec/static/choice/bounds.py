@@ -90,6 +90,7 @@ class Trial:
     settled: bool = False  # whether levels are kept within reach, whatever the step is
     repeating: Callable[[], Draft] | None = None  # the same positions, predicted by congruent parts
     decoded: Positions | None = None  # in the unit of the mesh, where `positions` are rounded
+    about: Callable[[], int] = lambda: 0  # bytes by a quick coder; 0 where parts repeat
 
     @cached_property
     def draft(self) -> Draft:

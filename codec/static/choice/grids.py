@@ -216,8 +216,13 @@ class Gridded:
                 return coded(len(some) > 0 or not prepared.light)
             return coded(sized(replace(grid, transforms=some)) < sized(grid))
 
+        def about() -> int:
+            if may and len(transforms_of(prepared, grid)):
+                return 0
+            return grid_draft(prepared, replace(grid, light=True), places, may).size
+
         decoded = grid.positions(places)
         positions = np.ascontiguousarray(prepared.units.into(decoded))
         step, fixed = grid.step / prepared.units.scale, len(prepared.connectivity.data)
         make = partial(coded, self.repeats)
-        return Trial(step, positions, make, fixed, repeating=repeating, decoded=decoded)
+        return Trial(step, positions, make, fixed, repeating=repeating, decoded=decoded, about=about)

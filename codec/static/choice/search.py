@@ -40,12 +40,10 @@ class Search:
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
         bounds = Bounds(self._measures, contract)
-        grid = Gridded(self._prepared, bounds)
-        kept: dict[object, Trial] = {made: made for made in grid.made() if bounds.keeps(made)}
-        grid = grid.in_frame()
-        usual = grid.at(grid.first)
-        first, refined = grid.repeat(usual), Refined(self._prepared, self._options, bounds)
-        ways, saved = self._ways(bounds, grid, refined), self._saved(first)
+        plain = Gridded(self._prepared, bounds)
+        grid = plain.in_frame()
+        usual, refined = grid.at(grid.first), Refined(self._prepared, self._options, bounds)
+        ways, saved = self._ways(bounds, grid, refined), self._saved(usual)
 
         def total(way: object, size: float) -> float:
             return size if isinstance(way, Gridded | Trial) else size + saved  # positions on grids predict attributes
@@ -58,7 +56,7 @@ class Search:
             folded = bounds.folded(made.positions)
             return max(over, math.log(folded) / 2.0) if folded > 1.0 else over  # they grow about as squares of steps
 
-        begun: dict[Way, Trial] = {grid: first}
+        begun: dict[Way, Trial] = {}
         sizes: dict[Way, float] = {}
         with suppress(LimitError):  # blocks that decoders would refuse
             if refined in ways:
@@ -66,7 +64,14 @@ class Search:
                 if (larger := self._larger(refined, made, bounds)) is not None:
                     ways.append(larger)
                     sizes[larger] = made.draft.size - refined.base.coded + larger.base.coded
-        other = max(first.draft.size, (1.0 - DOUBT) * usual.draft.size)  # few chosen places are images of others
+        about = usual.about() if begun else 0.0
+        if begun and total(refined, begun[refined].draft.size) < (1.0 - DOUBT) * about:  # no grid is coded in full
+            first, other = begun[refined], about
+        else:
+            begun[grid] = first = grid.repeat(usual)
+            other = max(first.draft.size, (1.0 - DOUBT) * usual.draft.size)  # few chosen places are images of others
+        hopeful = (made for made in plain.made() if made.about() < 2 * first.draft.size)
+        kept: dict[object, Trial] = {made: made for made in hopeful if bounds.keeps(made)}
         queue = []
         for way in ways:
             made = begun.get(way, first)
