@@ -21,7 +21,6 @@ from bsm.codec.geometry.metrics import Comparison, Reference, decibel
 from bsm.codec.progress import Nearing, Progress
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.choice.attributes import Sent, smallest
-from bsm.codec.static.choice.blocks import InBlocks
 from bsm.codec.static.choice.bounds import LEAST
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
 from bsm.codec.static.options import PRESETS, EncodeOptions
@@ -29,6 +28,7 @@ from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import WIDEST, Contract, Target, search_step
 from bsm.codec.static.verification import AsGiven, require, verify
 from bsm.codec.static.ways.block_coder import as_of_decoders
+from bsm.codec.static.ways.in_blocks import InBlocks
 
 
 @dataclass(frozen=True, eq=False)

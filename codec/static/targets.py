@@ -246,8 +246,8 @@ def search_step(
         return seen[-1][0]
 
     power = -1.0 if target.shrinks_with_step else 1.0
-    ends = sorted((finest**power, WIDEST**power))
-    secant(lambda tested: tried(tested**power), first**power, *ends, 2 * TRIES, rise)
+    least, most = sorted((finest**power, WIDEST**power))
+    secant(lambda tested: tried(tested**power), first**power, least, most, 2 * TRIES, rise)
     met = [outcome for outcome in seen if outcome[0] <= 0.0]
     if met:
         return max(met, key=itemgetter(0))[1]

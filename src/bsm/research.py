@@ -34,12 +34,12 @@ from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal import chain
 from bsm.codec.signal.chain import Chain, ChainRules, Columns, Overrides
-from bsm.codec.static.choice.blocks import InBlocks
 from bsm.codec.static.coding import Packed, rules_of
 from bsm.codec.static.options import RANGES, EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared, join, prepare
 from bsm.codec.static.units import Units, checksum_of
 from bsm.codec.static.ways.block_coder import blended
+from bsm.codec.static.ways.in_blocks import InBlocks
 from bsm.console import Console
 from bsm.files.inspection import Skimmer
 from bsm.libraries import as_mesh

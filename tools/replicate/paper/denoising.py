@@ -13,7 +13,7 @@ from bsm.codec.denoise.coarse import KEEP, RULES, CoarseFilter
 from bsm.codec.denoise.normals import bilateral_normal_filtering, guided_normal_filtering
 from bsm.codec.geometry.metrics import decibel
 from bsm.codec.signal.chain import Chain, ChainRules
-from bsm.codec.static.choice.blocks import MOST_APART
+from bsm.codec.static.ways.in_blocks import MOST_APART
 from tools.laplacians import dense_laplacian
 from tools.noise import gaussian_along_normals
 from tools.replicate.paper.dictionaries import Floats, degree_weights, eigenvectors

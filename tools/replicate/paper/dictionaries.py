@@ -14,8 +14,8 @@ from bsm.codec.arrays import Basis, Indices, Positions
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blend, Block
 from bsm.codec.geometry.metrics import decibel
-from bsm.codec.static.choice.blocks import MOST_APART
 from bsm.codec.static.options import Paper
+from bsm.codec.static.ways.in_blocks import MOST_APART
 from tools.laplacians import dense_laplacian
 from tools.replicate.paper.models import Model
 

@@ -1,0 +1,246 @@
+"""Blocks, coded at a step as the options say, and a layer of levels on them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from bsm.bitstream.container.header import Header, Layer
+from bsm.bitstream.errors import LimitError, OptionError
+from bsm.bitstream.once import cached_property
+from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.geometry.mesh import squares_of
+from bsm.codec.geometry.metrics import mean_edge_length
+from bsm.codec.progress import Progress
+from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
+from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, tangent_steps
+from bsm.codec.signal.transform import packed_range, smallest_step
+from bsm.codec.static.coding import Adaptive, Packed, Scheme
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble_encoding import Draft, Prepared
+from bsm.codec.static.units import single
+from bsm.codec.static.ways.block_coder import Sizing, admit, blended, encode_blocks, offer, patience
+from bsm.codec.static.ways.grid import encode_layer
+from bsm.codec.threads import ordered_map
+
+PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits
+MOST_APART = 3
+"""Solutions before an Onorm in the paper's mode: more leave little of late columns in single precision."""
+SMOOTHING_STEPS = tuple(2.0**k if k > -4 else 0.0 for k in range(-4, 7))
+"""Amounts to try, from the middle up and down while they help; a factor of sqrt 2 between them is worth 0.1 %."""
+
+
+@dataclass(frozen=True, eq=False)
+class RefinementBase:
+    """Blocks, coded."""
+
+    prepared: Prepared
+    draft: Draft
+    positions: Matrix
+    coded: int  # bytes of the blocks
+    work: float  # of their decoding
+
+    @cached_property
+    def frames(self) -> Matrix:
+        """The frames that levels are in, shape (n, 9)."""
+        return local_frames(self.positions, self.prepared.mesh.faces)
+
+    @cached_property
+    def offsets(self) -> Matrix:
+        """The remaining error in these frames: along normals and tangents, shape (n, 3)."""
+        return in_frames(self.prepared.positions - self.positions, self.frames)
+
+    def expected_steps(self, layer: Layer) -> Matrix:
+        """About what levels of a layer move each vertex, shape (n, 3), before any is chosen."""
+        aside = tangent_steps(self.prepared.positions, self.prepared.mesh.faces, layer.step, layer.ratio)
+        return np.column_stack([np.full(len(aside), layer.step), aside, aside])
+
+    def known_steps(self, layer: Layer, levels: Levels) -> Matrix:
+        """What levels of a layer move each vertex, shape (n, 3), if its heights are those of `levels`, shape (n, 3)."""
+        return self._known_steps(layer, levels[:, 0].tobytes())
+
+    @cached_property
+    def _known_steps(self) -> Callable[[Layer, bytes], Matrix]:
+        def known(layer: Layer, heights: bytes) -> Matrix:
+            levels = np.frombuffer(heights, np.int32)[:, None]
+            upright = raised(self.positions, self.frames, levels, layer.step)
+            aside = tangent_steps(upright, self.prepared.mesh.faces, layer.step, layer.ratio)
+            return np.column_stack([np.full(len(aside), layer.step), aside, aside])
+
+        return lru_cache(1)(known)
+
+    def wanted(self, steps: Matrix) -> tuple[Levels, Matrix]:
+        """The nearest levels to steps, both of shape (n, 3), and what one of each moves, shape (n, 3, 3)."""
+        directions = self.frames.reshape(-1, 3, 3) * steps[:, :, None]
+        return np.rint(self.offsets / steps).astype(np.int32), directions
+
+    def within(self, reaches: Matrix, layer: Layer, levels: Levels) -> tuple[Levels, Matrix]:
+        """These levels, but the nearest ones where a vertex is farther off than it may be; and their known steps."""
+        levels, known = levels.copy(), self.known_steps(layer, levels)
+        for _ in range(9):  # heights that are mended change steps of others
+            error = levels * known - self.offsets
+            far = squares_of(error) > reaches**2
+            if not far.any():
+                break
+            levels[far] = np.rint(self.offsets[far] / known[far])
+            known = self.known_steps(layer, levels)
+        return levels, known
+
+    def moved(self, layer: Layer, levels: Levels, known: Matrix) -> Matrix:
+        """Where levels bring the base by their known steps, all of shape (n, 3), in BSM units."""
+        moved = raised(self.positions, self.frames, levels, layer.step)
+        slide(moved, self.frames, levels, known[:, 1])
+        return moved
+
+    def refined(self, layer: Layer, levels: Levels, moved: Matrix) -> Draft:
+        """The stream with a layer of levels, shape (n, 3), and where these bring the base."""
+        header = replace(self.draft.header, refinement=(layer.step, layer.ratio))
+        body = (*self.draft.body, *encode_layer(self.prepared.mesh.faces, levels))
+        return Draft(header, body, self.prepared.units.back(moved))
+
+
+class InBlocks:
+    """Codes a mesh in blocks, at one step after another; what depends only on the mesh is measured once."""
+
+    def __init__(
+        self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, overrides: Overrides = AS_SPECIFIED
+    ) -> None:
+        self._prepared = prepared
+        self._options = options
+        self._widest = max(1, int(widest * prepared.size))
+        self.missed = 0  # blocks over eps_h
+        self._overrides = overrides
+
+    def base(self, step: float, progress: Progress | None = None) -> RefinementBase:
+        """The blocks at a step, or with a fixed number of bits at an eps_h in BSM units; c is as decoders grant it."""
+        while True:
+            try:
+                return self._base(step, progress)
+            except LimitError:
+                if self._options.paper.doi is None or self._widest == 1:
+                    raise
+                self._widest = 2 * self._widest // 3
+
+    def _base(self, step: float, progress: Progress | None) -> RefinementBase:
+        prepared, options = self._prepared, self._options
+        scheme = self._scheme(step)
+        blocks = encode_blocks(
+            scheme,
+            prepared.positions,
+            threads=options.threads,
+            sizing=self._sizing(scheme.coding.width, step),
+            progress=progress,
+            charge=patience(options.limits, prepared.graph.size),
+        )
+        admit(options.limits, prepared, blocks)
+        self.missed = sum(not block.met for block in blocks)
+        positions = blended(prepared.graph.size, (block.decoded for block in blocks))
+        smoothing = options.fixed_smoothing
+        header = Header(
+            vertices=prepared.graph.size,
+            faces=len(prepared.mesh.faces),
+            block_size=prepared.size,
+            coefficients=max(block.packet.coefficients for block in blocks),
+            center=prepared.units.center,
+            scale=prepared.units.scale,
+            smoothing=self._smoothing(positions) if smoothing is None else single(smoothing),
+            **scheme.fields(),
+        )
+        decoded = smooth(prepared.graph, positions, header.smoothing)
+        body = (*prepared.before_blocks, *(block.packet for block in blocks))
+        draft, positions = Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded)
+        coded, work = sum(len(block.packet.data) for block in blocks), sum(block.work for block in blocks)
+        return RefinementBase(prepared, draft, positions, coded, work)
+
+    def _scheme(self, step: float) -> Scheme:
+        """How blocks are coded at a step."""
+        rules, bits, size = self._rules(), self._options.paper.bits, self._prepared.size
+        if bits is not None:
+            return Scheme(self._prepared.blocks, rules, self._packed(bits, rules, step))
+        if step < smallest_step(size):
+            raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
+        return Scheme(self._prepared.blocks, rules, Adaptive(self._width(step), single(step)))
+
+    def _smoothing(self, blended: Matrix) -> float:
+        """The amount of smoothing that lowers the error of the options most."""
+        graph = self._prepared.graph
+        badness = lru_cache(None)(lambda place: self._badness(smooth(graph, blended, SMOOTHING_STEPS[place])))
+        place = len(SMOOTHING_STEPS) // 2
+        for aside in (1, -1):
+            while 0 <= place + aside < len(SMOOTHING_STEPS) and badness(place + aside) < badness(place):
+                place += aside
+        return SMOOTHING_STEPS[place]
+
+    def _rules(self) -> ChainRules:
+        paper = self._options.paper
+        return ChainRules(
+            exact=paper.exact_keys,
+            key_interval=even_interval(self._options.key_interval, self._prepared.blocks.count),
+            power=paper.power,
+            iterations=paper.iterations,
+            key_iterations=paper.key_iterations,
+            shift=single(paper.shift),
+            springs=paper.predict and paper.bits is None,
+            apart=min(paper.power, MOST_APART) if paper.bits is not None and paper.power > 1 else 0,
+            overrides=self._overrides,
+        )
+
+    def _width(self, step: float) -> int:
+        """c: the option's value, or as many coefficients as are worth coding at this step."""
+        options, size = self._options, self._prepared.size
+        most = size if options.paper.doi is None else self._widest
+        if options.coefficients is not None:
+            return min(options.coefficients, most)
+        if options.keep is not None:
+            return min(max(1, round(options.keep * size)), most)
+        if options.paper.doi is not None:
+            return most
+        if options.paper.bits is not None:
+            return max(1, round(PAPER_FRACTION * size))
+        return self._prepared.spectrum(options.paper.shift).worthwhile_size(step, self._widest)
+
+    @cached_property
+    def _eps(self) -> tuple[float, float] | None:
+        """eps_l and eps_h in BSM units."""
+        if doi := self._options.paper.doi:
+            edge = mean_edge_length(self._prepared.positions, self._prepared.mesh.faces)
+        return doi and (edge * doi[0], edge * doi[1])
+
+    @property
+    def first_step(self) -> float:
+        """The step, or eps_h, that a search begins with."""
+        return self._eps[1] if self._eps and self._options.paper.bits else self._options.first_step
+
+    def _sizing(self, width: int, step: float) -> Sizing:
+        eps = (step * self._eps[0] / self._eps[1], step) if self._eps and self._options.paper.bits else self._eps
+        return Sizing(width, min(width, max(1, round(PAPER_FRACTION * self._prepared.size))), eps)
+
+    def _packed(self, bits: int, rules: ChainRules, step: float) -> Packed:
+        """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""
+        blocks, positions, width = self._prepared.blocks, self._prepared.positions, self._width(0.0)
+        charge, sizing = patience(self._options.limits, len(positions)), self._sizing(width, step)
+
+        def largest(indices: range) -> Matrix:
+            """Largest coefficient in the first row of any block of a chain, and in all others."""
+            chain, sizes, found = Chain(rules, blocks), sizing.begin(), np.zeros(2)
+            for index in indices:
+                own = positions[chain.begin(index)[0]]
+                dictionary, coefficients = offer(chain, own, width, sizes, charge)
+                chain.commit(dictionary.shape[1], own)
+                magnitudes = np.abs(coefficients)
+                found = np.maximum(found, [magnitudes[:1].max(), magnitudes[1:].max(initial=0.0)])
+            return found
+
+        chains = rules.chains(blocks.count)
+        first, others = np.max(list(ordered_map(largest, chains, self._options.threads)), axis=0)
+        return Packed(width, bits, *packed_range(first, others, bits))
+
+    def _badness(self, decoded: Matrix) -> float:
+        """What smoothing shall lower: the target's own measure, or else theta and NMSVE together."""
+        target, reference = self._options.target, self._prepared.reference
+        if target is not None and target.kind == "theta_deg":
+            return reference.theta(decoded)
+        if target is not None and target.kind == "nmsve_db":
+            return reference.nmsve(decoded)
+        return reference.theta(decoded) * reference.nmsve(decoded)
