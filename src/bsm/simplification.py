@@ -36,7 +36,7 @@ RUNG, RUNGS = 2.0 ** (-1 / 16), 64  # triangles over those of the rung before; r
 LOOSEST, LOOSER, LADDER = 0.1, 0.4, 9  # what it costs to be rough over leaving the surface: most, each over the last
 SMOOTHING, SWEEPS, PACE = 0.5, 8, 0.7  # of vertices that slide: the filter, how often, and how much of the way
 SLID = 0.25  # of the promise, what sliding may take before any triangle is left out
-SPENT = {False: (0.65, 0.8), True: (0.38, 0.53, 0.68)}
+SPENT = {False: (0.65, 0.8), True: (0.25, 0.4, 0.55, 0.7)}
 """Of the promise, what fewer triangles may take, and sliding if vertices slide: more as long as bytes get fewer."""
 TRIES = 3  # streams of one simplified mesh, each under the promise that the one before calls for
 AIM = 0.98  # the share of a bound that is aimed at
