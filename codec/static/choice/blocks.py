@@ -10,11 +10,10 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.signal.transform import smallest_step
-from bsm.codec.static.choice.bounds import LEAST, SPIKE, Bounds, Trial, turned
+from bsm.codec.static.choice.bounds import COARSEST, LEAST, SPIKE, Bounds, Trial, turned
 from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
-from bsm.codec.static.targets import WIDEST
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
 
@@ -57,7 +56,7 @@ class Refined:
         self._options, self._spectral = options, InBlocks(prepared, options, BROADEST)
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
-        self.least, self.most = LEAST, max(min(WIDEST, self._diagonal / math.sqrt(3.0)), LEAST)
+        self.least, self.most = LEAST, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), LEAST)
         self.at = lru_cache(1)(self._made)
 
     @cached_property

@@ -20,10 +20,11 @@ from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.preamble_encoding import Draft, Prepared
-from bsm.codec.static.targets import ANY_ANGLE, SLACK, WIDEST, Contract
+from bsm.codec.static.targets import ANY_ANGLE, SLACK, Contract
 
 BOUNDS = "vertex error", "normal error", "visual error", "look"
-SEEN = 1.0 / 32.0  # about the step, in mean edges, at which rounding has a look of 1
+COARSEST, SEEN = 0.05, 1.0 / 32.0
+"""Largest step, in BSM units; and about the one, in mean edges, at which rounding has a look of 1."""
 LEAST = 1e-6  # share of a bound below which all is as good as it can be; rounding of measures adds less
 SPIKE = 4.0  # steps that a vertex may be off where its place is chosen: farther ones stand out as spikes
 FINEST_PART = 0.1
@@ -160,22 +161,22 @@ class Bounds:
     @cached_property
     def first_step(self) -> float:
         """Return a step at which rounding uses up about the whole bound, in BSM units."""
-        step, positions, metric = WIDEST, self.measures.prepared.positions, self.metric
+        step, positions, metric = COARSEST, self.measures.prepared.positions, self.metric
         for _ in range(3 if metric is None else 0):  # of errors, or of their squares
             step /= math.sqrt(max(*self._measured(np.rint(positions / step) * step), LEAST))
         if metric is None:
-            return min(step, WIDEST)
+            return min(step, COARSEST)
         # From one step for all looks, so that a stricter one begins with a finer step; but a mesh that stands for
         # another one looks different without any step.
         aim = self.contract.look if self.measures.shown else 1.0
-        step, light = min(SEEN * self.measures.shaper.mean_edge, WIDEST), self.measures.prepared.light
+        step, light = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.measures.prepared.light
         for _ in range(2):
             placed = self.measures.prepared.units.back(np.rint(positions / step) * step)
             wider = aim / max(metric.glance(placed) if light else metric.with_room(placed), LEAST)
-            step = min(step * min(max(wider, 0.1), 10.0), WIDEST)
+            step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
             if 0.5 < wider < 2.0:
                 break
-        return min(step * self.contract.look / aim, WIDEST)
+        return min(step * self.contract.look / aim, COARSEST)
 
     @property
     def had(self) -> str:

@@ -13,10 +13,10 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix, Positions
 from bsm.codec.geometry.mesh import box_around, extent_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
-from bsm.codec.static.choice.bounds import SEEN, SPIKE, Bounds, Trial, turned
+from bsm.codec.static.choice.bounds import COARSEST, SEEN, SPIKE, Bounds, Trial, turned
 from bsm.codec.static.choice.congruence import mirrored_origin, transforms_of
 from bsm.codec.static.preamble_encoding import Draft, Prepared
-from bsm.codec.static.targets import SLACK, WIDEST
+from bsm.codec.static.targets import SLACK
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_grid, grid_of, sampled_size
 
@@ -124,14 +124,14 @@ class Gridded:
         self._low = prepared.units.into(self._origin)
         smallest = float(np.finfo(np.float32).smallest_subnormal) / prepared.units.scale
         self.least = max(float((self._positions - self._low).max()) / (MOST_GRID - 4), smallest)
-        self.most = WIDEST
+        self.most = COARSEST
         self._bounds = bounds
         self.at = lru_cache(1)(self._made)
 
     @cached_property
     def first(self) -> float:
         # Where half a diagonal of cells is beyond the least reach, it is not the look that decides.
-        return min(self._bounds.first_step, WIDEST, 2.0 * float(self._bounds.reaches.min()) / math.sqrt(3.0))
+        return min(self._bounds.first_step, COARSEST, 2.0 * float(self._bounds.reaches.min()) / math.sqrt(3.0))
 
     def _made(self, step: float, mirrored: bool = True) -> Trial:
         unit = self._prepared.units.scale
