@@ -1,10 +1,8 @@
 /* Fewer triangles: edges that cost least become points, by quadric errors, many of them in each pass. */
 #include "codec/geometry/geometry.h"
 
-enum { TERMS = 10, BUCKETS = 1 << 15, PASSES = 64, PART = 2, TOUCHED = 1, SEAM = 2, FIXED = 4, STEADY = 8 };
-static const double SHAPE = 3e-4; /* What it costs to move along the surface, beside leaving it. */
-static const double EVEN = 0.2;   /* What a vertex without six neighbors costs: faces take fewest bytes with these. */
-static const double TURN = 0.2;   /* The least cosine between what a triangle was and becomes. */
+enum { TERMS = 10, BUCKETS = 1 << 15, PASSES = 64, TOUCHED = 1, SEAM = 2, FIXED = 4, STEADY = 8 };
+static const double TURN = 0.2; /* The least cosine between what a triangle was and becomes. */
 
 typedef struct {
     double *positions;
@@ -16,6 +14,7 @@ typedef struct {
     int32_t *wedges;              /* The values that corners have beside their place. */
     int32_t *ends, *marks, *joins; /* Where each vertex went in this pass, and each wedge. */
     int32_t mark;
+    double along, uneven; /* The costs of moving along the surface, and of vertices without six neighbors. */
 } WorkingMesh;
 
 /* The quadric of an area: xx, xy, xz, yy, yz, zz, then the linear terms, then the constant. */
@@ -76,7 +75,7 @@ static double placed(const WorkingMesh *surface, int32_t a, int32_t b, double *p
     double off_a = (double)(surface->starts[a + 1] - surface->starts[a]) - 6.0;
     double off_b = (double)(surface->starts[b + 1] - surface->starts[b]) - 6.0;
     /* (off_a + off_b + 2)^2 - off_a^2 - off_b^2 */
-    return cost_at(q, p) * __builtin_exp(EVEN * (2.0 * off_a * off_b + 4.0 * (off_a + off_b) + 4.0));
+    return cost_at(q, p) * __builtin_exp(surface->uneven * (2.0 * off_a * off_b + 4.0 * (off_a + off_b) + 4.0));
 }
 
 /* The corners of a triangle as they are now; false if it is gone. */
@@ -180,7 +179,7 @@ static void add_quadrics(WorkingMesh *surface, int64_t count) {
         double area = __builtin_sqrt(dot3(n, n));
         for (int i = 0; area > 0.0 && i < 3; i++) {
             add_plane(surface->quadrics + TERMS * (int64_t)face[i], n, 1.0 / area, at[0]);
-            add_point(surface->quadrics + TERMS * (int64_t)face[i], SHAPE * area, at[i]);
+            add_point(surface->quadrics + TERMS * (int64_t)face[i], surface->along * area, at[i]);
             const int other = (i + 1) % 3;
             if (!(surface->states[face[i]] & surface->states[face[other]] & SEAM)) continue;
             double along[3] = {at[other][0] - at[i][0], at[other][1] - at[i][1], at[other][2] - at[i][2]};
@@ -244,8 +243,8 @@ static int64_t drop_faces(WorkingMesh *surface, int64_t count) {
  * `starts`, three of `around` for each triangle, `joins` for each wedge, a cost for each edge. */
 int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Doubles2 quadrics, Longs starts,
                  Ints around, Ints ends, Ints marks, Ints joins, Ints owners, Singles costs, Ints buckets,
-                 int64_t target) {
-    int64_t size = positions.rows, count = faces.rows, made = 1;
+                 int64_t target, double along, double uneven) {
+    int64_t size = positions.rows, count = faces.rows, made = 0;
     if (states.size != size || quadrics.rows != size || quadrics.columns != TERMS || starts.size != size + 1 ||
         around.size < 3 * count || ends.size != size || marks.size != size || owners.size != size ||
         buckets.size != BUCKETS || positions.columns != 3 || faces.columns != 3 || wedges.rows != count ||
@@ -255,21 +254,21 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Do
         if (faces.data[k] < 0 || faces.data[k] >= size || wedges.data[k] < 0 || wedges.data[k] >= joins.size)
             return MISUSED;
     WorkingMesh surface = {positions.data, faces.data, states.data, quadrics.data, starts.data, around.data,
-                           wedges.data,    ends.data,  marks.data,  joins.data,    0};
+                           wedges.data,    ends.data,  marks.data,  joins.data,    0,           along,       uneven};
     for (int64_t v = 0; v < size; v++) {
         marks.data[v] = 0;
         owners.data[v] = (int32_t)v;
         for (int i = 0; i < TERMS; i++) quadrics.data[TERMS * v + i] = 0.0;
     }
     add_quadrics(&surface, count);
-    for (int pass = 0; made && pass < PASSES && count > target; pass++) {
+    for (int pass = 0, part = 2; part > 0 && pass < PASSES && count > target; pass++, part -= !made) {
         vertex_faces((ConstInts2){faces.data, count, 3}, starts, around);
         for (int64_t v = 0; v < size; v++) {
             ends.data[v] = (int32_t)v;
             states.data[v] &= ~TOUCHED;
         }
         for (int64_t w = 0; w < joins.size; w++) joins.data[w] = (int32_t)w;
-        made = collapse_edges(&surface, count, (count - target + 2 * PART - 1) / (2 * PART), costs, buckets);
+        made = collapse_edges(&surface, count, (count - target + 2 * part - 1) / (2 * part), costs, buckets);
         for (int64_t v = 0; v < size; v++) owners.data[v] = ends.data[owners.data[v]];
         count = drop_faces(&surface, count);
     }

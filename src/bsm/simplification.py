@@ -33,6 +33,9 @@ from bsm.console import Progress
 _TERMS, _BUCKETS = 10, 1 << 15  # of the scratch memory of the kernel
 _SEAM, _FIXED, _STEADY = 2, 4, 8  # states of vertices in the kernel
 RUNG, RUNGS = 2.0 ** (-1 / 16), 64  # triangles over those of the rung before; rungs, down to a sixteenth
+NEAREST, CHEAPEST = (1e-4, 0.0), (3e-4, 0.2)
+"""Costs of moving along the surface, over leaving it, and of vertices without six neighbors: for the nearest surface,
+and for the fewest bytes."""
 LOOSEST, LOOSER, LADDER = 0.1, 0.4, 9  # what it costs to be rough over leaving the surface: most, each over the last
 SMOOTHING, SWEEPS, PACE = 0.5, 8, 0.7  # of vertices that slide: the filter, how often, and how much of the way
 SLID = 0.25  # of the promise, what sliding may take before any triangle is left out
@@ -162,7 +165,9 @@ class Source:
         whole = self.whole
         low, scale, target = whole.positions.min(axis=0), whole.diagonal or 1.0, RUNG**rung * len(whole.faces)
         placed = (whole.positions - low) / scale
-        new, faces, owners, _, quadrics = collapsed(placed, whole.faces, np.zeros(len(placed), np.bool_), round(target))
+        new, faces, owners, _, quadrics = collapsed(
+            placed, whole.faces, np.zeros(len(placed), np.bool_), round(target), costs=CHEAPEST
+        )
         new = new if loose is None else slid(new, faces, quadrics, LOOSEST * LOOSER**loose)
         kept = np.flatnonzero(owners >= 0)
         kept = kept[np.lexsort((np.square(new[owners] - placed).sum(axis=1)[kept], owners[kept]))]
@@ -227,7 +232,12 @@ def _of_vertices(attribute: Attribute, mesh: TriangleMesh, faces: Faces, kept: n
 
 
 def collapsed(
-    positions: Positions, faces: Faces, locked: Mask, target: int, wedges: Faces | None = None
+    positions: Positions,
+    faces: Faces,
+    locked: Mask,
+    target: int,
+    wedges: Faces | None = None,
+    costs: tuple[float, float] = NEAREST,
 ) -> tuple[Positions, Faces, Indices, Faces, Matrix]:
     """Simplify to about `target` triangles; locked and border vertices stay. Also return new numbers, or -1, the
     `wedges` left: numbers of the values of corners, and quadrics of vertices that may move. With wedges, vertices stay
@@ -245,7 +255,7 @@ def collapsed(
     scratch = np.empty((count, _TERMS)), np.empty(count + 1, np.int64), np.empty(sides, np.int32), ends, marks
     joins = np.empty(int(own.max(initial=-1)) + 1, np.int32)
     buckets = np.empty(sides // 2, np.float32), np.empty(_BUCKETS, np.int32)
-    size = _kernels.simplify(moved, left, own, stay, *scratch, joins, owners, *buckets, target)
+    size = _kernels.simplify(moved, left, own, stay, *scratch, joins, owners, *buckets, target, *costs)
     kept, corners, numbers = compact(moved, left[:size])
     scratch[0][stay & _FIXED > 0] = 0.0
     return kept, corners, numbers[owners], own[:size], scratch[0][numbers >= 0]
