@@ -254,7 +254,7 @@ class Encoder:
             completed = None if found is None else sent.completed(found)
             return None if completed and promise and sent.measured(completed, promise)[0] else completed
 
-        if (found := best(given)) is not None:
+        if not given.carried and (found := best(given)) is not None:
             return self._judged(found)
         asked, kept = promise or anything, None
         finer = [replace(asked, look=finer.look) for finer in reversed(LOOKS) if finer.look < asked.look]

@@ -48,8 +48,12 @@ class Search:
         def total(way: object, size: float) -> float:
             return size if isinstance(way, Gridded | Trial) else size + saved  # positions on grids predict attributes
 
+        losses: dict[object, int] = {}  # of what the first places save, which chosen ones may not
+
         def coded(way: Way, made: Trial) -> float:
-            return math.log(total(way, made.draft.size))
+            if way not in losses:
+                losses[way] = saved - (self._saved(made) if isinstance(way, Gridded) else 0)
+            return math.log(max(made.draft.size + losses[way], 1.0))
 
         def excess(made: Trial) -> float:
             over, _ = bounds.excess(made), bounds.keeps(made)
