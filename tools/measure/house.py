@@ -30,11 +30,11 @@ BOUND = re.compile(r"(?:KERNEL|CHECKED)\((\w+)\)")
 CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
-    "codec proper, lines": 35_963,
-    "rest of the product, lines": 31_166,
-    "tests, lines": 30_834,
-    "tools, lines": 17_375,
-    "tuned constants of the search": 55,
+    "codec proper, lines": 35_770,
+    "rest of the product, lines": 31_129,
+    "tests, lines": 30_831,
+    "tools, lines": 17_370,
+    "tuned constants of the search": 36,
     "kernels driven by both Python and C": 11,
 }
 

@@ -87,7 +87,7 @@ def test_blocks_get_no_room_that_only_grids_give_back() -> None:
     assert 8 * Encoder(mesh, options).result().size >= 0.75 * 9.0 * len(mesh.positions)
 
 
-def test_what_repeats_looks_as_good_at_the_size_that_it_takes_by_default() -> None:
+def test_what_repeats_and_what_is_mapped_look_as_good_at_their_size_by_default() -> None:
     (row, column), faces = np.indices((24, 30)).reshape(2, -1), torus(24, 30).faces
     places = np.column_stack([np.cos(row * np.pi / 12.0), np.sin(row * np.pi / 12.0), column / 20.0])
     tube = TriangleMesh(places, faces[np.ptp(faces % 30, axis=1) < 29])
