@@ -106,7 +106,7 @@ class Encoder:
         self._input = Sent(mesh, self.options)
         self.look: float | None = None
         self.binding = ""
-        self._unseen = ""
+        self.unseen = ""
         promise, unit = self.options.promise, mesh.metadata.get("unit")
         size = mesh.without_isolated_vertices()[0].diagonal
         self._doubt = "" if promise is None else promise.doubt(size, unit if isinstance(unit, str) else "")
@@ -124,7 +124,7 @@ class Encoder:
     def losses(self) -> tuple[str, ...]:
         """The notes about losses that the options do not ask for."""
         doubt = [f"the preset's bound holds, and no other: {self._doubt}"] if self._doubt else []
-        unseen = [f"no look is promised: {self._unseen}"] if self._unseen else []
+        unseen = [f"no look is promised: {self.unseen}"] if self.unseen else []
         missed = 0 if self.options.target or not self.options.paper.doi else self._spectral.missed
         over = [OVER.format(missed, self._input.prepared.blocks.count)] if missed else []
         own = [OWN_RULE] if self.options.paper.partition == "metis" and not overlap.HAS_METIS else []
@@ -318,7 +318,7 @@ class Encoder:
         broken = ""
         if contract is not None:
             broken, self.look, self.binding = self._input.measured(draft, contract)
-            self._unseen = self._input.measures.unseen if contract.look < math.inf else ""
+            self.unseen = self._input.measures.unseen if contract.look < math.inf else ""
         require(not broken, f"{contract} was promised, and the decoded mesh has {broken}")
         near.to(1.0)
         return draft

@@ -1,6 +1,5 @@
 """Options for encoding a mesh."""
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import InitVar, dataclass, fields, replace
 from functools import wraps
@@ -33,7 +32,7 @@ RANGES: dict[str, tuple[float, float]] = {
     "bits": (2, 16),
     "step": (1e-9, 1.0),
     "grid": (1, 20),
-    "grid_cell": (1e-300, 1e300),
+    "grid_cell": (1e-290, 1e290),
     "smoothing": (0.0, 64.0),
     "threads": (1, 256),
 }
@@ -217,8 +216,8 @@ class EncodeOptions:
             raise OptionError("give a grid by its bits or by the length of its cells, not both")
         if self.grid_origin is not None and self.grid_cell is None:
             raise OptionError("a grid with a given origin needs the length of its cells, too: grid_cell")
-        if self.grid_origin is not None and not all(map(math.isfinite, self.grid_origin)):
-            raise OptionError(f"the origin of a grid must be finite, not {self.grid_origin}")
+        if self.grid_origin is not None and not all(abs(number) <= 1e290 for number in self.grid_origin):
+            raise OptionError(f"the origin of a grid must be within 1e290, not {self.grid_origin}")
         if self.is_grid and (self.target is not None or self.sets_coding):
             raise OptionError("a grid excludes targets and options of blocks")
         if self.effort == "quick" and self.sets_coding:

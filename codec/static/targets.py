@@ -177,8 +177,9 @@ class Target:
 
     def __post_init__(self) -> None:
         self._require_kind(tuple(UNITS), "a mesh or sequence")
-        if not math.isfinite(self.value) or (self.kind != "nmsve_db" and self.value <= 0):
-            raise OptionError(f"{self.worded(self.value)} cannot be a target")
+        low, high = (-300.0, 300.0) if self.kind == "nmsve_db" else (1e-30, 1e30)
+        if not low <= self.value <= high:
+            raise OptionError(f"{self.worded(self.value)} cannot be a target: those from {low:g} to {high:g} can")
 
     def _require_kind(self, kinds: tuple[str, ...], what: str) -> None:
         if self.kind not in kinds:

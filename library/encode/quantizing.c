@@ -178,7 +178,7 @@ static bool round_floats(Context *context, const Table *t, bsmenc_quality qualit
         step = 2.0 * (bound - rounded) * SLACK;
         if (step < rounded) return keep_floats(t, arena, q);
     }
-    if (!(step >= 1e-300 && step <= 1e300 && most <= 1e300))
+    if (!(step >= 1e-300 && step <= 1e300 && most + step <= 1e300))
         return FAIL(context, MISUSED, "values or their step are beyond the range of numbers; keep them exact");
     for (int j = 0; j < t->components && q->declaration.semantic == BSMDEC_NORMAL; j++)
         low[j] = step * __builtin_floor(low[j] / step); /* a normal of no length keeps none */

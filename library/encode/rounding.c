@@ -83,9 +83,9 @@ static bool lies_on(ConstDoubles2 positions, const double *low, double step, Rou
 }
 
 /* The grid with so many cells that positions were made on, in single precision or in double. */
-static bool was_made_on(ConstDoubles2 positions, const double *low, double extent, int64_t cells, bool narrow,
+static bool was_made_on(ConstDoubles2 positions, const double *low, double extent, double cells, bool narrow,
     Rounded *rounded) {
-    double near = extent / (double)cells;
+    double near = extent / cells;
     if (narrow) near = within_floats(near) ? (float)near : 0.0;
     if (!(near > 0.0) || !is_finite(near)) return false;
     for (int way = 0; way < 3; way++) {
@@ -125,15 +125,15 @@ static void round_widely(ConstDoubles2 positions, const double *low, double exte
 
 bool round_to_bits(Context *context, ConstDoubles2 positions, int bits, Rounded *rounded) {
     double low[3], high[3], extent = box_of(positions, low, high), most = reach_of(low, high, 3);
-    int64_t cells = (INT64_C(1) << bits) - 1;
-    float spacing = (float)spacing_of_float(most);
-    bool narrow = spacing > 0.0f && (double)(spacing * (float)cells) < PART_OF_CELL * extent;
+    double cells = (double)((INT64_C(1) << bits) - 1), factor = cells / (extent > 0.0 ? extent : 1.0);
+    float apart = (float)spacing_of_float(most) * (float)cells;
+    bool narrow = apart > 0.0f && (double)apart < PART_OF_CELL * extent && within_floats(2.0 * (extent + factor));
     rounded->exact = false;
-    if (!is_finite(extent) || !is_finite((double)cells / (extent > 0.0 ? extent : 1.0)))
+    if (!is_finite(extent) || !is_finite(factor))
         return FAIL(context, UNREACHABLE, "a grid of # bits is beyond the range of numbers for this mesh", bits);
     if (was_made_on(positions, low, extent, cells, narrow, rounded)) return true;
     if (narrow) round_narrowly(positions, low, high, (float)cells, rounded);
-    else round_widely(positions, low, extent, (double)cells, rounded);
+    else round_widely(positions, low, extent, cells, rounded);
     note_largest(rounded);
     return (rounded->step > 0.0 && is_finite(rounded->step))
         || FAIL(context, UNREACHABLE, "a grid of # bits is beyond the range of numbers for this mesh", bits);

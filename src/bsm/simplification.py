@@ -68,7 +68,7 @@ def encode_source(mesh: TriangleMesh, options: EncodeOptions, progress: Progress
     with progress.part("encoding all triangles", 0.3):
         encoder = Encoder(mesh, options)
         best = Chosen(encoder, encoder.result(progress), source.whole)
-    if degenerate(source.whole.faces).all():
+    if encoder.unseen or degenerate(source.whole.faces).all():
         return best
     # Smooth positions save most where blocks are refined; on grids, those that were regular may take fewer bytes.
     for slides in (True,) if best.attempt.header.refinement else SPENT:

@@ -144,7 +144,7 @@ def test_no_face_gets_an_area_where_errors_are_stated() -> None:
 
 
 def test_wrong_targets_are_refused():
-    for kind, value in (("theta", 5.0), ("theta_deg", 0.0), ("size", float("nan"))):
+    for kind, value in (("theta", 5.0), ("theta_deg", 0.0), ("size", math.nan), ("bpv", 1e-99), ("nmsve_db", 1e9)):
         with pytest.raises(OptionError):
             Target(kind, value)
 

@@ -109,7 +109,7 @@ class _References:
         if re.search(rb"(?:^|\s)/", joined):
             raise MeshError("a face has a corner without a vertex")
         corners = re.sub(rb"/(?=[/\s]|\Z)", b"/0", joined).split()  # 0: what is not there
-        self._rows = Rows([corner.replace(b"/", b" ") for corner in corners], "face")
+        self._rows = Rows([corner.replace(b"/", b" ") for corner in corners], "corner")
         if self._rows.counts.max(initial=0) > 3:
             raise MeshError("a corner of a face has more than three numbers")
         self._numbers = as_integers(self._rows.values, "a vertex index")
