@@ -114,10 +114,10 @@ bool encode_joined(Encoding *encoding, ConstInts2 faces, ConstInts places, bool 
 }
 
 bool encode_faces(Encoding *encoding, ConstInts merged, CodedArrays *arrays) {
-    int64_t n = encoding->joined.first.size, vertices = merged.size > 0 ? 0 : n;
+    int64_t n = encoding->joined.first.size, vertices = merged.data != NULL ? 0 : n;
     CodedMesh *coded = &encoding->coded;
-    if (merged.size > 0 && (merged.size != n || !are_below(merged.data, n, 0, n)))
-        return FAIL(&encoding->writer.context, MISUSED, "# vertices are merged of #", merged.size, n);
+    if (coded->joined == NULL || (merged.data != NULL && (merged.size != n || !are_below(merged.data, n, 0, n))))
+        return FAIL(&encoding->writer.context, MISUSED, "# vertices are merged of # joined ones", merged.size, n);
     for (int64_t i = 0; i < merged.size; i++) vertices = largest(vertices, merged.data[i] + 1);
     encoding->carried = NULL; /* the attributes of another order */
     if (!begin_again(encoding, 1 << 16)
@@ -154,7 +154,7 @@ bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool firs
     if (first) encoding->carried_count = 0;
     int number = encoding->carried_count;
     Carried *carried = encoding->carried + number;
-    if (given->rows != rows || number >= MOST_ATTRIBUTES || strlen(given->name) > MOST_NAME
+    if (coded->faces.rows == 0 || given->rows != rows || number >= MOST_ATTRIBUTES || strlen(given->name) > MOST_NAME
         || (!by_vertex && !by_face
             && (given->indices == NULL
                 || !are_below((const int32_t *)given->indices, 3 * encoding->given.faces, 0, rows))))

@@ -16,6 +16,7 @@ from bsm._core import Cut, GivenMesh
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.graph import graph_of_faces
+from tests.bitstream.attributes.test_values import place_of
 from tests.bitstream.fields.fields import SOUPS
 from tests.shapes import Faces, grid_faces
 from tools.payloads import decode_connectivity
@@ -194,10 +195,9 @@ def test_every_truncation_and_wrong_counts_are_noticed(name: str) -> None:
 
 
 def test_counts_over_the_limits_are_refused() -> None:
-    with pytest.raises(LimitError, match="vertices"):
-        decode_connectivity(b"", 11, 20, dataclasses.replace(DEFAULT_LIMITS, vertices=10))
-    with pytest.raises(LimitError, match="faces"):
-        decode_connectivity(b"", 10, 21, dataclasses.replace(DEFAULT_LIMITS, faces=20))
+    for name, most in (("vertices", 10), ("faces", 20)):
+        with pytest.raises(LimitError, match=name):
+            decode_connectivity(b"", 11, 21, dataclasses.replace(DEFAULT_LIMITS, **{name: most}))
 
 
 @pytest.mark.real
@@ -217,10 +217,7 @@ def order_of(vertices) -> bytes:
     strip[1::2] = strip[1::2, [1, 0, 2]]
     named = vertices[strip]
     named = np.take_along_axis(named, (named.argmin(axis=1)[:, None] + np.arange(3)) % 3, axis=1)
-    mesh = GivenMesh(named[np.lexsort(np.sort(named, axis=1).T)], np.arange(len(vertices), dtype=np.int32))
-    mesh.join(True, True)
-    mesh.code()
-    return mesh.order(np.zeros((len(vertices), 3)))
+    return place_of(named[np.lexsort(np.sort(named, axis=1).T)]).order(np.zeros((len(vertices), 3)))
 
 
 def test_random_order_costs_about_its_entropy_and_runs_cost_little() -> None:
@@ -241,14 +238,17 @@ def test_numbers_that_are_not_there_are_refused(faces: list[list[int]], places: 
         mesh.join(True, True)
 
 
-@pytest.mark.parametrize("coded", [False, True])
-def test_an_order_needs_coded_faces_and_all_positions(coded: bool) -> None:
+@pytest.mark.parametrize("call", ["carry", "code", "order", "join carry", "join none", "join order", "join code few"])
+def test_what_needs_joined_and_coded_faces_is_refused_without(call: str) -> None:
     mesh = GivenMesh(np.array([[0, 1, 2]], np.int32), np.arange(3, dtype=np.int32))
-    mesh.join(True, True)
-    if coded:
-        mesh.code()
-    with pytest.raises(OptionError, match="positions for"):
-        mesh.order(np.zeros((3 - coded, 3)))
+    calls = {"join": lambda: mesh.join(True, True), "code": mesh.code, "none": lambda: mesh.code(np.zeros(0, np.int32))}
+    calls |= {"order": lambda: mesh.order(np.zeros((3, 3))), "few": lambda: mesh.order(np.zeros((2, 3)))}
+    calls["carry"] = lambda: mesh.carry(True, "a", np.zeros((3, 1)), 7, 0, 0, None, 0, 0.0)
+    *before, last = (calls[name] for name in call.split())
+    for possible in before:
+        possible()
+    with pytest.raises(OptionError):
+        last()
 
 
 def test_compact_parts_cost_little():
