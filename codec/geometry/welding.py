@@ -11,10 +11,9 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 
 
-def weld(positions: Positions, faces: Faces, *, bits: bool = False) -> tuple[Positions, Faces, Indices]:
+def weld(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:
     """Give the vertices of exactly equal positions one number."""
-    values = np.ascontiguousarray(positions, dtype=np.float64)
-    index = group_rows(values.view(np.int64) if bits else values)
+    index = group_rows(np.asarray(positions, np.float64))
     first = first_of(index)
     return (positions if len(first) == len(index) else positions[first]), index[faces], index
 

@@ -22,7 +22,7 @@ from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_parti
 from bsm.codec.geometry.graph import Graph, components, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
-from bsm.codec.geometry.welding import weld
+from bsm.codec.geometry.welding import group_rows
 from bsm.codec.signal.transform import MeasuredSpectrum
 from bsm.codec.static.units import Units, checksum_of, units_of
 
@@ -53,7 +53,7 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
     notes: tuple[str, ...] = ()
     if exact:
         mesh, notes = _single(mesh)
-    found = joined(mesh, weld(mesh.positions, mesh.faces, bits=exact)[2], keep=keep)
+    found = joined(mesh, group_rows(mesh.positions.view(np.int64) if exact else mesh.positions), keep=keep)
     return replace(found, notes=(*notes, *found.notes))
 
 
