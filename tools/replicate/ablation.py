@@ -23,6 +23,7 @@ from bsm.codec.static.choice import blocks, grids, search
 from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
+from bsm.codec.static.ways import in_blocks as coding
 from bsm.options import encode_options, sequence_options
 from tools.replicate.fetch import Source
 from tools.replicate.rates import Row, by_turns, spread
@@ -54,12 +55,10 @@ def _ways(keep: Callable[[Any], bool], plain: bool = False) -> Any:
     """`Search._ways` with some of its ways, and blocks without refinement instead of those with it."""
     original = search.Search._ways
 
-    def ways(self: Any, bounds: Any, *given: Any) -> Iterator[Any]:
-        for way in original(self, bounds, *given):
-            if plain and isinstance(way, blocks.Refined):
-                yield blocks.Plain(self._prepared, self._options, bounds)
-            elif keep(way):
-                yield way
+    def ways(self: Any, bounds: Any, *given: Any) -> list[Any]:
+        found = [way for way in original(self, bounds, *given) if keep(way)]
+        alone = blocks.Plain(self._prepared, self._options, bounds)
+        return [alone if plain and isinstance(way, blocks.Refined) else way for way in found]
 
     return ways
 
@@ -81,13 +80,13 @@ TOOLS: dict[str, Tool] = {
     ),
     "choice of refinement by rate": Tool({}, [(blocks, "PULLED", 1e-9)]),
     "frames along normals": Tool(
-        {}, [(blocks, "local_frames", lambda places, _: UPRIGHT.repeat(len(places), axis=0))], decodes=False
+        {}, [(coding, "local_frames", lambda places, _: UPRIGHT.repeat(len(places), axis=0))], decodes=False
     ),
     "unfolding of faces": Tool({}, [(blocks, "turned", lambda _: None), (grids, "turned", lambda _: None)]),
     "overlap of 5 % (not in the default)": Tool({"overlap": 1.05}),
     "warm start": Tool({"key_interval": 1}),
     "springs and prediction": Tool({"predict": False}),
-    "smoothing": Tool({}, [(blocks, "SMOOTHING_STEPS", (0.0,))]),
+    "smoothing": Tool({}, [(coding, "SMOOTHING_STEPS", (0.0,))]),
     "z = 3 (z = 1)": Tool({"power": 1}),
     "second iteration of key blocks": Tool({"key_iterations": 1}),
     "parts that both sides derive (METIS, sent)": Tool({"partition": "metis"}),
@@ -105,7 +104,7 @@ def _encoded(mesh: Any, tool: Tool | None, options: EncodeOptions) -> tuple[int,
     if tool is None:
         data = encoder.encode()
         return len(data), data
-    encoder._input = encoder._input.but(coded=changed(options, **tool.coded))
+    encoder._input = encoder._input.but(options=changed(options, **tool.coded))
     with tool.left_out():
         data = encoder.encode()
     return len(data), data if tool.decodes else None

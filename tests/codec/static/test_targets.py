@@ -91,9 +91,8 @@ def test_what_repeats_and_what_is_mapped_look_as_good_at_their_size_by_default()
     (row, column), faces = np.indices((24, 30)).reshape(2, -1), torus(24, 30).faces
     places = np.column_stack([np.cos(row * np.pi / 12.0), np.sin(row * np.pi / 12.0), column / 20.0])
     tube = TriangleMesh(places, faces[np.ptp(faces % 30, axis=1) < 29])
-    ring = torus(40, 24)
-    mapped = Attribute("texcoord", ring.positions[:, :2].astype(np.float32), "vertex", "texcoord")
-    for mesh in (tube, replace(ring, attributes=(mapped,))):
+    mapped = Attribute("texcoord", torus(40, 24).positions[:, :2].astype(np.float32), "vertex", "texcoord")
+    for mesh in (tube, replace(torus(40, 24), attributes=(mapped,))):
         data = encode(mesh)
         sized = encode(mesh, replace(PRESETS["none"], target=Target("size", len(data))))
         assert bsm.look(mesh, sized).distance <= 1.1 * bsm.look(mesh, data).distance
