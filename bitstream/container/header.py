@@ -206,7 +206,7 @@ class Declaration:
     """An attribute, but for its values; decoders refuse fields that contradict each other."""
 
     name: str = _DECLARATION[1]
-    domain: int = _DECLARATION[2]  # what has a value in the stream: VERTEX, CORNER or FACE
+    domain: int = _DECLARATION[2]  # the stream has a value for each VERTEX, CORNER or FACE
     origin: int = _DECLARATION[3]  # given by AS_CODED, or OTHERWISE: VERTEX by corners, CORNER by vertices
     semantic: int = _DECLARATION[4]  # GENERIC, COLOR, NORMAL or TEXCOORD
     kind: int = _DECLARATION[5]  # uint8, int8, uint16, int16, uint32, int32, float32 or float64

@@ -63,7 +63,7 @@ class Settler:
         levels = np.rint(offsets / steps).astype(np.int32)
         creases = self._creases._replace(costs=self._creases.costs * (CREASED * count / max(worth, 1e-300)))
         wanted, given, moved = np.ascontiguousarray(offsets), np.ascontiguousarray(frames), np.empty((count, 3))
-        counts = np.zeros((30, 16))  # of each axis and class of what is around, of sizes: shaped as the kernel has them
+        counts = np.zeros((30, 16))  # the kernel's rows: each axis and mean size of neighbors; columns: each size
         for fixed in (0, 0, 1, 1):  # more sweeps, over all axes and along the surface, move few levels
             _kernels.settle_levels(
                 wanted, normals, losses, known(levels) if fixed else steps, reach, self._graph.offsets,
