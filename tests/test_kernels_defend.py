@@ -16,7 +16,7 @@ from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.look.measure import AttributeLook
 from bsm.codec.signal.smooth import local_frames
 from bsm.codec.static.choice.settling import Settler
-from bsm.options import encode_options
+from bsm.encoding.options import encode_options
 from tests.codec.static.attributes.test_attributes import dressed
 from tests.motion import bending
 from tests.shapes import torus

@@ -5,8 +5,8 @@ import importlib
 import sys
 from collections.abc import Callable, Mapping
 
-from bsm.console import Console
-from bsm.exits import behind, exit_of, is_expected, report_error
+from bsm.ground.console import Console
+from bsm.ground.exits import behind, exit_of, is_expected, report_error
 
 
 def run_command(parser: argparse.ArgumentParser, work: Callable[[argparse.Namespace, Console], None]) -> None:

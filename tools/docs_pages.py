@@ -8,7 +8,7 @@ from typing import Any
 
 import bsm
 from bsm.cli import COMMANDS, command_parser
-from bsm.exits import EXITS
+from bsm.ground.exits import EXITS
 
 MODULES = {
     "bsm.research": "One's own dictionary, prediction or partition in place of ours",

@@ -9,7 +9,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 BOUNDS = {"preset": "str | None", "look": "float | None", "max_error": "float | str | None"}
 MESHES, SEQUENCES = "codec/static/options.py", "codec/sequence/options.py"
-HEAD = '''"""Keywords of `bsm.encode` and its kin, for type checkers; `bsm.options` checks them when a program runs."""
+HEAD = '''"""Keywords of `bsm.encode` and its kin, for type checkers; `bsm.encoding.options` checks values."""
 
 from collections.abc import Callable, Mapping
 from typing import TypedDict
@@ -31,8 +31,8 @@ def fields_of(path: str, name: str) -> dict[str, str]:
 
 
 def targets(name: str) -> dict[str, str]:
-    """The targets in a table of `bsm.options`, of which only a size may have a unit."""
-    tables = (node for node in body_of("src/bsm/options.py") if isinstance(node, ast.Assign))
+    """The targets in a table of `bsm.encoding.options`, of which only a size may have a unit."""
+    tables = (node for node in body_of("src/bsm/encoding/options.py") if isinstance(node, ast.Assign))
     keys = next(ast.literal_eval(node.value) for node in tables if ast.unparse(node.targets[0]) == name)
     return {key: "int | str | None" if key == "size" else "float | None" for key in keys}
 

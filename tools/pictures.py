@@ -27,9 +27,9 @@ from bsm.codec.denoise import FrameDenoiser
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.bounds import Bounds, Trial
 from bsm.codec.static.choice.congruence import motions_between
-from bsm.console import Console
 from bsm.evaluation.curve import decode_draco, encode_draco
-from bsm.pictures import Image, bounds_of, png, render, view_matrix, with_titles
+from bsm.ground.console import Console
+from bsm.ground.pictures import Image, bounds_of, png, render, view_matrix, with_titles
 from bsm.viewer.contents import Content, made
 from bsm.viewer.page import page_with
 from tools.command import run_command

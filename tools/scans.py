@@ -23,7 +23,7 @@ from scipy import ndimage, spatial
 
 from bsm.codec.arrays import Faces, Floats, Mask, Positions
 from bsm.codec.geometry.metrics import distances_to_surface, face_geometry, face_normals
-from bsm.pictures import nearest_faces
+from bsm.ground.pictures import nearest_faces
 
 BASELINE_EIGHTHS = 8.0 * 0.075  # metres between projector and camera, by the eighths of a pixel that it resolves
 WINDOW_SPREAD, LATERAL, SHAPED = 2.5, 0.5, 0.5  # pixels: of the window that is matched, of places, of flight's filter

@@ -33,8 +33,8 @@ from bsm.codec.denoise.learnt.cascade import (
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles, descriptions, mirrored
 from bsm.codec.denoise.surface import Topology, follow_normals, surroundings
 from bsm.codec.geometry.metrics import face_normals
+from bsm.encoding.simplification import collapsed, compact
 from bsm.files.mesh import read_mesh
-from bsm.simplification import collapsed, compact
 from tools.made_shapes import made_shape
 from tools.noise import (
     correlated_along_normals,

@@ -1,5 +1,6 @@
 """The public names: type checkers read them here, and so does `__init__.py`."""
 
+from bsm.account.comparison import MeshComparison as MeshComparison
 from bsm.api import compare as compare
 from bsm.api import decode as decode
 from bsm.api import decode_frames as decode_frames
@@ -55,7 +56,6 @@ from bsm.codec.static.options import EncodeOptions as EncodeOptions
 from bsm.codec.static.options import Paper as Paper
 from bsm.codec.static.targets import Contract as Contract
 from bsm.codec.static.targets import Target as Target
-from bsm.comparison import MeshComparison as MeshComparison
 from bsm.files.formats.polygons import MeshFile as MeshFile
 from bsm.files.mesh import read_mesh as read_mesh
 from bsm.tiles.shards import Tiles as Tiles

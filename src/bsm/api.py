@@ -14,23 +14,23 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import checked_metadata, checked_whole
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
-from bsm.console import Console, watched
 from bsm.files.formats.metadata import Written
+from bsm.files.libraries import as_mesh, read_any, warn, with_metadata, with_texels, without_provenance
 from bsm.files.mesh import format_of_name, save_written, unknown_suffix, written_mesh
 from bsm.files.pipes import Input, Source, named, read_chunks
 from bsm.files.stream import SequenceStream, decode_whole
-from bsm.lengths import in_own_unit
-from bsm.libraries import as_mesh, read_any, warn, with_metadata, with_texels, without_provenance
+from bsm.ground.console import Console, watched
+from bsm.ground.lengths import in_own_unit
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from bsm.account.comparison import MeshComparison
     from bsm.codec.denoise import DenoiseOptions
     from bsm.codec.look.measure import Look
     from bsm.codec.sequence.encoder import SequenceEncoder
     from bsm.codec.sequence.options import SequenceOptions
     from bsm.codec.static.options import EncodeOptions
-    from bsm.comparison import MeshComparison
     from bsm.keywords import DenoiseKeywords, EncodeKeywords, OptionKeywords, SequenceKeywords
 
 Heard: TypeAlias = Callable[[int, int], None] | None
@@ -95,8 +95,8 @@ def encode(
     True
     """
     from bsm.codec.static.options import EncodeOptions
-    from bsm.options import encode_options
-    from bsm.simplification import encode_source
+    from bsm.encoding.options import encode_options
+    from bsm.encoding.simplification import encode_source
 
     chosen = _chosen(options, EncodeOptions, keywords, encode_options)
     entries = checked_metadata(metadata)
@@ -165,10 +165,10 @@ def encode_many(
     >>> [("error" in row, row["output"]) for row in rows]
     [(False, 'streams/a.bsm'), (False, 'streams/b.bsm')]
     """
+    from bsm.encoding.options import encode_options
     from bsm.jobs.encode import EncodeJob, encode_one
     from bsm.jobs.plan import plan
     from bsm.jobs.run import Batch, run_many
-    from bsm.options import encode_options
 
     encode_options(**keywords)
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
@@ -276,7 +276,7 @@ def encode_sequence(
     """
     from bsm.codec.sequence.encoder import SequenceEncoder, frames_of
     from bsm.codec.sequence.options import SequenceOptions
-    from bsm.options import sequence_options
+    from bsm.encoding.options import sequence_options
 
     chosen = _chosen(options, SequenceOptions, keywords, sequence_options)
     frames, entries = frames_of(positions), checked_metadata(metadata)
@@ -332,7 +332,7 @@ def encode_frames(
     from bsm.codec.sequence.encoder import SequenceEncoder
     from bsm.codec.sequence.options import SequenceOptions
     from bsm.codec.sequence.runs import is_empty
-    from bsm.options import sequence_options
+    from bsm.encoding.options import sequence_options
 
     if isinstance(meshes, (str, bytes)) or not isinstance(meshes, Iterable):
         raise ArgumentError(f"a mesh for each frame is expected, not {type(meshes).__name__}")
@@ -565,7 +565,7 @@ def denoise(
     """
     from bsm.codec.denoise import DenoiseOptions
     from bsm.codec.denoise import denoise as denoise_mesh
-    from bsm.options import denoise_options
+    from bsm.encoding.options import denoise_options
 
     chosen = _chosen(options, DenoiseOptions, keywords, denoise_options)
     with watched("denoising", progress) as heard:
@@ -605,7 +605,7 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
     >>> errors.max_error_relative <= 0.01, errors.theta_deg < 10
     (True, True)
     """
-    from bsm.comparison import compare_meshes, order_of_used, pair
+    from bsm.account.comparison import compare_meshes, order_of_used, pair
 
     whole = list(map(as_mesh, (original, decoded)))
     first, second = (mesh.without_isolated_vertices()[0] for mesh in whole)

@@ -12,10 +12,10 @@ from typing import Any, NoReturn
 
 from bsm import __version__
 from bsm.codec.choices import suggestion
-from bsm.console import Console
-from bsm.exits import EXITS, USAGE, behind, exit_of, is_expected, report_error
-from bsm.files.output import Terminated, refuse_collisions
-from bsm.synonyms import OPTIONS, advice_on_command, refuse_misplaced
+from bsm.commands.synonyms import OPTIONS, advice_on_command, refuse_misplaced
+from bsm.files.output import refuse_collisions
+from bsm.ground.console import Console
+from bsm.ground.exits import EXITS, USAGE, Terminated, behind, exit_of, is_expected, report_error
 
 _SUMMARIES = Path(__file__).with_name("commands") / "commands.txt"
 COMMANDS = dict(line.split(": ", 1) for line in _SUMMARIES.read_text("utf-8").splitlines())
@@ -34,7 +34,7 @@ _WITH_FORCE = {
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command and return an exit code of `bsm.exits`."""
+    """Run a command and return an exit code of `bsm.ground.exits`."""
     words, as_json = list(sys.argv[1:] if arguments is None else arguments), False
     try:
         if words[:1] == ["help"]:

@@ -13,7 +13,7 @@ from bsm.bitstream.errors import MeshError, imported
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats.metadata import first, left_out, rgba, shown_at_vertices
-from bsm.libraries import as_mesh, warn
+from bsm.files.libraries import as_mesh, warn
 
 __all__ = ["from_openmesh", "to_openmesh"]
 

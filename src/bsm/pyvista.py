@@ -21,7 +21,7 @@ from bsm.api import decode, save
 from bsm.bitstream.errors import OptionError, imported
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.libraries import as_mesh
+from bsm.files.libraries import as_mesh
 
 __all__ = ["SequenceReader", "from_pyvista", "read", "to_pyvista", "write"]
 

@@ -40,9 +40,9 @@ from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared, join, pre
 from bsm.codec.static.units import Units, checksum_of
 from bsm.codec.static.ways.block_coder import blended
 from bsm.codec.static.ways.in_blocks import InBlocks
-from bsm.console import Console
 from bsm.files.inspection import Skimmer
-from bsm.libraries import as_mesh
+from bsm.files.libraries import as_mesh
+from bsm.ground.console import Console
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Integers: TypeAlias = npt.NDArray[np.int32]

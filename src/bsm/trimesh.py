@@ -25,7 +25,7 @@ from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import Material, Texture, appearance, in_gltf
 from bsm.files.formats.polygons import Array
-from bsm.libraries import as_mesh
+from bsm.files.libraries import as_mesh
 
 __all__ = ["from_trimesh", "to_scene", "to_trimesh"]
 _library = imported("trimesh", ".bsm files are opened by trimesh only with trimesh", "formats")

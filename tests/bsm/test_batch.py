@@ -189,7 +189,7 @@ run()
 
 
 @pytest.mark.parametrize(
-    "module", ["bsm.cli", "argparse", "bsm.console", "bsm.commands.encode", "numpy", "bsm.codec", "msgpack"]
+    "module", ["bsm.cli", "argparse", "bsm.ground.console", "bsm.commands.encode", "numpy", "bsm.codec", "msgpack"]
 )
 def test_an_interrupt_in_the_first_moments(module, meshes):
     """Wherever it hits the imports, it is an interrupt and no traceback."""

@@ -11,8 +11,8 @@ import pytest
 from bsm.cli import COMMANDS, main
 from bsm.commands.flags import FLAGS
 from bsm.evaluation.sample import knot
-from bsm.exits import EXITS
 from bsm.files.mesh import read_mesh, write_mesh
+from bsm.ground.exits import EXITS
 from tests.bsm.program import ROOT, bsm, process, python, run_json
 from tests.shapes import torus
 

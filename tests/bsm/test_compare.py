@@ -8,9 +8,9 @@ import pytest
 
 import bsm
 from bsm import Attribute, EncodeOptions, Encoder, FormatError, MeshError, TriangleMesh, decode, read_mesh
+from bsm.account.comparison import in_order_of, read_permutation, reorder, write_permutation
 from bsm.cli import main
 from bsm.codec.look.measure import LookMetric
-from bsm.comparison import in_order_of, read_permutation, reorder, write_permutation
 from bsm.evaluation.sample import knot
 from tests.bsm.program import run_json
 from tests.shapes import soup, tetrahedron, torus

@@ -36,7 +36,7 @@ from bsm.evaluation.curve import (
 )
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
-from bsm.pictures import render, view_matrix
+from bsm.ground.pictures import render, view_matrix
 from tests.shapes import patch, torus
 from tools.laplacians import dense_laplacian
 from tools.replicate.paper.compression import EXACT

@@ -16,10 +16,10 @@ import pytest
 import bsm
 from bsm import ArgumentError, DependencyError, FormatError, OptionError
 from bsm.cli import main
-from bsm.console import Console
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.output import open_output
+from bsm.ground.console import Console
 from bsm.jobs.run import Batch, run_many
 from bsm.jobs.task import Job, Task
 from tests.bsm.deadly import deadly

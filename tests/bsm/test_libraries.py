@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 import bsm
 from bsm import ArgumentError, Attribute, MeshError, TriangleMesh
+from bsm.files.libraries import as_mesh
 from bsm.files.mesh import read_mesh, write_mesh
-from bsm.libraries import as_mesh
 from tests.bsm.files.test_file_attributes import attribute, dressed, png
 from tests.bsm.program import declare_entry_points, python
 from tests.shapes import at_corners, tetrahedron, torus

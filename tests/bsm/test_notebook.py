@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import bsm
-import bsm.console
+import bsm.ground.console
 from bsm.viewer.page import embedded, script
 from tests.shapes import torus
 
@@ -82,14 +82,14 @@ def test_functions_show_progress_in_a_notebook(tmp_path):
     nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
     pytest.importorskip("ipykernel")
     cell = """
-import bsm, bsm.console
+import bsm, bsm.ground.console
 from bsm.evaluation.sample import knot
 
-bsm.console._PATIENCE = 0.0
+bsm.ground.console._PATIENCE = 0.0
 bsm.encode(knot(20000), theta=3)
 """
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell)])
     nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
     text = "".join(output.get("text", "") for output in notebook.cells[0].outputs if output.get("name") == "stderr")
     assert "encoding: " in text and text.endswith("\r")
-    assert not bsm.console.in_notebook()
+    assert not bsm.ground.console.in_notebook()

@@ -9,7 +9,7 @@ import bsm
 from bsm.codec.sequence.options import PROMISES
 from bsm.codec.static.options import BALANCED
 from bsm.commands import flags
-from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
+from bsm.encoding.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
 
 
 def test_without_keywords_everything_is_the_default():

@@ -15,10 +15,11 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import Paper, options
+from bsm import Paper
 from bsm.cli import main
-from bsm.console import Console, printable
+from bsm.encoding import options
 from bsm.files.mesh import write_mesh
+from bsm.ground.console import Console, printable
 from bsm.viewer.contents import Content, uploaded
 from tests.bsm.program import process
 from tools.noise import gaussian_along_normals
@@ -206,7 +207,7 @@ def test_commands_escape_names_and_metadata(command, tmp_path, capsys):
 def test_time_is_reported_where_nothing_else_is(lines):
     """A report comes from the first second on; it states the time left once a share of the work is known."""
     pty = pytest.importorskip("pty")
-    work = f"import signal; from bsm.console import Console; signal.alarm(60); console = Console(json={lines})\n"
+    work = f"import signal; from bsm.ground.console import Console; signal.alarm(60); console = Console(json={lines})\n"
     work += "with console.progress('denoising') as progress: input(); progress.stage('rehearsing', 0.1); input()"
     drawn, said = (b"denoising: 00:0", rb"rehearsing: +\d+%.*<00:"), b""
     ours, theirs = pty.openpty()
@@ -223,7 +224,7 @@ def test_time_is_reported_where_nothing_else_is(lines):
 
 def test_the_share_never_falls(monkeypatch, capsys):
     """Where work goes on faster than it did, and where a later report of it is lower."""
-    monkeypatch.setattr("bsm.console._SECOND", 0.0)
+    monkeypatch.setattr("bsm.ground.console._SECOND", 0.0)
     console = Console(json=True)
     with console.progress("encoding") as progress:
         for done in (10, 60, 40):
@@ -237,8 +238,8 @@ def test_the_share_never_falls(monkeypatch, capsys):
 
 
 def test_programs_are_reported_in_lines_of_json(monkeypatch, capsys):
-    monkeypatch.setattr("bsm.console._SECOND", 0.0)
-    monkeypatch.setattr("bsm.console._LEAST_LEFT", 0.0)
+    monkeypatch.setattr("bsm.ground.console._SECOND", 0.0)
+    monkeypatch.setattr("bsm.ground.console._LEAST_LEFT", 0.0)
     with Console(json=True).progress("encoding") as progress:
         progress(0, 4)
         progress(3, 4)

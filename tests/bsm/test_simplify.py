@@ -8,7 +8,7 @@ from scipy.spatial import ConvexHull
 
 import bsm
 from bsm.codec.geometry.metrics import distances_to_surface, surface_distance
-from bsm.simplification import Source, collapsed, slid
+from bsm.encoding.simplification import Source, collapsed, slid
 from tests.bsm.program import bsm as program
 from tests.bsm.program import process
 from tests.shapes import grid_faces, together, torus

@@ -13,10 +13,10 @@ import pytest
 import bsm
 from bsm.codec.geometry.metrics import distances_to_surface, face_normals
 from bsm.commands import tile as command
-from bsm.console import Console
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.gltf.coding import EXTENSION
 from bsm.gltf.document import read_document
+from bsm.ground.console import Console
 from bsm.tiles import reading
 from bsm.tiles.cutting import Lattice
 from bsm.tiles.making import simplified, welded

@@ -14,7 +14,7 @@ from bsm import PRESETS, __version__
 from bsm.cli import COMMANDS, command_parser, main
 from bsm.commands.flags import PROMISES
 from bsm.files.mesh import write_mesh
-from bsm.lengths import in_own_unit, parse_bytes, parse_length
+from bsm.ground.lengths import in_own_unit, parse_bytes, parse_length
 from tests.bsm.test_batch import bsm as program
 from tests.shapes import torus
 from tests.streams import events_of

@@ -11,7 +11,7 @@ from bsm._core import Decoder as Engine
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import BLOCK, CONNECTIVITY
 from bsm.codec.threads import Crew, ordered_map
-from bsm.options import encode_options
+from bsm.encoding.options import encode_options
 from tests.shapes import patch, together, torus
 
 

@@ -21,7 +21,7 @@ from bsm.files.formats.metadata import face_numbers, images_in, materials_in
 from bsm.files.mesh import write_mesh
 from bsm.files.motion.frames import Shared
 from bsm.files.sequence import sequence_writer
-from bsm.lengths import metres
+from bsm.ground.lengths import metres
 
 Array = npt.NDArray[Any]
 WEB = Path(__file__).parents[2] / "web"

@@ -27,10 +27,10 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.threads import available_threads
-from bsm.console import Console
 from bsm.evaluation.curve import decode_draco, encode_draco
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh
+from bsm.ground.console import Console
 from tools.command import run_command
 from tools.replicate.fetch import fetch_meshes
 from tools.replicate.motion import sequences

@@ -24,7 +24,7 @@ from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.ways import in_blocks as coding
-from bsm.options import encode_options, sequence_options
+from bsm.encoding.options import encode_options, sequence_options
 from tools.replicate.fetch import Source
 from tools.replicate.rates import Row, by_turns, spread
 

@@ -17,8 +17,8 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.targets import compare_sequences
+from bsm.encoding.options import sequence_options
 from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order, rate_curve
-from bsm.options import sequence_options
 from tools.replicate.ablation import ablate_motion
 from tools.replicate.fetch import Source
 from tools.replicate.made_motion import MADE

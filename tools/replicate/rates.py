@@ -14,8 +14,8 @@ import numpy as np
 
 from bsm.bitstream.errors import BsmError
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.encoding.options import encode_options
 from bsm.evaluation.curve import Draco, RateCurve, Spectral, bd_rate, rate_curve
-from bsm.options import encode_options
 from tools.replicate.fetch import Source
 from tools.replicate.measures import MEASURES, Judge
 

@@ -12,23 +12,23 @@ from typing import Any
 import bpy
 import numpy as np
 
-from bsm import options
 from bsm.api import encode
 from bsm.bitstream.errors import MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.encoding import options
 from bsm.files.conventions import shares_of
 from bsm.files.formats.appearance import Appearance, appearance
 from bsm.files.formats.metadata import images_in, kind_of_image, materials_in
 from bsm.files.formats.polygons import Array, unused_name
 from bsm.files.inspection import inspect_stream
+from bsm.files.libraries import warn
 from bsm.files.motion.caches import write_cache
 from bsm.files.output import open_output
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
-from bsm.lengths import metres, unit_of
-from bsm.libraries import warn
+from bsm.ground.lengths import metres, unit_of
 
 _DOMAINS = {"vertex": "POINT", "corner": "CORNER", "face": "FACE"}
 _TYPES = {1: ("FLOAT", "value"), 2: ("FLOAT2", "vector"), 3: ("FLOAT_VECTOR", "vector"), 4: ("FLOAT_COLOR", "color")}

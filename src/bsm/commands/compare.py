@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from bsm.account.comparison import Pair, compare_meshes, one_each, order_of_used, pair, paired_frames, read_permutation
 from bsm.bitstream.errors import BsmError, MeshError, OptionError, counted
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic
@@ -18,9 +19,6 @@ from bsm.codec.geometry.metrics import Reference, folded_edges, rms_over_edge, s
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_flags, limits_of
-from bsm.comparison import Pair, compare_meshes, one_each, order_of_used, pair, paired_frames, read_permutation
-from bsm.console import Console, Progress, as_json, finite, print_json, printable
-from bsm.exits import exit_of, worded
 from bsm.files.images import largest_side
 from bsm.files.mesh import by_name, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
@@ -30,11 +28,13 @@ from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, is_stream, peek_header
 from bsm.files.table import MESH_SUFFIXES
+from bsm.ground.console import Console, Progress, as_json, finite, print_json, printable
+from bsm.ground.exits import exit_of, worded
+from bsm.ground.lengths import length, metres, unit_of
+from bsm.ground.pictures import DEFAULT_VIEW, colors_of, png, render, side_by_side
 from bsm.jobs.plan import STREAM_SUFFIXES, files_in
 from bsm.jobs.report import largest_error
 from bsm.jobs.task import Facts
-from bsm.lengths import length, metres, unit_of
-from bsm.pictures import DEFAULT_VIEW, colors_of, png, render, side_by_side
 
 COLORED = ("ply", "obj", "glb")  # formats that hold colors of vertices
 ATTRIBUTE_LOOKS: dict[Semantic, str] = {"texcoord": "checker", "color": "colors"}

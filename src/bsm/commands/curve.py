@@ -12,10 +12,10 @@ from typing import Any
 
 from bsm.bitstream.errors import DependencyError, OptionError, how_to_install
 from bsm.commands.flags import adder, within
-from bsm.console import Console, print_json
 from bsm.evaluation import curve as rates
 from bsm.files.mesh import read_mesh
 from bsm.files.output import refuse_to_overwrite, write_output
+from bsm.ground.console import Console, print_json
 
 GROUPS = ("ours", "paper", "draco")
 _NEEDS = {"ours": (), "draco": ("DracoPy",)}

@@ -13,15 +13,15 @@ from typing import Any
 
 import numpy as np
 
+from bsm.account.comparison import read_permutation, reorder
 from bsm.bitstream.errors import BsmError, OptionError, counted
 from bsm.codec.arrays import Faces, Order
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_flags, add_inputs, adder, asked, limits_of, refuse_two_on_one_pipe
-from bsm.comparison import read_permutation, reorder
-from bsm.console import Console, printable
 from bsm.files.formats.metadata import Written
 from bsm.files.images import is_link, with_linked_images
 from bsm.files.inspection import inspect_stream
+from bsm.files.libraries import as_decoded
 from bsm.files.mesh import by_name, format_of_name, save_written, unknown_suffix, written_mesh
 from bsm.files.motion.folder import is_numbered, mesh_files, names_many
 from bsm.files.motion.frames import Shared, describe_runs
@@ -32,11 +32,11 @@ from bsm.files.pipes import about, read_chunks, size_of
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
 from bsm.files.table import MESH_SUFFIXES, WRITTEN_FORMATS
+from bsm.ground.console import Console, printable
+from bsm.ground.lengths import metres, unit_of
 from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Job, Task, anywhere, came_to
-from bsm.lengths import metres, unit_of
-from bsm.libraries import as_decoded
 
 WITH_FLOATS = 2  # of `Header.light`
 NO_FRAMES = "the stream does not contain these frames; they count from 0, and bsm info says how many there are"

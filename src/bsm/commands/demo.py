@@ -12,11 +12,11 @@ from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
 from bsm.commands.flags import add_flags, add_preset_flags, keywords_of
-from bsm.console import Console, print_json
+from bsm.encoding.options import encode_options
 from bsm.evaluation.sample import knot
 from bsm.files.output import refuse_to_overwrite, write_output
-from bsm.options import encode_options
-from bsm.pictures import bounds_of, colors_of, png, render, with_titles
+from bsm.ground.console import Console, print_json
+from bsm.ground.pictures import bounds_of, colors_of, png, render, with_titles
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

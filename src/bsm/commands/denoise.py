@@ -14,7 +14,7 @@ import numpy as np
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.commands.flags import add_flags, add_inputs, adder, asked, options_of, refuse_two_on_one_pipe
-from bsm.console import Console
+from bsm.encoding.options import denoise_options
 from bsm.files import mesh as meshes
 from bsm.files import table
 from bsm.files.formats.metadata import Written
@@ -23,11 +23,11 @@ from bsm.files.motion.frames import Frames
 from bsm.files.output import output_inside, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
+from bsm.ground.console import Console
+from bsm.ground.lengths import length, unit_of
 from bsm.jobs.plan import plan
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Task
-from bsm.lengths import length, unit_of
-from bsm.options import denoise_options
 
 if TYPE_CHECKING:
     from bsm.codec.denoise import AutomaticChoice, DenoiseOptions

@@ -9,7 +9,6 @@ from pathlib import Path
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.commands.flags import add_encode_flags, add_inputs, adder, asked, keywords_of, refuse_two_on_one_pipe
-from bsm.console import Console
 from bsm.files.images import ImageRule, shared_images
 from bsm.files.mesh import format_of_name
 from bsm.files.motion.caches import CACHES
@@ -18,6 +17,7 @@ from bsm.files.output import refuse_collisions
 from bsm.files.pipes import is_url
 from bsm.files.sequence import SEQUENCE_FORMATS, SEQUENCES_READ
 from bsm.files.table import GLTF, MESH_FORMATS, WRITTEN_FORMATS
+from bsm.ground.console import Console
 from bsm.jobs.encode import EncodeJob, encode_one
 from bsm.jobs.plan import plan, plan_trees
 from bsm.jobs.run import Batch, run_jobs

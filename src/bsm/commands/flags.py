@@ -186,7 +186,7 @@ def options_of(args: argparse.Namespace, *groups: str) -> dict[str, Any]:
 
 
 def keywords_of(args: argparse.Namespace) -> dict[str, Any]:
-    """Return the keywords of `bsm.options` that a command line gives for encoding."""
+    """Return the keywords of `bsm.encoding.options` that a command line gives for encoding."""
     given = options_of(args, "bounds", "targets", "coding", "sequences")
     given |= {"preset": args.preset} if hasattr(args, "preset") else {}
     given |= {"attributes": dict(args.attributes)} if hasattr(args, "attributes") else {}

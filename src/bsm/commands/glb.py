@@ -7,7 +7,6 @@ from pathlib import Path
 
 from bsm.bitstream.errors import HarmError, OptionError
 from bsm.commands.flags import add_flags, adder
-from bsm.console import Console
 from bsm.files.images import ImageRule, with_linked_images
 from bsm.files.mesh import read_mesh, size_with_parts, written_mesh
 from bsm.files.output import refuse_collisions, write_output
@@ -18,6 +17,7 @@ from bsm.files.table import GLTF
 from bsm.gltf.compress import Compressed, compress, count_primitives
 from bsm.gltf.document import Document, read_document
 from bsm.gltf.write import moving_scene
+from bsm.ground.console import Console
 
 MANY = 16  # primitives from which on a page waits longer for decoding than for the bytes that it saves
 PRESETS = ("balanced", "fine", "near-lossless", "lossless", "grid14")

@@ -8,12 +8,12 @@ from typing import Any
 
 from bsm.bitstream.errors import counted
 from bsm.commands.flags import add_flags, add_inputs, asked, limits_of
-from bsm.console import Console, printable
 from bsm.files.inspection import StreamInfo, inspect_stream
 from bsm.files.mesh import by_name
 from bsm.files.motion.frames import MOST_LISTED, describe_runs
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import is_scene, refuse_mesh
+from bsm.ground.console import Console, printable
 from bsm.jobs.plan import input_names
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Job, Task

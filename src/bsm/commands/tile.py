@@ -10,11 +10,11 @@ from bsm.bitstream.errors import BsmError, FormatError, OptionError, counted
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.threads import available_threads
 from bsm.commands.flags import add_flags, adder, asked, within
-from bsm.console import Console, print_json
-from bsm.exits import report_error
 from bsm.files.images import ImageRule
 from bsm.files.output import by_its_own_name, refuse_to_overwrite
 from bsm.files.pipes import about, inside, is_url, name_in, remove, size_of, state_of
+from bsm.ground.console import Console, print_json
+from bsm.ground.exits import report_error
 from bsm.jobs.run import Batch, run_many
 from bsm.jobs.task import Job, Outcome, came_to
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan

@@ -6,12 +6,12 @@ from pathlib import Path
 
 from bsm.bitstream.errors import FormatError, OptionError, counted
 from bsm.commands.flags import add_flags, add_inputs, asked, limits_of
-from bsm.console import Console
-from bsm.exits import worded
 from bsm.files.inspection import StreamInfo, inspect_stream
 from bsm.files.mesh import by_name
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import decode_through, decode_whole, is_scene, refuse_mesh
+from bsm.ground.console import Console
+from bsm.ground.exits import worded
 from bsm.jobs.plan import STREAM_SUFFIXES, files_in, input_names
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Job, Task

@@ -10,10 +10,10 @@ from threading import Thread
 
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.commands.flags import add_flags, adder, limits_of
-from bsm.console import Console, Progress
 from bsm.files.inspection import inspect_stream
 from bsm.files.output import write_output
 from bsm.files.pipes import about, read_chunks
+from bsm.ground.console import Console, Progress
 from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.shards import is_tiles, open_tiles
 from bsm.viewer.contents import NO_STREAM, PRESETS, Content, against, alone, given_at, made

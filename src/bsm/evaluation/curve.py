@@ -23,10 +23,10 @@ from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import join
 from bsm.codec.static.targets import Target
-from bsm.console import finite
 from bsm.evaluation.sample import knot
 from bsm.files.inspection import inspect_stream
 from bsm.files.output import open_output, write_output
+from bsm.ground.console import finite
 
 
 def encode_draco(mesh: TriangleMesh, position_bits: int, level: int, **more: Any) -> bytes:

@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from bsm.codec.geometry.mesh import Metadata
 from bsm.files.table import FORMATS
-from bsm.lengths import metres
+from bsm.ground.lengths import metres
 
 TIME_VALUE = "TimeValue"  # seconds, in the field data of a VTP
 Array = npt.NDArray[Any]

@@ -17,6 +17,7 @@ from typing import Any, BinaryIO
 
 from bsm.bitstream.errors import OptionError
 from bsm.files import pipes
+from bsm.ground.exits import Terminated
 
 try:
     import fcntl
@@ -31,10 +32,6 @@ _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 _DESCRIPTOR = re.compile(r"/dev/fd/(\d+)|/proc/(?:self|thread-self)/fd/(\d+)")
 _STANDARD = {"/dev/stdout": "/dev/fd/1", "/dev/stderr": "/dev/fd/2"}
 _PIPES = {"/dev/stdin": "-", "/dev/fd/0": "-", "/dev/stdout": "-", "/dev/fd/1": "-"}
-
-
-class Terminated(SystemExit):
-    """Raised when SIGTERM comes."""
 
 
 @contextmanager

@@ -20,10 +20,10 @@ from bsm.codec.geometry.graph import components, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import degenerate, group_rows, weld
 from bsm.codec.static.encoder import Encoder
+from bsm.encoding.options import encode_options
 from bsm.files.conventions import shares_of
 from bsm.gltf import document as gltf
 from bsm.gltf.coding import COMPONENTS, DRACO, FLOAT, PIECE, TRANSFORM, TRIANGLES, TRIANGULAR, Array, Drawn, Tree, drawn
-from bsm.options import encode_options
 
 _TEXCOORD: tuple[Semantic, int] = ("texcoord", 2)
 _SEMANTICS = {"NORMAL": ("normal", 3), "TEXCOORD_0": _TEXCOORD, "TEXCOORD_1": _TEXCOORD}

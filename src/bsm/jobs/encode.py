@@ -12,25 +12,25 @@ from pathlib import Path
 from typing import Any
 
 from bsm import __version__
+from bsm.account.comparison import write_permutation
 from bsm.bitstream.errors import HarmError, OptionError, counted
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.comparison import write_permutation
-from bsm.console import Console, Progress, finite
+from bsm.encoding.options import encode_options, sequence_options
+from bsm.encoding.simplification import Chosen, encode_source
 from bsm.files.formats.metadata import images_in
 from bsm.files.images import ImageRule, is_link, largest_side, with_links, with_smaller_images
+from bsm.files.libraries import PROVENANCE, with_metadata, with_texels
 from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence
+from bsm.ground.console import Console, Progress, finite
+from bsm.ground.lengths import asked_unit, in_own_unit
 from bsm.jobs.report import digest_of
 from bsm.jobs.task import Facts, Task, came_to
-from bsm.lengths import asked_unit, in_own_unit
-from bsm.libraries import PROVENANCE, with_metadata, with_texels
-from bsm.options import encode_options, sequence_options
-from bsm.simplification import Chosen, encode_source
 
 READ = 0.08  # of the time of a mesh
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
@@ -40,7 +40,7 @@ _GENERATION = re.compile(r" generation=(\d{1,6})")
 
 @dataclass(frozen=True, kw_only=True)
 class EncodeJob(Task):
-    """The task of `bsm encode`; `options` are keywords of `bsm.options`."""
+    """The task of `bsm encode`; `options` are keywords of `bsm.encoding.options`."""
 
     format: str | None = None
     permutation: str | None = None

@@ -12,9 +12,9 @@ from typing import Any
 
 from bsm import __version__
 from bsm.bitstream.errors import FormatError, counted
-from bsm.console import Console
 from bsm.files import pipes
 from bsm.files.output import write_output
+from bsm.ground.console import Console
 from bsm.jobs.task import Facts, Job, Task, Work
 
 _OF_ONE_RUN = {"quiet", "force", "threads", "input", "output", "replaceable", "doubtful", "fresh", "before"}

@@ -11,13 +11,13 @@ from heapq import heappop, heappush
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.threads import available_threads
-from bsm.console import Console, Progress, print_json
-from bsm.exits import exit_of, report_error, worded
 from bsm.files import pipes
 from bsm.files.output import refuse_collisions, refuse_to_overwrite
+from bsm.ground.console import Console, Progress, print_json
+from bsm.ground.exits import exit_of, report_error, worded
+from bsm.ground.lengths import UnitError
 from bsm.jobs.report import NOTHING, Earlier, Report, digest_of, options_of, read_report, recorded, table, totals
 from bsm.jobs.task import Facts, Job, Outcome, Outcomes, Task, Tasks, Work, anywhere, came_to, outcome_of
-from bsm.lengths import UnitError
 
 LEAST = 1 << 16  # bytes that an input counts as, for the work that does not depend on its size
 Show = Callable[[Facts], str]  # the result for an input, as it is printed

@@ -6,9 +6,9 @@ from collections.abc import Callable, Generator, Iterator
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias, TypeVar
 
-from bsm.console import Console
-from bsm.exits import behind, is_expected
 from bsm.files import pipes
+from bsm.ground.console import Console
+from bsm.ground.exits import behind, is_expected
 
 _Same = TypeVar("_Same", bound="Task")
 Facts = dict[str, Any]  # the result for an input, ready for JSON; `input_bytes`, `output_bytes` are summed up

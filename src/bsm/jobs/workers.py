@@ -18,9 +18,9 @@ from functools import partial
 from typing import Any
 
 from bsm.bitstream.errors import DependencyError, imported
-from bsm.console import Console
-from bsm.exits import exit_of
-from bsm.files.output import Terminated, handled, termination_as_exception
+from bsm.files.output import handled, termination_as_exception
+from bsm.ground.console import Console
+from bsm.ground.exits import Terminated, exit_of
 from bsm.jobs.task import Outcome, Outcomes, Task, Tasks, Work, outcome_of
 
 AHEAD = 2  # jobs handed out for each process, and for each thread of a cluster

@@ -13,7 +13,6 @@ import numpy as np
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.welding import row_numbers
-from bsm.console import Console
 from bsm.files.conventions import placement
 from bsm.files.formats.metadata import remarks
 from bsm.files.formats.ply import table_of
@@ -22,6 +21,7 @@ from bsm.files.pipes import inside, is_url
 from bsm.gltf.compress import compress
 from bsm.gltf.document import Document
 from bsm.gltf.write import vertex_normals, write_glb
+from bsm.ground.console import Console
 from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Ints
 from bsm.tiles.manifest import Tile

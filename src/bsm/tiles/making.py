@@ -15,13 +15,13 @@ from bsm.codec.geometry.metrics import farthest_from_surface
 from bsm.codec.geometry.welding import degenerate, row_numbers
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
-from bsm.console import Console
+from bsm.encoding.simplification import collapsed, compact
 from bsm.files.formats.npz import write_npy
 from bsm.files.images import ImageRule
+from bsm.files.libraries import with_texels
 from bsm.files.output import open_output, write_output
+from bsm.ground.console import Console
 from bsm.jobs.task import Facts, Task
-from bsm.libraries import with_texels
-from bsm.simplification import collapsed, compact
 from bsm.tiles.atlas import Skin, cut_out, joined_skins, side_of_texel, skin_of, textured, wedges_of
 from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, along_curve, load_plan
 from bsm.tiles.reading import mapped

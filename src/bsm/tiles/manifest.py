@@ -10,8 +10,8 @@ from typing import Any, NoReturn
 from bsm.bitstream.container.wire import MAJOR
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import Limits
-from bsm.console import printable
 from bsm.files.pipes import Input, inside, place_of
+from bsm.ground.console import printable
 from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Lattice, Root
 from bsm.tiles.reading import ABOUT, CARRIED, Kinds

@@ -14,7 +14,6 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
-from bsm.console import Console
 from bsm.files.formats.metadata import Beside, Value, fetched, images_in, materials_in, names_in, parse_remarks
 from bsm.files.formats.obj import read_obj
 from bsm.files.formats.ply import MOST_HEADER, Element, parse_header
@@ -24,6 +23,7 @@ from bsm.files.mesh import format_of_name, read_mesh
 from bsm.files.output import by_its_own_name
 from bsm.files.pipes import Input, is_url, size_of
 from bsm.files.table import format_of_bytes
+from bsm.ground.console import Console
 
 Array: TypeAlias = npt.NDArray[Any]
 Pieces: TypeAlias = Iterator[tuple[str, Array]]  # some rows of "positions", "faces", "color", "normal" or "texcoord"

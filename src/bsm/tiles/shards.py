@@ -18,11 +18,11 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
+from bsm.files.libraries import as_decoded
 from bsm.files.output import open_output, write_output
 from bsm.files.pipes import about, inside, is_pipe, is_url, named, place_of, read_range
 from bsm.files.stream import decode_whole
 from bsm.jobs.task import Facts
-from bsm.libraries import as_decoded
 from bsm.tiles.cutting import Lattice, Plan, Root
 from bsm.tiles.making import Faces
 from bsm.tiles.manifest import FOOT, MANIFEST, NO_JSON, Tile, json_of, parse_index, read_manifest

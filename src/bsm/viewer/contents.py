@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm.account.comparison import compare_meshes, in_order_of, pair, paired_frames
 from bsm.api import decode_sequence, encode_sequence
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import BsmError, DependencyError, FormatError, MeshError, TargetError
@@ -34,10 +35,10 @@ from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS as ALL
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import Contract
-from bsm.comparison import compare_meshes, in_order_of, pair, paired_frames
-from bsm.console import Progress
-from bsm.exits import worded
+from bsm.encoding.options import encode_options, sequence_options
+from bsm.encoding.simplification import encode_source
 from bsm.files.formats.polygons import MeshFile
+from bsm.files.libraries import with_texels, without_provenance
 from bsm.files.mesh import by_name, format_of_name, parts_of, read_mesh, size_with_parts
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name
@@ -46,9 +47,8 @@ from bsm.files.pipes import Input, is_url, read_chunks, size_of
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
 from bsm.files.table import GLTF
-from bsm.libraries import with_texels, without_provenance
-from bsm.options import encode_options, sequence_options
-from bsm.simplification import encode_source
+from bsm.ground.console import Progress
+from bsm.ground.exits import worded
 
 DRACO_LEVEL = 10
 DRACO_BITS = range(4, 25)

@@ -8,8 +8,8 @@ import numpy as np
 
 from bsm.api import encode, encode_sequence
 from bsm.bitstream.errors import OptionError, imported
+from bsm.files.libraries import as_file, as_mesh
 from bsm.files.stream import is_stream
-from bsm.libraries import as_file, as_mesh
 from bsm.viewer.contents import Content, alone, compared
 from bsm.viewer.page import embedded, listed, script
 

@@ -29,9 +29,9 @@ from bsm._core import SkimmedPacket
 from bsm.bitstream.container.wire import MAGIC, FrameType, write_preamble
 from bsm.bitstream.errors import BsmError, DependencyError
 from bsm.bitstream.limits import Limits
-from bsm.exits import worded
 from bsm.files.inspection import Skimmer
 from bsm.files.pipes import place_of, read_range
+from bsm.ground.exits import worded
 from bsm.viewer.contents import PRESETS, Content, uploaded
 
 _CHUNK = 1 << 18

@@ -18,7 +18,7 @@ from bsm.files.mesh import write_mesh, written_mesh
 from bsm.files.motion.frames import Shared
 from bsm.files.sequence import sequence_writer
 from bsm.gltf.coding import MATTE
-from bsm.lengths import metres
+from bsm.ground.lengths import metres
 from tests.bsm.files.test_file_attributes import png
 from tests.gltf import unpack
 

@@ -12,9 +12,9 @@ from bsm import Attribute, BsmWarning, FormatError, LimitError, Limits, MeshErro
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.files.formats.metadata import images_in, materials_in
 from bsm.files.formats.polygons import meaning_of
+from bsm.files.libraries import as_mesh
 from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from bsm.files.sequence import open_sequence
-from bsm.libraries import as_mesh
 from tests.bsm.files.test_file_attributes import attribute, png
 from tests.bsm.program import bsm as program
 from tests.shapes import at_corners, boxes, ply_head, torus

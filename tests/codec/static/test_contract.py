@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 import bsm
 from bsm.codec.geometry.metrics import Original, Reference
 from bsm.codec.look.measure import LookMetric, look
+from bsm.encoding.options import encode_options
 from bsm.evaluation.sample import knot
-from bsm.options import encode_options
 from tests.shapes import patch, tetrahedron, together, torus
 
 

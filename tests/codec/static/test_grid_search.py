@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from bsm import PRESETS, EncodeOptions, Encoder, TriangleMesh, decode, encode, read_mesh
+from bsm.account.comparison import in_order_of
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Original, face_normals, folded_edges
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.preamble_encoding import join
-from bsm.comparison import in_order_of
 from tests.shapes import curved, grid_faces, patch
 
 

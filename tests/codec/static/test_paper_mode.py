@@ -14,9 +14,9 @@ from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.blocks import overlap
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.codec.static.ways import block_coder
+from bsm.encoding.options import encode_options
 from bsm.evaluation.curve import paper_options
 from bsm.files.inspection import inspect_stream
-from bsm.options import encode_options
 from tests.shapes import patch, tetrahedron, together, torus
 from tools.surgery import frames_of
 

@@ -14,7 +14,7 @@ from bsm.codec.static import encoder
 from bsm.codec.static.choice import attributes, grids, search
 from bsm.codec.static.choice.bounds import Bounds, Trial
 from bsm.codec.static.choice.search import Search
-from bsm.exits import exit_of
+from bsm.ground.exits import exit_of
 from tests.shapes import patch
 
 MESH = patch(12, 12)

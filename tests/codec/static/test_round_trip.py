@@ -4,7 +4,7 @@ import pytest
 import bsm
 from bsm.codec.geometry.metrics import compare
 from bsm.codec.static.units import Units
-from bsm.options import encode_options
+from bsm.encoding.options import encode_options
 from tests.shapes import patch, tetrahedron, together, torus
 from tests.streams import events_of
 

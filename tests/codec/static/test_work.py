@@ -14,7 +14,7 @@ from bsm.codec.decoding import BLOCK, mask_of
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain
 from bsm.codec.static.coding import rules_of
-from bsm.options import encode_options
+from bsm.encoding.options import encode_options
 from tests.shapes import patch
 from tools.vectors.meshes import torus
 

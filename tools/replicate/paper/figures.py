@@ -10,7 +10,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import imported
 from bsm.codec.arrays import Faces, Positions
 from bsm.evaluation.curve import Picture
-from bsm.pictures import DEFAULT_VIEW, bounds_of, render
+from bsm.ground.pictures import DEFAULT_VIEW, bounds_of, render
 
 Floats = npt.NDArray[np.float64]
 PIXELS = 420

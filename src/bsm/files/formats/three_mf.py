@@ -24,7 +24,7 @@ from bsm.files.formats.appearance import Material, appearance, as_text, held_by,
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
 from bsm.files.parsing import NO_DOUBLES, Doubles, Ints, as_format_error, as_library_error, single_suffices
 from bsm.files.unread import Taken, rows_of
-from bsm.lengths import metres
+from bsm.ground.lengths import metres
 
 _SIZES = (1e-6, 0.001, 0.01, 0.0254, 0.3048, 1.0)  # of the units in meters, as lib3mf counts them
 _KNOWN = ("Title", "Designer", "Description", "Copyright", "LicenseTerms", "Rating", "CreationDate", "Application")

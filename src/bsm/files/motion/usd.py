@@ -32,7 +32,7 @@ from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, between, painted_like
 from bsm.files.parsing import Doubles, Ints, as_format_error, as_library_error, require_counts, single_suffices
 from bsm.files.unread import Said, Taken, rows_of
-from bsm.lengths import metres, unit_of
+from bsm.ground.lengths import metres, unit_of
 
 _COORDINATES = "st"  # what texture coordinates are called
 _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader_float2"

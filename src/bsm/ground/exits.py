@@ -6,9 +6,11 @@ import sys
 from dataclasses import dataclass
 
 from bsm.bitstream import errors as failures
-from bsm.console import say
-from bsm.files.output import Terminated
-from bsm.files.pipes import is_url
+from bsm.ground.console import say
+
+
+class Terminated(SystemExit):
+    """Raised when SIGTERM comes."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,7 @@ def report_error(error: BaseException, *, as_json: bool = False) -> None:
 def worded(error: BaseException) -> str:
     if isinstance(error, OSError):
         reason, name = error.strerror or str(error), str(error.filename)
-        if reason == os.strerror(errno.ENOENT) and not is_url(name):
+        if reason == os.strerror(errno.ENOENT) and "://" not in name:
             folder = os.path.dirname(name)
             reason = f"the folder {folder} does not exist" if folder and not os.path.isdir(folder) else reason
         return f"{error.filename or repr('')}: {reason}" if error.filename is not None else reason

@@ -10,7 +10,7 @@ from bsm.codec.choices import checked, named, suggestion
 from bsm.codec.sequence.options import PROMISES, SequenceOptions
 from bsm.codec.static.options import CODING, PRESETS, EncodeOptions, Paper, changed
 from bsm.codec.static.targets import WIDEST, Contract, Target
-from bsm.lengths import parse_bytes, parse_length
+from bsm.ground.lengths import parse_bytes, parse_length
 
 TARGETS = {"nmsve_db": "nmsve_db", "theta": "theta_deg", "bpv": "bpv", "size": "size"}
 """Keyword of each target of a mesh, and its kind, see `codec.static.targets`."""

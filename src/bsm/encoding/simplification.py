@@ -28,7 +28,7 @@ from bsm.codec.static.choice.bounds import gaps, reaches
 from bsm.codec.static.encoder import Attempt, Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import ANY_ANGLE
-from bsm.console import Progress
+from bsm.ground.console import Progress
 
 _TERMS, _BUCKETS = 10, 1 << 15  # of the scratch memory of the kernel
 _SEAM, _FIXED, _STEADY = 2, 4, 8  # states of vertices in the kernel

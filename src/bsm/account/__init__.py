@@ -1,0 +1,1 @@
+"""Losses of meshes: one account for all commands."""

@@ -1,0 +1,1 @@
+"""Wishes of users, and streams that keep them."""

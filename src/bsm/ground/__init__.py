@@ -1,0 +1,1 @@
+"""Foundations: the console, exit codes, lengths with units, and pictures."""
