@@ -1,13 +1,24 @@
 #!/usr/bin/env node
-/** Reads OBJ, PLY, STL or GLB with three.js, or a folder of these, the frames of a sequence, and writes a BSM stream: npx -p bsm-decoder -p three bsm-encode mesh.obj mesh.bsm */
+/**
+ * Reads OBJ, PLY, STL or GLB with three.js, or a folder of these, the frames of a sequence, and writes a BSM stream:
+ * npx -p bsm-decoder -p three bsm-encode mesh.obj mesh.bsm
+ */
 import { readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 
 const FILES = /\.(obj|ply|stl|glb)$/i;
 const [source = "", target, bits = "14", rate = "24", ...more] = process.argv.slice(2);
 const isFolder = statSync(source, { throwIfNoEntry: false })?.isDirectory() ?? false;
-if (!target || more.length > 0 || !(isFolder ? /^\d+$/ : /^(\d+|lossless)$/).test(bits) || !(isFolder || FILES.test(source)) || !(Number(rate) > 0)) {
-    console.error("usage: bsm-encode MESH.obj|ply|stl|glb MESH.bsm [BITS|lossless]\n       bsm-encode FOLDER SEQUENCE.bsm [BITS [FRAMES PER SECOND]]");
+if (
+    !target ||
+    more.length > 0 ||
+    !(isFolder ? /^\d+$/ : /^(\d+|lossless)$/).test(bits) ||
+    !(isFolder || FILES.test(source)) ||
+    !(Number(rate) > 0)
+) {
+    console.error(
+        "usage: bsm-encode MESH.obj|ply|stl|glb MESH.bsm [BITS|lossless]\n       bsm-encode FOLDER SEQUENCE.bsm [BITS [FRAMES PER SECOND]]",
+    );
     process.exit(2);
 }
 
@@ -16,7 +27,11 @@ const fileAt = (path) => new File([readFileSync(path)], basename(path));
 
 try {
     const { readFrames, readMesh, encodeHere } = await import("./built/reading.js");
-    const files = isFolder ? readdirSync(source).filter((name) => FILES.test(name)).map((name) => fileAt(join(source, name))) : [];
+    const files = isFolder
+        ? readdirSync(source)
+              .filter((name) => FILES.test(name))
+              .map((name) => fileAt(join(source, name)))
+        : [];
     if (isFolder && files.length === 0) throw new Error("there are no OBJ, PLY, STL or GLB files in it");
     const { mesh, notes } = await (isFolder ? readFrames(files, Number(rate)) : readMesh(fileAt(source)));
     for (const note of notes) console.error(`bsm-encode: ${source}: ${note}`);

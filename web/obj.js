@@ -1,5 +1,8 @@
 #!/usr/bin/env node
-/** Reads a BSM stream and writes OBJ or GLB: npx bsm-decoder mesh.bsm > mesh.obj; or a sequence, as a folder of OBJ, as PC2, MDD, NPZ or GLB: npx bsm-decoder horse.bsm horse.glb */
+/**
+ * Reads a BSM stream and writes OBJ or GLB: npx bsm-decoder mesh.bsm > mesh.obj; or a sequence, as a folder of OBJ, as
+ * PC2, MDD, NPZ or GLB: npx bsm-decoder horse.bsm horse.glb
+ */
 import { closeSync, existsSync, mkdirSync, openSync, readFileSync, writeSync } from "node:fs";
 import { basename, join } from "node:path";
 import zlib from "node:zlib";
@@ -8,7 +11,9 @@ import { glbOf } from "./glb.js";
 
 const [path, target = "", ...more] = process.argv.slice(2);
 if (!path || more.length > 0) {
-    console.error("usage: bsm-decoder MESH.bsm > MESH.obj\n       bsm-decoder IN.bsm OUT.obj|.glb|.pc2|.mdd|.npz, or OUT, a folder of OBJ files for a sequence");
+    console.error(
+        "usage: bsm-decoder MESH.bsm > MESH.obj\n       bsm-decoder IN.bsm OUT.obj|.glb|.pc2|.mdd|.npz, or OUT, a folder of OBJ files for a sequence",
+    );
     process.exit(2);
 }
 
@@ -16,22 +21,23 @@ if (!path || more.length > 0) {
 function* eventsOf(kernels, data) {
     const decoder = new Decoder(kernels, {}, { whole: true });
     decoder.receiveData(data);
-    for (let event; (event = decoder.nextEvent()) !== NEED_DATA; ) yield event;
+    for (let event; (event = decoder.nextEvent()) !== NEED_DATA;) yield event;
     decoder.receiveEof();
-    for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) yield event;
+    for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM;) yield event;
 }
 
 /** Write text or bytes, whole, to a file or to the standard output. */
 function write(place, content) {
     const bytes = Buffer.from(content);
     const file = place ? openSync(place, "w") : 1;
-    for (let at = 0; at < bytes.length; ) at += writeSync(file, bytes, at);
+    for (let at = 0; at < bytes.length;) at += writeSync(file, bytes, at);
     if (place) closeSync(file);
 }
 
 function objOf(positions, faces) {
     const lines = [];
-    for (let i = 0; i < positions.length; i += 3) lines.push(`v ${positions[i]} ${positions[i + 1]} ${positions[i + 2]}\n`);
+    for (let i = 0; i < positions.length; i += 3)
+        lines.push(`v ${positions[i]} ${positions[i + 1]} ${positions[i + 2]}\n`);
     for (let i = 0; i < faces.length; i += 3) lines.push(`f ${faces[i] + 1} ${faces[i + 1] + 1} ${faces[i + 2] + 1}\n`);
     return lines.join("");
 }
@@ -62,7 +68,11 @@ function npyOf(type, shape, parts) {
     const words = `{'descr': '${type}', 'fortran_order': False, 'shape': (${shape.join(", ")}${shape.length === 1 ? "," : ""}), }`;
     const head = Buffer.from(`${words.padEnd(64 * Math.ceil((words.length + 11) / 64) - 11)}\n`, "latin1");
     const begin = Buffer.from([0x93, ...Buffer.from("NUMPY"), 1, 0, head.length & 255, head.length >> 8]);
-    return Buffer.concat([begin, head, ...parts.map(({ buffer, byteOffset, byteLength }) => Buffer.from(buffer, byteOffset, byteLength))]);
+    return Buffer.concat([
+        begin,
+        head,
+        ...parts.map(({ buffer, byteOffset, byteLength }) => Buffer.from(buffer, byteOffset, byteLength)),
+    ]);
 }
 
 /** Arrays in an archive without compression. */
@@ -84,7 +94,10 @@ function npzOf(arrays) {
     const end = Buffer.alloc(22);
     end.write("PK\x05\x06", "latin1");
     [8, 10].forEach((place) => end.writeUInt16LE(Object.keys(arrays).length, place));
-    end.writeUInt32LE(list.reduce((sum, { length }) => sum + length, 0), 12);
+    end.writeUInt32LE(
+        list.reduce((sum, { length }) => sum + length, 0),
+        12,
+    );
     end.writeUInt32LE(at, 16);
     return Buffer.concat([...files, ...list, end]);
 }
@@ -100,7 +113,10 @@ try {
         if (event.type === "attribute" && runs < 2) attributes.push(event);
         if (event.type === "end") positions = event.positions;
         if (event.type !== "frame") continue;
-        if (!target || kind === "obj") throw new Error(`this is a sequence${header.frames ? ` of ${header.frames} frames` : ""}: name a folder, or a .glb, .npz, .pc2 or .mdd file, behind it`);
+        if (!target || kind === "obj")
+            throw new Error(
+                `this is a sequence${header.frames ? ` of ${header.frames} frames` : ""}: name a folder, or a .glb, .npz, .pc2 or .mdd file, behind it`,
+            );
         if (kind) {
             frames.push(event.positions);
             colors.push(event.attributes.find(({ semantic }) => semantic === "color"));
@@ -111,18 +127,31 @@ try {
     }
     const isMoving = header.gopFrames > 0;
     const rate = metadata.get("frame_rate") > 0 ? metadata.get("frame_rate") : 24;
-    if (isMoving && kind && runs > 1) throw new Error("the faces of this sequence change: name a folder for its frames");
-    if (!isMoving && target && kind !== "obj" && kind !== "glb") throw new Error(`this is one mesh: name a .obj or .glb file, not ${target}`);
+    if (isMoving && kind && runs > 1)
+        throw new Error("the faces of this sequence change: name a folder for its frames");
+    if (!isMoving && target && kind !== "obj" && kind !== "glb")
+        throw new Error(`this is one mesh: name a .obj or .glb file, not ${target}`);
     let left = new Set(attributes.map(({ name }) => name));
     if (kind === "glb") {
-        const made = glbOf({ faces, attributes, metadata, frames: isMoving ? frames : [positions], colors, rate, isMoving }, basename(target).slice(0, -4));
+        const made = glbOf(
+            { faces, attributes, metadata, frames: isMoving ? frames : [positions], colors, rate, isMoving },
+            basename(target).slice(0, -4),
+        );
         write(target, made.glb);
         left = new Set(made.left);
     } else if (!isMoving) write(target, objOf(positions, faces));
     else if (kind) {
         const count = frames[0].length / 3;
         const words = Buffer.from(JSON.stringify({ frame_rate: rate }));
-        if (kind === "npz") write(target, npzOf({ positions: npyOf("<f8", [frames.length, count, 3], frames), faces: npyOf("<i4", [faces.length / 3, 3], [faces]), metadata: npyOf("|u1", [words.length], [words]) }));
+        if (kind === "npz")
+            write(
+                target,
+                npzOf({
+                    positions: npyOf("<f8", [frames.length, count, 3], frames),
+                    faces: npyOf("<i4", [faces.length / 3, 3], [faces]),
+                    metadata: npyOf("|u1", [words.length], [words]),
+                }),
+            );
         else {
             const mesh = target.replace(/\.\w+$/, ".obj");
             if (!existsSync(mesh)) write(mesh, objOf(frames[0], faces)); // a cache has no faces

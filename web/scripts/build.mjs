@@ -8,15 +8,30 @@ import { compileKernels, compiler, fingerprint, KERNEL_BUILDS, WEB } from "./ker
 
 const VIEWER = join(WEB, "../src/bsm/viewer");
 const SOURCES = join(WEB, "src");
-const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".html": "text" }, tsconfigRaw: { compilerOptions: { useDefineForClassFields: false } }, legalComments: "none", logLevel: "warning", write: false };
+const OPTIONS = {
+    bundle: true,
+    minify: true,
+    format: "esm",
+    target: "es2022",
+    charset: "utf8",
+    loader: { ".html": "text" },
+    tsconfigRaw: { compilerOptions: { useDefineForClassFields: false } },
+    legalComments: "none",
+    logLevel: "warning",
+    write: false,
+};
 const BUNDLED = ["three"];
 
-const SENTENCE = /(new (?:Format|Unsupported|Corrupt|Truncated|Limit|Numeric)Error\(|[.]nonsense\(|\brefuse\()(?:"[^"\n]*"|`(?:[^`$\\]|\$\{[^{}`]*\})*`)(?=[,)])/g;
+const SENTENCE =
+    /(new (?:Format|Unsupported|Corrupt|Truncated|Limit|Numeric)Error\(|[.]nonsense\(|\brefuse\()\s*(?:"[^"\n]*"|`(?:[^`$\\]|\$\{[^{}`]*\})*`)(?=\s*[,)])/g;
 /** Leaves out what errors say: a pool asks the decoder of everything what is wrong with a stream. */
 const TERSE = {
     name: "terse",
     setup({ onLoad }) {
-        onLoad({ filter: /src.\w+\.ts$/ }, ({ path }) => ({ contents: readFileSync(path, "utf8").replace(SENTENCE, '$1""'), loader: "ts" }));
+        onLoad({ filter: /src.\w+\.ts$/ }, ({ path }) => ({
+            contents: readFileSync(path, "utf8").replace(SENTENCE, '$1""'),
+            loader: "ts",
+        }));
     },
 };
 
@@ -28,7 +43,7 @@ const STYLED = {
             const page = readFileSync(path, "utf8");
             const [, style] = /<style>([^]*?)<\/style>/.exec(page);
             const { code } = await transform(style, { loader: "css", minify: true, target: "es2022" });
-            return { contents: page.replace(style, () => code.trim()), loader: "text" };
+            return { contents: page.replace(style, () => code.trim()).replace(/\n\s+/g, "\n"), loader: "text" };
         });
     },
 };
@@ -42,11 +57,22 @@ const BARE = {
 };
 
 /** Modules that are files of their own beside the one that asks for them. */
-const BESIDE = { content: "content.js", encode: "encode.js", encoding: "encoding.js", errors: "errors.js", index: "bsm.js", quick: "quick.js", pool: "pool.js", three: "three.js" };
+const BESIDE = {
+    content: "content.js",
+    encode: "encode.js",
+    encoding: "encoding.js",
+    errors: "errors.js",
+    index: "bsm.js",
+    quick: "quick.js",
+    pool: "pool.js",
+    three: "three.js",
+};
 const beside = (...names) => ({
     name: "beside",
     setup({ onResolve }) {
-        onResolve({ filter: new RegExp(`^\\./(${names.join("|")})$`) }, ({ path, kind }) => (kind === "entry-point" ? undefined : { path: `./${BESIDE[path.slice(2)]}`, external: true }));
+        onResolve({ filter: new RegExp(`^\\./(${names.join("|")})$`) }, ({ path, kind }) =>
+            kind === "entry-point" ? undefined : { path: `./${BESIDE[path.slice(2)]}`, external: true },
+        );
     },
 });
 
@@ -55,9 +81,13 @@ const beside = (...names) => ({
  * neither the platform, nor who uses the decoder, nor a string can mean the same.
  */
 function privateNames() {
-    const texts = readdirSync(SOURCES).filter((name) => name.endsWith(".ts")).map((name) => readFileSync(join(SOURCES, name), "utf8"));
+    const texts = readdirSync(SOURCES)
+        .filter((name) => name.endsWith(".ts"))
+        .map((name) => readFileSync(join(SOURCES, name), "utf8"));
     const code = texts.join("\n").replace(/\/\*[^]*?\*\/|\/\/.*$/gm, "");
-    const names = [...code.matchAll(/(?:private|protected)(?: (?:readonly|override|async|get|set))* (\w+)/g)].map(([, name]) => name);
+    const names = [...code.matchAll(/(?:private|protected)(?: (?:readonly|override|async|get|set))* (\w+)/g)].map(
+        ([, name]) => name,
+    );
     const others = code.replace(/(?:private|protected)(?: \w+)* \w+\??: /g, "");
     const elsewhere = (name) => new RegExp(`(?<!\\bthis)[.]${name}\\b|\\b${name}\\??: |"${name}"`).test(others);
     return [...new Set(names)].filter((name) => !elsewhere(name)).sort();
@@ -75,7 +105,10 @@ async function smaller(text) {
 
 /** A module that others call by all of its names. */
 function open(entry, plugin) {
-    return bundle(join(SOURCES, entry), { plugins: [plugin], external: ["three", "three/addons/*", "@react-three/fiber", "@gltf-transform/core", "@babylonjs/*"] });
+    return bundle(join(SOURCES, entry), {
+        plugins: [plugin],
+        external: ["three", "three/addons/*", "@react-three/fiber", "@gltf-transform/core", "@babylonjs/*"],
+    });
 }
 
 /** A module of the decoder: private names are short. */
@@ -103,14 +136,24 @@ async function inlined() {
 const thread = (decoder) => `import{serve}from"./${decoder}";serve();\n`;
 
 function licenses(packages) {
-    return packages.map((name) => `${name}\n\n${readFileSync(join(WEB, "node_modules", name, "LICENSE"), "utf8").trim()}`).join("\n\n\n");
+    return packages
+        .map((name) => `${name}\n\n${readFileSync(join(WEB, "node_modules", name, "LICENSE"), "utf8").trim()}`)
+        .join("\n\n\n");
 }
 
 /** Path and content of everything that is built of TypeScript. */
 async function products() {
     const define = { LICENSES: JSON.stringify(licenses(BUNDLED)) };
     const mangleProps = /^__/; // by which three.js calls what nobody else sees
-    const script = (await smaller(await bundle(join(SOURCES, "viewer/viewer.ts"), { define, mangleProps, plugins: [await inlined(), STYLED] }))).replaceAll("</script", "<\\/script");
+    const script = (
+        await smaller(
+            await bundle(join(SOURCES, "viewer/viewer.ts"), {
+                define,
+                mangleProps,
+                plugins: [await inlined(), STYLED],
+            }),
+        )
+    ).replaceAll("</script", "<\\/script");
     const built = {
         "errors.js": await plain("errors.ts", []),
         "bsm.js": await plain("index.ts", [beside("errors")]),
@@ -136,14 +179,19 @@ async function products() {
         "react.js": await open("react.ts", beside("three")),
     };
     return [
-        ...(await Promise.all(Object.entries(built).map(async ([name, text]) => [join(WEB, "built", name), `${await smaller(text)}\n`]))),
+        ...(await Promise.all(
+            Object.entries(built).map(async ([name, text]) => [join(WEB, "built", name), `${await smaller(text)}\n`]),
+        )),
         [join(WEB, "built/LICENSES.txt"), `${licenses(BUNDLED)}\n`],
         [join(VIEWER, "viewer.js"), script],
         [join(VIEWER, "encoder.js"), await smaller(await bundle(join(SOURCES, "viewer/encoder.ts")))],
     ];
 }
 
-/** Built kernels that differ, where the compiler is the one that the committed bytes are of; what was built of these very sources is not built again. */
+/**
+ * Built kernels that differ, where the compiler is the one that the committed bytes are of; what was built of these
+ * very sources is not built again.
+ */
 function staleKernels() {
     const [[theirs, sources], ours] = [readFileSync(join(WEB, "built/compiler.txt"), "utf8").split("\n"), compiler()];
     if (sources === fingerprint()) return [];
@@ -151,7 +199,9 @@ function staleKernels() {
         console.log(`kernels are not compared: they were built by ${theirs}; here is ${ours ?? "no clang"}`);
         return [];
     }
-    return Object.entries(KERNEL_BUILDS).filter(([path, options]) => !readFileSync(join(WEB, path)).equals(compileKernels(options))).map(([path]) => path);
+    return Object.entries(KERNEL_BUILDS)
+        .filter(([path, options]) => !readFileSync(join(WEB, path)).equals(compileKernels(options)))
+        .map(([path]) => path);
 }
 
 const check = process.argv.includes("--check");

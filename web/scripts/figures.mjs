@@ -1,4 +1,5 @@
-// What a page fetches and how long it takes, in Chromium, beside our Python and Draco: `npm run figures -- MESHES`; only
+// What a page fetches and how long it takes, in Chromium, beside our Python and Draco: `npm run figures -- MESHES`;
+// only
 // the race with Draco: `npm run figures -- MESHES race`.
 // MESHES is a folder with static/bunny_34834.ply and dynamic/samba.npz; PYTHON names a Python that has bsm's packages.
 import { execFileSync, execSync } from "node:child_process";
@@ -18,7 +19,17 @@ const ROUNDS = 9;
 const PAGES = 5;
 const PRESETS = ["small", "balanced", "fine", "near-lossless", "lossless"];
 const LINK = 10e6;
-const FLAGS = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const FLAGS = [
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+];
 
 /** Encodes what is timed. */
 const PREPARE = `
@@ -68,7 +79,9 @@ print(json.dumps(times))
 
 function python(program, ...args) {
     const environment = { ...process.env, PYTHONPATH: join(ROOT, "src"), OMP_NUM_THREADS: "1" };
-    return JSON.parse(execFileSync(PYTHON, ["-c", program, ...args], { cwd: ROOT, env: environment, encoding: "utf8" }));
+    return JSON.parse(
+        execFileSync(PYTHON, ["-c", program, ...args], { cwd: ROOT, env: environment, encoding: "utf8" }),
+    );
 }
 
 const built = (name) => readFileSync(join(WEB, "built", name));
@@ -78,7 +91,11 @@ const smallest = (times) => Math.min(...times);
 
 /** What a server has: contents, files that were built, and an empty page. */
 function compressed(contents, names) {
-    const all = { empty: Buffer.from("<!doctype html><title>empty</title>"), ...Object.fromEntries(names.map((name) => [name, built(name)])), ...contents };
+    const all = {
+        empty: Buffer.from("<!doctype html><title>empty</title>"),
+        ...Object.fromEntries(names.map((name) => [name, built(name)])),
+        ...contents,
+    };
     return Object.fromEntries(Object.entries(all).map(([name, content]) => [name, brotliCompressSync(content)]));
 }
 
@@ -87,15 +104,25 @@ async function serve(files) {
     const server = createServer((request, response) => {
         const file = files[request.url.slice(1)];
         if (!file) return response.writeHead(404).end();
-        const type = request.url.endsWith(".wasm") ? "application/wasm" : request.url.endsWith(".js") ? "text/javascript" : "text/html";
-        response.writeHead(200, { "Content-Type": type, "Content-Encoding": "br", "Content-Length": file.length }).end(file);
+        const type = request.url.endsWith(".wasm")
+            ? "application/wasm"
+            : request.url.endsWith(".js")
+              ? "text/javascript"
+              : "text/html";
+        response
+            .writeHead(200, { "Content-Type": type, "Content-Encoding": "br", "Content-Length": file.length })
+            .end(file);
     });
     await new Promise((ready) => server.listen(0, "127.0.0.1", ready));
     return { server, address: `http://127.0.0.1:${server.address().port}/` };
 }
 
 async function withPage(work) {
-    const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: FLAGS });
+    const browser = await chromium.launch({
+        executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+        headless: true,
+        args: FLAGS,
+    });
     try {
         const page = await browser.newPage({ viewport: { width: 800, height: 500 } });
         return await work(page, await page.context().newCDPSession(page));
@@ -111,70 +138,94 @@ async function withPage(work) {
 function decodeInPage(address) {
     return withPage(async (page) => {
         await page.goto(`${address}empty`);
-        return page.evaluate(async ([rounds]) => {
-            const { decode, Kernels, Pool } = await import("/main.js");
-            const kernels = new Kernels(await WebAssembly.compile(await (await fetch("/kernels.wasm")).arrayBuffer()));
-            const stream = new Uint8Array(await (await fetch("/bunny-balanced.bsm")).arrayBuffer());
-            const pool = new Pool();
-            const inPool = () => new Promise((onEnd, onError) => {
-                const decoding = pool.open({ onEnd, onError }, { drawing: "whole" });
-                decoding.receiveData(stream.slice());
-                decoding.receiveEof();
-            });
-            const [alone, together] = [[], []];
-            for (let k = 0; k < rounds; k++) {
-                const before = performance.now();
-                decode(kernels, stream);
-                const between = performance.now();
-                await inPool();
-                alone.push(between - before);
-                together.push(performance.now() - between);
-            }
-            return { alone, together, processors: navigator.hardwareConcurrency };
-        }, [ROUNDS]);
+        return page.evaluate(
+            async ([rounds]) => {
+                const { decode, Kernels, Pool } = await import("/main.js");
+                const kernels = new Kernels(
+                    await WebAssembly.compile(await (await fetch("/kernels.wasm")).arrayBuffer()),
+                );
+                const stream = new Uint8Array(await (await fetch("/bunny-balanced.bsm")).arrayBuffer());
+                const pool = new Pool();
+                const inPool = () =>
+                    new Promise((onEnd, onError) => {
+                        const decoding = pool.open({ onEnd, onError }, { drawing: "whole" });
+                        decoding.receiveData(stream.slice());
+                        decoding.receiveEof();
+                    });
+                const [alone, together] = [[], []];
+                for (let k = 0; k < rounds; k++) {
+                    const before = performance.now();
+                    decode(kernels, stream);
+                    const between = performance.now();
+                    await inPool();
+                    alone.push(between - before);
+                    together.push(performance.now() - between);
+                }
+                return { alone, together, processors: navigator.hardwareConcurrency };
+            },
+            [ROUNDS],
+        );
     });
 }
 
-/** Bytes at which the faces have come and the first block is there, and milliseconds of work up to it, in a page of its own. */
+/**
+ * Bytes at which the faces have come and the first block is there, and milliseconds of work up to it, in a page of its
+ * own.
+ */
 function beginInPage(address, name) {
     return withPage(async (page) => {
         await page.goto(`${address}empty`);
-        return page.evaluate(async ([name]) => {
-            const { Decoder, Kernels, NEED_DATA } = await import("/bsm.js");
-            const kernels = new Kernels(await WebAssembly.compile(await (await fetch("/kernels.wasm")).arrayBuffer()));
-            const stream = new Uint8Array(await (await fetch(`/${name}`)).arrayBuffer());
-            const firstOf = (size) => {
-                const decoder = new Decoder(kernels);
-                for (let at = 0; ; at += size) {
-                    for (let event; (event = decoder.nextEvent()) !== NEED_DATA; ) if (event.type === "block") return at;
-                    decoder.receiveData(stream.subarray(at, at + size));
-                }
-            };
-            const first = firstOf(1);
-            const begin = performance.now();
-            firstOf(first);
-            return { first, bytes: stream.length, work: performance.now() - begin };
-        }, [name]);
+        return page.evaluate(
+            async ([name]) => {
+                const { Decoder, Kernels, NEED_DATA } = await import("/bsm.js");
+                const kernels = new Kernels(
+                    await WebAssembly.compile(await (await fetch("/kernels.wasm")).arrayBuffer()),
+                );
+                const stream = new Uint8Array(await (await fetch(`/${name}`)).arrayBuffer());
+                const firstOf = (size) => {
+                    const decoder = new Decoder(kernels);
+                    for (let at = 0; ; at += size) {
+                        for (let event; (event = decoder.nextEvent()) !== NEED_DATA;)
+                            if (event.type === "block") return at;
+                        decoder.receiveData(stream.subarray(at, at + size));
+                    }
+                };
+                const first = firstOf(1);
+                const begin = performance.now();
+                firstOf(first);
+                return { first, bytes: stream.length, work: performance.now() - begin };
+            },
+            [name],
+        );
     });
 }
 
-/** Milliseconds until each frame of a sequence is there, from the moment that all its bytes are; the page's thread slowed down. */
+/**
+ * Milliseconds until each frame of a sequence is there, from the moment that all its bytes are; the page's thread
+ * slowed down.
+ */
 function framesInPage(address, name, rate) {
     return withPage(async (page, session) => {
         await page.goto(`${address}empty`);
         await session.send("Emulation.setCPUThrottlingRate", { rate });
-        return page.evaluate(async ([name]) => {
-            const { Decoder, END_OF_STREAM, Kernels } = await import("/bsm.js");
-            const kernels = new Kernels(await WebAssembly.compile(await (await fetch("/kernels.wasm")).arrayBuffer()));
-            const stream = new Uint8Array(await (await fetch(`/${name}`)).arrayBuffer());
-            const begin = performance.now();
-            const decoder = new Decoder(kernels);
-            const times = [];
-            decoder.receiveData(stream);
-            decoder.receiveEof();
-            for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) if (event.type === "frame") times.push(performance.now() - begin);
-            return times;
-        }, [name]);
+        return page.evaluate(
+            async ([name]) => {
+                const { Decoder, END_OF_STREAM, Kernels } = await import("/bsm.js");
+                const kernels = new Kernels(
+                    await WebAssembly.compile(await (await fetch("/kernels.wasm")).arrayBuffer()),
+                );
+                const stream = new Uint8Array(await (await fetch(`/${name}`)).arrayBuffer());
+                const begin = performance.now();
+                const decoder = new Decoder(kernels);
+                const times = [];
+                decoder.receiveData(stream);
+                decoder.receiveEof();
+                for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM;)
+                    if (event.type === "frame") times.push(performance.now() - begin);
+                return times;
+            },
+            [name],
+        );
     });
 }
 
@@ -184,12 +235,19 @@ function fetchInPage(address, script) {
         await page.goto(`${address}empty`);
         await session.send("Network.enable");
         await session.send("Network.setCacheDisabled", { cacheDisabled: true });
-        await session.send("Network.emulateNetworkConditions", { offline: false, latency: 0, downloadThroughput: LINK / 8, uploadThroughput: LINK / 8 });
+        await session.send("Network.emulateNetworkConditions", {
+            offline: false,
+            latency: 0,
+            downloadThroughput: LINK / 8,
+            uploadThroughput: LINK / 8,
+        });
         return page.evaluate(script);
     });
 }
 
-/** What ends each race: when all had been fetched and when the mesh was there, and the least time of later decodings. */
+/**
+ * What ends each race: when all had been fetched and when the mesh was there, and the least time of later decodings.
+ */
 const FINISH = `
     const cold = performance.now() - begin;
     const fetched = Math.max(...performance.getEntriesByType("resource").map(({ responseEnd }) => responseEnd)) - begin;
@@ -204,7 +262,8 @@ const FINISH = `
 `;
 
 /** Ours: what is on a grid is decoded as it comes, blocks by a pool of threads. */
-const ours = { quick: (stream) => `(async () => {
+const ours = {
+    quick: (stream) => `(async () => {
     const begin = performance.now();
     const script = import("/quick.js");
     const compiling = WebAssembly.compileStreaming(fetch("/quick.wasm"));
@@ -223,7 +282,8 @@ const ours = { quick: (stream) => `(async () => {
     const whole = new Uint8Array(await new Blob(chunks).arrayBuffer());
     const again = () => decode(kernels, whole);
     ${FINISH}
-})()`, smallest: (stream) => `(async () => {
+})()`,
+    smallest: (stream) => `(async () => {
     const begin = performance.now();
     const bytes = fetch("/${stream}").then((response) => response.arrayBuffer());
     const { Pool } = await import("/pool.js");
@@ -237,7 +297,8 @@ const ours = { quick: (stream) => `(async () => {
     });
     await again();
     ${FINISH}
-})()` };
+})()`,
+};
 
 const draconic = (stream) => `(async () => {
     const begin = performance.now();
@@ -291,7 +352,12 @@ async function overLink(address, script, bytes) {
 /** The same mesh with the same look, cold, each in pages of its own and in turns: minimum and median. */
 async function race(address, files, { bits, distance }) {
     const runs = Object.fromEntries(Object.keys(WAYS).map((way) => [way, []]));
-    const sizes = Object.fromEntries(Object.entries(WAYS).map(([way, { decoder }]) => [way, [...decoder, `${way}-${bits}`].map((name) => files[name].length)]));
+    const sizes = Object.fromEntries(
+        Object.entries(WAYS).map(([way, { decoder }]) => [
+            way,
+            [...decoder, `${way}-${bits}`].map((name) => files[name].length),
+        ]),
+    );
     for (let k = 0; k < PAGES; k++) {
         for (const [way, { script }] of Object.entries(WAYS)) {
             const bytes = sizes[way].reduce((sum, size) => sum + size);
@@ -302,8 +368,12 @@ async function race(address, files, { bits, distance }) {
     for (const [way, each] of Object.entries(sizes)) {
         const stream = each.pop();
         const decoder = each.reduce((sum, size) => sum + size);
-        const [cold, fetched, warm] = ["cold", "fetched", "warm"].map((name) => runs[way].map((run) => run[name]).sort((a, b) => a - b));
-        console.log(`    ${way.padEnd(8)} ${milliseconds(cold[0])} (median ${milliseconds(cold[PAGES >> 1])}), all fetched after ${milliseconds(fetched[0])}; warm ${milliseconds(warm[0])}; ${decoder} + ${stream} bytes`);
+        const [cold, fetched, warm] = ["cold", "fetched", "warm"].map((name) =>
+            runs[way].map((run) => run[name]).sort((a, b) => a - b),
+        );
+        console.log(
+            `    ${way.padEnd(8)} ${milliseconds(cold[0])} (median ${milliseconds(cold[PAGES >> 1])}), all fetched after ${milliseconds(fetched[0])}; warm ${milliseconds(warm[0])}; ${decoder} + ${stream} bytes`,
+        );
     }
 }
 
@@ -328,13 +398,18 @@ function brake(processes) {
 
 /** The processes in which Chromium runs pages, among those that this one has started. */
 function renderers() {
-    const rows = execSync("ps -eo pid,ppid,args", { encoding: "utf8" }).split("\n").map((row) => /^\s*(\d+)\s+(\d+)\s+(.*)$/.exec(row)).filter(Boolean);
+    const rows = execSync("ps -eo pid,ppid,args", { encoding: "utf8" })
+        .split("\n")
+        .map((row) => /^\s*(\d+)\s+(\d+)\s+(.*)$/.exec(row))
+        .filter(Boolean);
     const ours = new Set([process.pid]);
-    for (let grown = -1; grown !== ours.size; ) {
+    for (let grown = -1; grown !== ours.size;) {
         grown = ours.size;
         for (const [, id, parent] of rows) if (ours.has(Number(parent))) ours.add(Number(id));
     }
-    return rows.filter(([, id, , args]) => ours.has(Number(id)) && args.includes("--type=renderer")).map(([, id]) => Number(id));
+    return rows
+        .filter(([, id, , args]) => ours.has(Number(id)) && args.includes("--type=renderer"))
+        .map(([, id]) => Number(id));
 }
 
 /** The page of `bsm view` over 1 Mbit/s: seconds until a sequence plays, and which of its frames are shown when. */
@@ -354,20 +429,28 @@ function playInPage(folder, stream, slow) {
                 delete document.body.dataset.frame;
                 const begin = performance.now();
                 const seen = [];
-                while (!(document.body.dataset.state === "complete" && document.querySelector("[name=play]").textContent === "Play")) {
+                while (!(
+                    document.body.dataset.state === "complete" &&
+                    document.querySelector("[name=play]").textContent === "Play"
+                )) {
                     const now = await new Promise(requestAnimationFrame);
                     const frame = document.body.dataset.frame;
-                    if (frame !== undefined) seen.push({ frame, time: now - begin, there: document.body.dataset.there });
+                    if (frame !== undefined)
+                        seen.push({ frame, time: now - begin, there: document.body.dataset.there });
                 }
                 return seen.map(({ frame, time, there }) => ({ frame: Number(frame), time, there: Number(there) }));
             });
-            // Playing begins where frames begin to follow each other; before that the first one waits for those behind it.
+            // Playing begins where frames begin to follow each other; before that the first one waits for those behind
+            // it.
             const second = seen.find(({ frame }) => frame > 0);
             const start = second.time - (1000 / 30) * second.frame;
             const changes = seen.filter(({ frame }, i) => i === 0 || frame !== seen[i - 1].frame);
             const late = changes.slice(1).map(({ frame, time }) => time - start - (1000 / 30) * frame);
             const last = seen.at(-1).frame + 1;
-            const due = Array.from({ length: last }, (_, k) => (seen.find(({ time }) => time >= start + (1000 / 30) * k) ?? seen.at(-1)).there > k);
+            const due = Array.from(
+                { length: last },
+                (_, k) => (seen.find(({ time }) => time >= start + (1000 / 30) * k) ?? seen.at(-1)).there > k,
+            );
             return { start, last, shown: changes.length, there: due.filter(Boolean).length, late: Math.max(...late) };
         } finally {
             await release();
@@ -380,28 +463,52 @@ async function measure(meshes, folder) {
     python(PREPARE, meshes, folder, ...PRESETS);
     const read = (name) => readFileSync(join(folder, name));
     const streams = ["samba.bsm", "samba-groups.bsm", ...PRESETS.map((preset) => `bunny-${preset}.bsm`)];
-    const { server, address } = await serve(compressed(Object.fromEntries(streams.map((name) => [name, read(name)])), ["main.js", "pool.js", "bsm.js", "errors.js", "worker.js", "kernels.wasm"]));
+    const { server, address } = await serve(
+        compressed(Object.fromEntries(streams.map((name) => [name, read(name)])), [
+            "main.js",
+            "pool.js",
+            "bsm.js",
+            "errors.js",
+            "worker.js",
+            "kernels.wasm",
+        ]),
+    );
     try {
         for (const preset of PRESETS) {
             const { first, bytes, work } = await beginInPage(address, `bunny-${preset}.bsm`);
-            console.log(`bunny, ${preset}: the first block is decoded after ${first} of ${bytes} bytes (${((100 * first) / bytes).toFixed(0)} %) and ${milliseconds(work)} of work`);
+            console.log(
+                `bunny, ${preset}: the first block is decoded after ${first} of ${bytes} bytes (${((100 * first) / bytes).toFixed(0)} %) and ${milliseconds(work)} of work`,
+            );
         }
         const balanced = join(folder, "bunny-balanced.bsm");
-        const [before, inPage, after] = [python(DECODE, balanced, String(ROUNDS)), await decodeInPage(address), python(DECODE, balanced, String(ROUNDS))];
+        const [before, inPage, after] = [
+            python(DECODE, balanced, String(ROUNDS)),
+            await decodeInPage(address),
+            python(DECODE, balanced, String(ROUNDS)),
+        ];
         const inPython = smallest([...before, ...after]);
         const { alone, together, processors } = inPage;
-        console.log(`bunny: decoded in ${milliseconds(smallest(alone))} in Chromium (at first ${milliseconds(alone[0])}), ${milliseconds(inPython)} in Python on one thread: ${(smallest(alone) / inPython).toFixed(2)} x; in threads on ${processors} processors ${milliseconds(smallest(together))}`);
+        console.log(
+            `bunny: decoded in ${milliseconds(smallest(alone))} in Chromium (at first ${milliseconds(alone[0])}), ${milliseconds(inPython)} in Python on one thread: ${(smallest(alone) / inPython).toFixed(2)} x; in threads on ${processors} processors ${milliseconds(smallest(together))}`,
+        );
         for (const stream of ["samba.bsm", "samba-groups.bsm"]) {
             for (const rate of [1, 4]) {
                 const times = await framesInPage(address, stream, rate);
-                const steps = times.slice(1).map((time, k) => time - times[k]).sort((a, b) => a - b);
+                const steps = times
+                    .slice(1)
+                    .map((time, k) => time - times[k])
+                    .sort((a, b) => a - b);
                 const slow = rate > 1 ? `, ${rate} times slower` : "";
                 const pace = (1000 * times.length) / times.at(-1);
-                console.log(`${stream} in the thread of a page${slow}: the first frame after ${milliseconds(times[0])} of work, the others ${steps[steps.length >> 1].toFixed(1)} ms, at most ${milliseconds(steps.at(-1))}; ${pace.toFixed(0)} frames a second on average`);
+                console.log(
+                    `${stream} in the thread of a page${slow}: the first frame after ${milliseconds(times[0])} of work, the others ${steps[steps.length >> 1].toFixed(1)} ms, at most ${milliseconds(steps.at(-1))}; ${pace.toFixed(0)} frames a second on average`,
+                );
             }
             for (const slow of [undefined, "main thread", "everything"]) {
                 const { start, there, shown, last, late } = await playInPage(folder, stream, slow);
-                console.log(`${stream} (${read(stream).length} bytes) over 1 Mbit/s${slow ? `, ${slow} four times slower` : ""}: plays after ${milliseconds(start)}; ${there} of ${last} frames decoded in time, ${shown} drawn, at most ${milliseconds(late)} late`);
+                console.log(
+                    `${stream} (${read(stream).length} bytes) over 1 Mbit/s${slow ? `, ${slow} four times slower` : ""}: plays after ${milliseconds(start)}; ${there} of ${last} frames decoded in time, ${shown} drawn, at most ${milliseconds(late)} late`,
+                );
             }
         }
     } finally {
@@ -415,7 +522,12 @@ async function raceAll(meshes, folder) {
     const streams = races.flatMap(({ bits }) => Object.keys(WAYS).map((way) => `${way}-${bits}`));
     const rivals = Object.fromEntries(WAYS.draco.decoder.map((name) => [name, draco(name)]));
     const contents = Object.fromEntries(streams.map((name) => [name, readFileSync(join(folder, name))]));
-    const files = compressed({ ...contents, ...rivals }, ["errors.js", "small-worker.js", ...WAYS.quick.decoder, ...WAYS.smallest.decoder]);
+    const files = compressed({ ...contents, ...rivals }, [
+        "errors.js",
+        "small-worker.js",
+        ...WAYS.quick.decoder,
+        ...WAYS.smallest.decoder,
+    ]);
     const { server, address } = await serve(files);
     try {
         for (const one of races) await race(address, files, one);
@@ -425,9 +537,15 @@ async function raceAll(meshes, folder) {
 }
 
 const [meshes, only] = process.argv.slice(2);
-for (const names of [["quick.js", "quick.wasm"], ["small.js", "small.wasm"], ["bsm.js", "kernels.wasm"]]) {
+for (const names of [
+    ["quick.js", "quick.wasm"],
+    ["small.js", "small.wasm"],
+    ["bsm.js", "kernels.wasm"],
+]) {
     const sizes = names.map((name) => brotliCompressSync(built(name)).length);
-    console.log(`to decode: ${names.map((name, i) => `${name} ${sizes[i]}`).join(" + ")} = ${sizes[0] + sizes[1]} bytes in brotli`);
+    console.log(
+        `to decode: ${names.map((name, i) => `${name} ${sizes[i]}`).join(" + ")} = ${sizes[0] + sizes[1]} bytes in brotli`,
+    );
 }
 if (meshes) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-figures-"));

@@ -11,37 +11,93 @@ const ROOT = join(WEB, "..");
 
 /** C files below a folder of the repository. */
 function sourcesIn(folder) {
-    return readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(".c")).map((name) => join(folder, name)).sort();
+    return readdirSync(join(ROOT, folder), { recursive: true })
+        .filter((name) => name.endsWith(".c"))
+        .map((name) => join(folder, name))
+        .sort();
 }
 
 /** All that a decoder is made of; the linker takes what those functions that are asked for need. */
-const SOURCES = ["bitstream", "codec", "library"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/metrics)|^library\/(examples|python|ahead)/.test(path));
+const SOURCES = ["bitstream", "codec", "library"]
+    .flatMap(sourcesIn)
+    .filter(
+        (path) =>
+            !/^codec\/(denoise|look|static\/choice|geometry\/metrics)|^library\/(examples|python|ahead)/.test(path),
+    );
 
 /** Functions for the page (library/wasm/page.c, library/bsmdec.h). */
 const PAGE = [
-    ...["take", "give", "open", "close", "share", "next", "error", "state", "header", "loose", "metadata", "handed", "room", "add", "lose", "changes", "losses"].map((name) => `page_${name}`),
-    ...["push", "finish", "faces", "positions", "attribute_at", "attribute_values", "attribute_indices"].map((name) => `bsmdec_${name}`),
+    ...[
+        "take",
+        "give",
+        "open",
+        "close",
+        "share",
+        "next",
+        "error",
+        "state",
+        "header",
+        "loose",
+        "metadata",
+        "handed",
+        "room",
+        "add",
+        "lose",
+        "changes",
+        "losses",
+    ].map((name) => `page_${name}`),
+    ...["push", "finish", "faces", "positions", "attribute_at", "attribute_values", "attribute_indices"].map(
+        (name) => `bsmdec_${name}`,
+    ),
 ];
 /** Functions for a page that decodes light grids alone (library/wasm/light.c). */
-const LIGHT = ["page_take", "page_give", ...["open", "close", "charge", "error", "begin", "faces", "positions"].map((name) => `light_${name}`)];
+const LIGHT = [
+    "page_take",
+    "page_give",
+    ...["open", "close", "charge", "error", "begin", "faces", "positions"].map((name) => `light_${name}`),
+];
 
 /** Functions for a page that encodes (library/wasm/encode.c). */
-const ENCODE = ["page_take", "page_give", ...["begin", "attribute", "metadata", "run", "message", "bytes", "size", "end"].map((name) => `encode_${name}`)];
+const ENCODE = [
+    "page_take",
+    "page_give",
+    ...["begin", "attribute", "metadata", "run", "message", "bytes", "size", "end"].map((name) => `encode_${name}`),
+];
 
 const TARGET = "--target=wasm32";
 const FLAGS = [
-    TARGET, "-std=gnu11", "-ffreestanding", "-fno-builtin", "-ffp-contract=off", "-ffunction-sections",
-    "-fdata-sections", "-fvisibility=hidden", "-Wno-unknown-pragmas", "-mbulk-memory", "-isystem", "library/wasm/include",
+    TARGET,
+    "-std=gnu11",
+    "-ffreestanding",
+    "-fno-builtin",
+    "-ffp-contract=off",
+    "-ffunction-sections",
+    "-fdata-sections",
+    "-fvisibility=hidden",
+    "-Wno-unknown-pragmas",
+    "-mbulk-memory",
+    "-isystem",
+    "library/wasm/include",
 ];
 
 const LINK = [
-    "-Wl,--no-entry", "-Wl,--gc-sections", "-Wl,--lto-O2", "-Wl,--strip-all", "-Wl,-z,stack-size=262144", "-Wl,--stack-first", "-Wl,--max-memory=4294967296",
+    "-Wl,--no-entry",
+    "-Wl,--gc-sections",
+    "-Wl,--lto-O2",
+    "-Wl,--strip-all",
+    "-Wl,-z,stack-size=262144",
+    "-Wl,--stack-first",
+    "-Wl,--max-memory=4294967296",
 ];
 
 /** Sources that charge and take memory: what is over the kernels. */
-const DRIVERS = /^library|^bitstream\/(context|pool|container|payloads)|^codec\/(basis\/(structure|dictionaries)|signal\/(chain|assembly|layer)|sequence\/(parts|gop|frames))\.c/;
+const DRIVERS =
+    /^library|^bitstream\/(context|pool|container|payloads)|^codec\/(basis\/(structure|dictionaries)|signal\/(chain|assembly|layer)|sequence\/(parts|gop|frames))\.c/;
 
-/** Sources whose functions are copied to where they are called only if that makes them smaller: they are not the slow ones. */
+/**
+ * Sources whose functions are copied to where they are called only if that makes them smaller: they are not the slow
+ * ones.
+ */
 const LEAN = /connectivity|attributes|fields|codec\/blocks|fronts\.c|geometry/;
 
 /** Name and version of the compiler, of which the bytes are a function; undefined where there is none. */
@@ -50,18 +106,32 @@ export function compiler() {
     return stdout?.split("\n")[0];
 }
 
-/** What tells the built kernels and all that they are built of, but for the compiler: where it is as written, they are not compiled again to compare. */
+/**
+ * What tells the built kernels and all that they are built of, but for the compiler: where it is as written, they are
+ * not compiled again to compare.
+ */
 export function fingerprint() {
     const hash = createHash("sha256");
-    const headers = ["bitstream", "codec", "library"].flatMap((folder) => readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(".h")).map((name) => join(folder, name))).sort();
-    const own = ["package-lock.json", "scripts/kernels.mjs", ...Object.keys(KERNEL_BUILDS)].map((name) => join("web", name));
-    for (const path of [...SOURCES, ...headers, "spec/priors.bin", "spec/start.bin", ...own]) hash.update(path).update(readFileSync(join(ROOT, path)));
+    const headers = ["bitstream", "codec", "library"]
+        .flatMap((folder) =>
+            readdirSync(join(ROOT, folder), { recursive: true })
+                .filter((name) => name.endsWith(".h"))
+                .map((name) => join(folder, name)),
+        )
+        .sort();
+    const own = ["package-lock.json", "scripts/kernels.mjs", ...Object.keys(KERNEL_BUILDS)].map((name) =>
+        join("web", name),
+    );
+    for (const path of [...SOURCES, ...headers, "spec/priors.bin", "spec/start.bin", ...own])
+        hash.update(path).update(readFileSync(join(ROOT, path)));
     return hash.digest("hex");
 }
 
 /** Where programs are, but for those of packages: clang would call a wasm-opt of its own accord, with other options. */
 function withoutPackages() {
-    return process.env.PATH.split(delimiter).filter((folder) => !folder.includes("node_modules")).join(delimiter);
+    return process.env.PATH.split(delimiter)
+        .filter((folder) => !folder.includes("node_modules"))
+        .join(delimiter);
 }
 
 /** Slots that nothing was learnt for have one of these, and a count of 0. */
@@ -82,10 +152,15 @@ function packedPriors(bytes) {
     const others = words.length - slots;
     const [counts, probabilities, weights] = [[], [], [...words.slice(0, others)]];
     for (let i = 0; i < slots; i++) {
-        const [node, bin, expectation] = [Math.floor(i / expectations / bins), Math.floor(i / expectations) % bins, i % expectations];
+        const [node, bin, expectation] = [
+            Math.floor(i / expectations / bins),
+            Math.floor(i / expectations) % bins,
+            i % expectations,
+        ];
         const word = words[others + (expectation * bins + bin) * nodes + node];
         const [count, probability] = [word & 15, word >> 4];
-        if (count === 0 && !UNLEARNT.includes(probability)) throw new Error("a slot that nothing was learnt for has another probability");
+        if (count === 0 && !UNLEARNT.includes(probability))
+            throw new Error("a slot that nothing was learnt for has another probability");
         counts.push(count || -UNLEARNT.indexOf(probability));
         if (count > 0) probabilities.push(probability);
     }
@@ -120,29 +195,66 @@ function checkPriors(clang, object, priors, target) {
     const { exports } = new WebAssembly.Instance(new WebAssembly.Module(readFileSync(target)));
     exports.make_priors();
     const made = new Uint8Array(exports.memory.buffer, exports.PRIORS.value, priors.length);
-    if (priors.some((value, i) => made[i] !== value)) throw new Error("the kernels make other priors than the repository has");
+    if (priors.some((value, i) => made[i] !== value))
+        throw new Error("the kernels make other priors than the repository has");
 }
 
-/** Sources of what takes most time, which are compiled for speed, and not for their size alone; vectors that they do not ask for make them slower. */
+/**
+ * Sources of what takes most time, which are compiled for speed, and not for their size alone; vectors that they do not
+ * ask for make them slower.
+ */
 const FAST = /basis\/cholesky|codec\/blocks|conquest|fields\/(layer|expectation|grid)/;
 const SPEED = ["-fno-vectorize", "-fno-slp-vectorize"];
 
-/** Sources that stay apart when the rest is optimized as one: what runs WebAssembly compiles smaller functions sooner. */
+/**
+ * Sources that stay apart when the rest is optimized as one: what runs WebAssembly compiles smaller functions sooner.
+ */
 const APART = /basis\/structure|payloads\/topology|signal\/layer|library\/stages/;
 
 /** How a source is compiled; the decoder of light grids is the smallest. */
 function optionsOf(source, fast, light) {
     if (fast.test(source)) return ["-O2", ...SPEED];
-    return ["-Oz", ...(APART.test(source) && !light ? [] : ["-flto"]), ...(LEAN.test(source) || DRIVERS.test(source) ? ["-DBSM_LEAN"] : []), ...(light ? ["-DBSMDEC_LIGHT"] : [])];
+    return [
+        "-Oz",
+        ...(APART.test(source) && !light ? [] : ["-flto"]),
+        ...(LEAN.test(source) || DRIVERS.test(source) ? ["-DBSM_LEAN"] : []),
+        ...(light ? ["-DBSMDEC_LIGHT"] : []),
+    ];
 }
 
-/** Every build: what of the decoder it is without, which headers ask for that, and which sources are compiled for speed; `light`: for light grids alone; `writes`: the encoder; `long`: without brief streams. */
+/**
+ * Every build: what of the decoder it is without, which headers ask for that, and which sources are compiled for speed;
+ * `light`: for light grids alone; `writes`: the encoder; `long`: without brief streams.
+ */
 export const KERNEL_BUILDS = {
     "built/kernels.wasm": {},
-    "built/small.wasm": { without: /(library\/(sequence|attribute|attribute_set|split|whole)|codec\/sequence\/(gop|parts|frames)|container\/declaration|payloads\/zstd)\.c/, lacks: "record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes" },
-    "built/moving.wasm": { without: /(library\/(attribute|attribute_set|split|whole)|payloads\/(grid|zstd)|signal\/layer|container\/declaration)\.c/, long: true, lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0 || header->attributes" },
-    "built/encode.wasm": { exported: ENCODE, writes: true, without: /^codec(?!\/basis\/structure)|fields\/(twins|images)|payloads\/zstd\.c|library\/(sequence|split|whole|changes)\.c|library\/encode\/moving\.c|library\/wasm\/(page|light)\.c/, long: true, lacks: "!header->on_grid || header->congruence" },
-    "built/encode-moving.wasm": { exported: [...ENCODE, "make_priors"], writes: true, without: /fields\/(twins|images)|payloads\/zstd\.c|signal\/layer\.c|library\/(split|whole|changes)\.c|library\/wasm\/(page|light)\.c/, long: true, lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0" },
+    "built/small.wasm": {
+        without:
+            /(library\/(sequence|attribute|attribute_set|split|whole)|codec\/sequence\/(gop|parts|frames)|container\/declaration|payloads\/zstd)\.c/,
+        lacks: "record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes",
+    },
+    "built/moving.wasm": {
+        without:
+            /(library\/(attribute|attribute_set|split|whole)|payloads\/(grid|zstd)|signal\/layer|container\/declaration)\.c/,
+        long: true,
+        lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0 || header->attributes",
+    },
+    "built/encode.wasm": {
+        exported: ENCODE,
+        writes: true,
+        without:
+            /^codec(?!\/basis\/structure)|fields\/(twins|images)|payloads\/zstd\.c|library\/(sequence|split|whole|changes)\.c|library\/encode\/moving\.c|library\/wasm\/(page|light)\.c/,
+        long: true,
+        lacks: "!header->on_grid || header->congruence",
+    },
+    "built/encode-moving.wasm": {
+        exported: [...ENCODE, "make_priors"],
+        writes: true,
+        without:
+            /fields\/(twins|images)|payloads\/zstd\.c|signal\/layer\.c|library\/(split|whole|changes)\.c|library\/wasm\/(page|light)\.c/,
+        long: true,
+        lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0",
+    },
     "built/quick.wasm": { exported: LIGHT, without: /^codec(?!\/basis\/structure)/, fast: /conquest/, light: true },
 };
 
@@ -150,7 +262,15 @@ export const KERNEL_BUILDS = {
 const compiled = new Map();
 
 /** One of them. */
-export function compileKernels({ exported = PAGE, without, lacks, fast = FAST, light = false, writes = false, long = false }) {
+export function compileKernels({
+    exported = PAGE,
+    without,
+    lacks,
+    fast = FAST,
+    light = false,
+    writes = false,
+    long = false,
+}) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const data = join(folder, "data.c");
@@ -158,10 +278,27 @@ export function compileKernels({ exported = PAGE, without, lacks, fast = FAST, l
         const start = [...readFileSync(join(ROOT, "spec/start.bin"))];
         writeFileSync(data, `${packedPriors(priors)}const unsigned char START[] = {${start}};\n`);
         const target = join(folder, "kernels.wasm");
-        const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
+        const clang = (...args) =>
+            execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {
             const object = join(folder, `${i}.o`);
-            const options = [...FLAGS, writes ? "-DBSMDEC_WRITES" : "-DBSM_DECODER", ...optionsOf(source, fast, light), ...(without && DRIVERS.test(source) ? [...(writes ? [] : ["-DBSMDEC_TERSE"]), ...(lacks ? [`-DBSMDEC_LACKS=(${lacks})`] : []), ...(long ? ["-DBSMDEC_LONG=1"] : [])] : []), "-msimd128", "-I", ".", "-c", source];
+            const options = [
+                ...FLAGS,
+                writes ? "-DBSMDEC_WRITES" : "-DBSM_DECODER",
+                ...optionsOf(source, fast, light),
+                ...(without && DRIVERS.test(source)
+                    ? [
+                          ...(writes ? [] : ["-DBSMDEC_TERSE"]),
+                          ...(lacks ? [`-DBSMDEC_LACKS=(${lacks})`] : []),
+                          ...(long ? ["-DBSMDEC_LONG=1"] : []),
+                      ]
+                    : []),
+                "-msimd128",
+                "-I",
+                ".",
+                "-c",
+                source,
+            ];
             const key = options.join(" ");
             if (source === data || !compiled.has(key)) {
                 clang(...options, "-o", object);
@@ -170,10 +307,34 @@ export function compileKernels({ exported = PAGE, without, lacks, fast = FAST, l
             return object;
         });
         checkPriors(clang, objects.at(-1), priors, target);
-        clang(TARGET, "-nostdlib", ...objects.filter((_, i) => !without?.test(SOURCES[i])), ...LINK, ...(without ? ["-Wl,--unresolved-symbols=ignore-all"] : []), ...exported.map((name) => `-Wl,--export=${name}`), "-o", target);
-        const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", "--enable-simd"];
-        // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is added.
-        const passes = ["-Oz", "--converge", "--low-memory-unused", "--flatten", "--rereloop", "-Oz", "-Oz", "--one-caller-inline-max-function-size=100"];
+        clang(
+            TARGET,
+            "-nostdlib",
+            ...objects.filter((_, i) => !without?.test(SOURCES[i])),
+            ...LINK,
+            ...(without ? ["-Wl,--unresolved-symbols=ignore-all"] : []),
+            ...exported.map((name) => `-Wl,--export=${name}`),
+            "-o",
+            target,
+        );
+        const features = [
+            "--enable-bulk-memory",
+            "--enable-sign-ext",
+            "--enable-nontrapping-float-to-int",
+            "--enable-simd",
+        ];
+        // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is
+        // added.
+        const passes = [
+            "-Oz",
+            "--converge",
+            "--low-memory-unused",
+            "--flatten",
+            "--rereloop",
+            "-Oz",
+            "-Oz",
+            "--one-caller-inline-max-function-size=100",
+        ];
         execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, ...passes, ...features, "-o", target]);
         return readFileSync(target);
     } finally {
@@ -182,6 +343,7 @@ export function compileKernels({ exported = PAGE, without, lacks, fast = FAST, l
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-    for (const [path, options] of Object.entries(KERNEL_BUILDS)) writeFileSync(join(WEB, path), compileKernels(options));
+    for (const [path, options] of Object.entries(KERNEL_BUILDS))
+        writeFileSync(join(WEB, path), compileKernels(options));
     writeFileSync(join(WEB, "built/compiler.txt"), `${compiler()}\n${fingerprint()}\n`);
 }

@@ -1,6 +1,9 @@
-// How long pages load meshes by BSMLoader, and by DRACOLoader beside it: `npm run loads -- MESHES`, a folder with static/*.ply.
-// Times of 100 loads of a small mesh at once and in turn, of one mesh once the page is warm, and the longest task of the page's thread while
-// a large one comes: what it took of a processor, since the thread may have to wait for one. PYTHON names a Python that has bsm's packages, `eval` among them.
+// How long pages load meshes by BSMLoader, and by DRACOLoader beside it: `npm run loads -- MESHES`, a folder with
+// static/*.ply.
+// Times of 100 loads of a small mesh at once and in turn, of one mesh once the page is warm, and the longest task of
+// the page's thread while
+// a large one comes: what it took of a processor, since the thread may have to wait for one. PYTHON names a Python that
+// has bsm's packages, `eval` among them.
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createServer } from "node:http";
@@ -55,13 +58,22 @@ const folders = { bsm: join(WEB, "built"), three: join(WEB, "node_modules/three"
 const server = createServer((request, response) => {
     const { pathname } = new URL(request.url, "http://localhost");
     const [, place, ...rest] = pathname.split("/");
-    if (pathname === "/") return response.writeHead(200, { "Content-Type": "text/html" }).end(`<!doctype html><script type="importmap">${MAP}</script><script type="module" src="/script.js"></script>`);
+    if (pathname === "/")
+        return response
+            .writeHead(200, { "Content-Type": "text/html" })
+            .end(
+                `<!doctype html><script type="importmap">${MAP}</script><script type="module" src="/script.js"></script>`,
+            );
     if (!folders[place] && pathname !== "/script.js") return response.writeHead(404).end();
     const content = pathname === "/script.js" ? SCRIPT : readFileSync(join(folders[place], ...rest));
     response.writeHead(200, { "Content-Type": TYPES[extname(pathname)] ?? "application/octet-stream" }).end(content);
 });
 await new Promise((ready) => server.listen(0, "127.0.0.1", ready));
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: FLAGS });
+const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    headless: true,
+    args: FLAGS,
+});
 const page = await browser.newPage();
 page.on("pageerror", (error) => console.error(error));
 /** Milliseconds of a processor that the longest task of the page's thread takes while `work` is done. */
@@ -69,26 +81,43 @@ async function longestTask(work) {
     await browser.startTracing(page, { categories: ["toplevel"] });
     await work();
     const { traceEvents } = JSON.parse((await browser.stopTracing()).toString());
-    const pages = new Set(traceEvents.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain").map(({ pid, tid }) => `${pid} ${tid}`));
-    const tasks = traceEvents.filter(({ name, ph, pid, tid }) => name.endsWith("RunTask") && ph === "X" && pages.has(`${pid} ${tid}`));
+    const pages = new Set(
+        traceEvents
+            .filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain")
+            .map(({ pid, tid }) => `${pid} ${tid}`),
+    );
+    const tasks = traceEvents.filter(
+        ({ name, ph, pid, tid }) => name.endsWith("RunTask") && ph === "X" && pages.has(`${pid} ${tid}`),
+    );
     if (tasks.length === 0) throw new Error("no task of the page was seen");
     return tasks.reduce((longest, { tdur = 0 }) => Math.max(longest, tdur / 1e3), 0);
 }
 /** Least times of all rounds, and the longest task. */
 const seen = {};
 for (let round = 0; round < ROUNDS; round++) {
-    for (const [way, kind, suffix] of [["Draco", "drc", ""], ["ours", "bsm", ""], ["ours, --quick", "bsm", "-quick"]]) {
+    for (const [way, kind, suffix] of [
+        ["Draco", "drc", ""],
+        ["ours", "bsm", ""],
+        ["ours, --quick", "bsm", "-quick"],
+    ]) {
         await page.goto(`http://127.0.0.1:${server.address().port}/`);
         await page.waitForFunction("window.ready");
         const [small, single, large] = ["c3d_spot", "nicolo", "dragon_437645"].map((name) => name + suffix);
         const found = await page.evaluate((given) => window.measure(...given), [kind, small, single]);
-        const [before, task] = [seen[way] ?? found, await longestTask(() => page.evaluate((given) => window.load(...given).then(() => {}), [kind, large]))];
-        seen[way] = Object.fromEntries(Object.entries(found).map(([name, time]) => [name, Math.min(time, before[name])]));
+        const [before, task] = [
+            seen[way] ?? found,
+            await longestTask(() => page.evaluate((given) => window.load(...given).then(() => {}), [kind, large])),
+        ];
+        seen[way] = Object.fromEntries(
+            Object.entries(found).map(([name, time]) => [name, Math.min(time, before[name])]),
+        );
         seen[way].task = Math.max(task, before.task ?? 0);
     }
 }
 for (const [way, { atOnce, inTurn, single, task }] of Object.entries(seen)) {
-    console.log(`${way}: c3d_spot ${LOADS} times at once ${atOnce.toFixed(0)} ms, in turn ${inTurn.toFixed(0)} ms; nicolo, warm ${single.toFixed(0)} ms; dragon_437645 takes ${task.toFixed(1)} ms of the page's thread at most`);
+    console.log(
+        `${way}: c3d_spot ${LOADS} times at once ${atOnce.toFixed(0)} ms, in turn ${inTurn.toFixed(0)} ms; nicolo, warm ${single.toFixed(0)} ms; dragon_437645 takes ${task.toFixed(1)} ms of the page's thread at most`,
+    );
 }
 await browser.close();
 server.close();

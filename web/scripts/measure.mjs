@@ -1,4 +1,5 @@
-// `node --expose-gc measure.mjs FOLDER`: decode 0.bsm, 1.bsm, ... there, or the stream that is named, and print for each, as a line of JSON, what it took:
+// `node --expose-gc measure.mjs FOLDER`: decode 0.bsm, 1.bsm, ... there, or the stream that is named, and print for
+// each, as a line of JSON, what it took:
 // bytes of memory beyond what there was before, and seconds of CPU; `escaped` is what is no error of a stream.
 import { readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -21,7 +22,7 @@ for (const path of paths) {
     try {
         decoder.receiveData(data);
         decoder.receiveEof();
-        for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) {
+        for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM;) {
             if (event.type === "header") size = event.header.vertices;
             if (event.type === "frame") result.shown += size;
             result.memory = Math.max(result.memory, process.memoryUsage.rss() - before);

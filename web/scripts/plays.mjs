@@ -1,7 +1,11 @@
-// How a sequence plays in pages, through `BSMLoader.loadSequence`, in Chromium and Firefox: `npm run plays -- STREAM.bsm ...`.
-// Of each: milliseconds until the first picture and until all frames are there, and between frames that come one after the other; the longest
-// stretch in which the page's thread did nothing else, in Chromium also the most that a task took of a processor; pictures that the page missed
-// while it played, and frames that were never shown. Nothing is drawn: without graphics hardware that would take the processors.
+// How a sequence plays in pages, through `BSMLoader.loadSequence`, in Chromium and Firefox: `npm run plays --
+// STREAM.bsm ...`.
+// Of each: milliseconds until the first picture and until all frames are there, and between frames that come one after
+// the other; the longest
+// stretch in which the page's thread did nothing else, in Chromium also the most that a task took of a processor;
+// pictures that the page missed
+// while it played, and frames that were never shown. Nothing is drawn: without graphics hardware that would take the
+// processors.
 import { readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { basename, extname, join } from "node:path";
@@ -16,7 +20,10 @@ const TYPES = { ".js": "text/javascript", ".wasm": "application/wasm" };
 const MAP = '{"imports":{"three":"/three/build/three.module.js"}}';
 const SCRIPT = `
 import { BSMLoader, BSMSequence } from "/bsm/three.js";
-/** The longest time between two tasks of the page's thread that are to come every few milliseconds; it begins anew where it is asked. */
+/**
+ * The longest time between two tasks of the page's thread that are to come every few milliseconds; it begins anew where
+ * it is asked.
+ */
 const idle = new MessageChannel();
 let [before, blocked] = [performance.now(), 0];
 idle.port1.onmessage = () => {
@@ -74,8 +81,14 @@ async function longestTask(page, work) {
     await page.tracing.start({ categories: ["toplevel"] });
     const found = await work();
     const { traceEvents } = JSON.parse(new TextDecoder().decode(await page.tracing.stop()));
-    const pages = new Set(traceEvents.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain").map(({ pid, tid }) => `${pid} ${tid}`));
-    const tasks = traceEvents.filter(({ name, ph, pid, tid }) => name.endsWith("RunTask") && ph === "X" && pages.has(`${pid} ${tid}`));
+    const pages = new Set(
+        traceEvents
+            .filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain")
+            .map(({ pid, tid }) => `${pid} ${tid}`),
+    );
+    const tasks = traceEvents.filter(
+        ({ name, ph, pid, tid }) => name.endsWith("RunTask") && ph === "X" && pages.has(`${pid} ${tid}`),
+    );
     return { ...found, task: tasks.reduce((longest, { tdur = 0 }) => Math.max(longest, tdur / 1e3), 0) };
 }
 
@@ -84,8 +97,18 @@ const folders = { bsm: join(WEB, "built"), three: join(WEB, "node_modules/three"
 const server = createServer((request, response) => {
     const { pathname } = new URL(request.url, "http://localhost");
     const [, place, ...rest] = pathname.split("/");
-    if (pathname === "/") return response.writeHead(200, { "Content-Type": "text/html" }).end(`<!doctype html><script type="importmap">${MAP}</script><script type="module" src="/script.js"></script>`);
-    const content = pathname === "/script.js" ? SCRIPT : place === "file" ? streams[rest[0]] : folders[place] && readFileSync(join(folders[place], ...rest));
+    if (pathname === "/")
+        return response
+            .writeHead(200, { "Content-Type": "text/html" })
+            .end(
+                `<!doctype html><script type="importmap">${MAP}</script><script type="module" src="/script.js"></script>`,
+            );
+    const content =
+        pathname === "/script.js"
+            ? SCRIPT
+            : place === "file"
+              ? streams[rest[0]]
+              : folders[place] && readFileSync(join(folders[place], ...rest));
     if (!content) return response.writeHead(404).end();
     response.writeHead(200, { "Content-Type": TYPES[extname(pathname)] ?? "application/octet-stream" }).end(content);
 });

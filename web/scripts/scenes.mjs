@@ -1,5 +1,7 @@
-// What `bsm glb` makes of scenes: bytes, also over those of gltf-transform with Draco, and how alike pictures by GLTFLoader are to those of the
-// scene as it was: `npm run scenes -- FILE...`. PYTHON names a Python that has bsm, GLTF_TRANSFORM the command of @gltf-transform/cli (without
+// What `bsm glb` makes of scenes: bytes, also over those of gltf-transform with Draco, and how alike pictures by
+// GLTFLoader are to those of the
+// scene as it was: `npm run scenes -- FILE...`. PYTHON names a Python that has bsm, GLTF_TRANSFORM the command of
+// @gltf-transform/cli (without
 // it nothing is compared); IMAGES a rule for images (webp:85), which both follow; OPTIONS more options of `bsm glb`.
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
@@ -23,7 +25,9 @@ renderer.setSize(${SIZE}, ${SIZE});
 document.body.append(renderer.domElement);
 const draco = new DRACOLoader().setDecoderPath("/three/examples/jsm/libs/draco/");
 const loader = new GLTFLoader().setDRACOLoader(draco).register((parser) => new GLTFBSMExtension(parser));
-/** Gray values of a scene, half a second into its first animation and with its morph targets half there, from two sides. */
+/**
+ * Gray values of a scene, half a second into its first animation and with its morph targets half there, from two sides.
+ */
 let box;
 window.pictures = async (address, first) => {
     const gltf = await loader.loadAsync(address);
@@ -55,7 +59,10 @@ window.pictures = async (address, first) => {
 window.ready = true;
 `;
 
-/** Structural similarity of two pictures of gray values (Wang and others 2004), over squares of 8 by 8 that overlap by half, where either shows something. */
+/**
+ * Structural similarity of two pictures of gray values (Wang and others 2004), over squares of 8 by 8 that overlap by
+ * half, where either shows something.
+ */
 function similarity(one, other) {
     const [c1, c2] = [(0.01 * 255) ** 2, (0.03 * 255) ** 2];
     let [sum, count] = [0, 0];
@@ -80,7 +87,10 @@ function similarity(one, other) {
 function imagesOf(path) {
     const data = readFileSync(path);
     const tree = JSON.parse(data.toString("utf8", 20, 20 + data.readUInt32LE(12)));
-    return (tree.images ?? []).reduce((sum, { bufferView }) => sum + (tree.bufferViews[bufferView]?.byteLength ?? 0), 0);
+    return (tree.images ?? []).reduce(
+        (sum, { bufferView }) => sum + (tree.bufferViews[bufferView]?.byteLength ?? 0),
+        0,
+    );
 }
 
 const { PYTHON = "python3", GLTF_TRANSFORM, IMAGES, OPTIONS } = process.env;
@@ -90,7 +100,21 @@ const transform = (...args) => execFileSync(GLTF_TRANSFORM, args, { stdio: ["ign
 function prepare(path) {
     const name = basename(path, extname(path));
     const [ours, theirs] = [join(folder, `${name}.bsm.glb`), join(folder, `${name}.draco.glb`)];
-    execFileSync(PYTHON, ["-m", "bsm", "glb", path, "-o", ours, "--force", ...(IMAGES ? ["--images", IMAGES] : []), ...(OPTIONS?.split(" ") ?? [])], { stdio: ["ignore", "ignore", "ignore"] });
+    execFileSync(
+        PYTHON,
+        [
+            "-m",
+            "bsm",
+            "glb",
+            path,
+            "-o",
+            ours,
+            "--force",
+            ...(IMAGES ? ["--images", IMAGES] : []),
+            ...(OPTIONS?.split(" ") ?? []),
+        ],
+        { stdio: ["ignore", "ignore", "ignore"] },
+    );
     if (!GLTF_TRANSFORM) return { name, ours };
     let from = path;
     if (IMAGES) {
@@ -104,17 +128,31 @@ function prepare(path) {
 const folders = { bsm: join(WEB, "built"), three: join(WEB, "node_modules/three"), made: folder };
 const server = createServer((request, response) => {
     const [, place, ...rest] = decodeURIComponent(new URL(request.url, "http://localhost").pathname).split("/");
-    if (!place) return response.writeHead(200, { "Content-Type": "text/html" }).end(`<!doctype html><script type="importmap">${MAP}</script><script type="module" src="/script.js"></script>`);
+    if (!place)
+        return response
+            .writeHead(200, { "Content-Type": "text/html" })
+            .end(
+                `<!doctype html><script type="importmap">${MAP}</script><script type="module" src="/script.js"></script>`,
+            );
     try {
         const content = place === "script.js" ? SCRIPT : readFileSync(join(folders[place], ...rest));
-        response.writeHead(200, { "Content-Type": TYPES[extname(place === "script.js" ? place : rest.at(-1))] ?? "application/octet-stream" }).end(content);
+        response
+            .writeHead(200, {
+                "Content-Type":
+                    TYPES[extname(place === "script.js" ? place : rest.at(-1))] ?? "application/octet-stream",
+            })
+            .end(content);
     } catch {
         response.writeHead(404).end();
     }
 });
 await new Promise((ready) => server.listen(0, "127.0.0.1", ready));
 const address = `http://127.0.0.1:${server.address().port}`;
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: FLAGS });
+const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    headless: true,
+    args: FLAGS,
+});
 const page = await browser.newPage();
 const [wholes, bares] = [[], []];
 let worst = 1;
@@ -133,7 +171,12 @@ for (const file of process.argv.slice(2)) {
     await page.waitForFunction("window.ready");
     const pictures = async (at, first) => page.evaluate(([where, is]) => window.pictures(where, is), [at, first]);
     const before = await pictures(`/given/${basename(path)}`, true);
-    const alike = async (made) => Math.min(...(await pictures(`/made/${basename(made)}`, false)).map((picture, side) => similarity(picture, before[side])));
+    const alike = async (made) =>
+        Math.min(
+            ...(await pictures(`/made/${basename(made)}`, false)).map((picture, side) =>
+                similarity(picture, before[side]),
+            ),
+        );
     const look = await alike(ours);
     worst = Math.min(worst, look);
     const [size, images] = [statSync(ours).size, imagesOf(ours)];
@@ -147,7 +190,9 @@ for (const file of process.argv.slice(2)) {
     console.log(line);
 }
 const mean = (ratios) => Math.exp(ratios.reduce((sum, ratio) => sum + Math.log(ratio), 0) / ratios.length).toFixed(3);
-console.log(`least SSIM ${worst.toFixed(4)}${wholes.length ? `; bytes over Draco's, geometric means: ${mean(wholes)}, without images ${mean(bares)}` : ""}`);
+console.log(
+    `least SSIM ${worst.toFixed(4)}${wholes.length ? `; bytes over Draco's, geometric means: ${mean(wholes)}, without images ${mean(bares)}` : ""}`,
+);
 await browser.close();
 server.close();
 rmSync(folder, { recursive: true, force: true });

@@ -6,8 +6,22 @@ import { WEB } from "./kernels.mjs";
 
 const folder = join(WEB, "types");
 rmSync(folder, { recursive: true, force: true });
-const options = ["--noEmit", "false", "--declaration", "--emitDeclarationOnly", "--stripInternal", "--rootDir", "src", "--outDir", "types"];
-execFileSync(process.execPath, [join(WEB, "node_modules/typescript/bin/tsc"), ...options, "-p", "tsconfig.types.json"], { cwd: WEB, stdio: "inherit" });
+const options = [
+    "--noEmit",
+    "false",
+    "--declaration",
+    "--emitDeclarationOnly",
+    "--stripInternal",
+    "--rootDir",
+    "src",
+    "--outDir",
+    "types",
+];
+execFileSync(
+    process.execPath,
+    [join(WEB, "node_modules/typescript/bin/tsc"), ...options, "-p", "tsconfig.types.json"],
+    { cwd: WEB, stdio: "inherit" },
+);
 for (const name of readdirSync(folder).filter((name) => name.endsWith(".d.ts"))) {
     const path = join(folder, name);
     // Node's own resolution wants whole names of files.

@@ -1,4 +1,5 @@
-// Loads of a sequence in the page of `bsm view`, while other programs use all processors: `npm run views -- STREAM.bsm LOADS`.
+// Loads of a sequence in the page of `bsm view`, while other programs use all processors: `npm run views -- STREAM.bsm
+// LOADS`.
 // For each browser and size, how many pictures of a frame differ from that of a load at rest: a hole would. Without a
 // screen, Firefox draws in a virtual one: xvfb-run -a npm run views -- STREAM.bsm 100.
 import { execFileSync, spawn } from "node:child_process";
@@ -11,10 +12,19 @@ import puppeteer from "puppeteer-core";
 import { WEB } from "./kernels.mjs";
 
 const BROWSERS = {
-    chrome: { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] },
-    firefox: { executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr", extraPrefsFirefox: { "webgl.force-enabled": true } },
+    chrome: {
+        executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+        args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    },
+    firefox: {
+        executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr",
+        extraPrefsFirefox: { "webgl.force-enabled": true },
+    },
 };
-const SIZES = [[390, 780], [1280, 800]];
+const SIZES = [
+    [390, 780],
+    [1280, 800],
+];
 const PATIENCE = 120_000;
 const FRAME = "7";
 const QUIET = 300;
@@ -27,17 +37,23 @@ function busy() {
     return () => programs.forEach((program) => program.kill("SIGKILL"));
 }
 
-/** The picture of a frame, once all have come and edges are smooth, for which the canvas has more pixels than the page. */
+/**
+ * The picture of a frame, once all have come and edges are smooth, for which the canvas has more pixels than the page.
+ */
 async function pictureOf(page, url) {
     await page.goto(url);
     await page.waitForSelector("body[data-state=complete][data-frame]", { timeout: PATIENCE }); // the sequence has begun
-    await page.evaluate((frame, style) => {
-        document.head.append(Object.assign(document.createElement("style"), { textContent: style }));
-        const [play, slider] = [document.querySelector("[name=play]"), document.querySelector("[name=frame]")];
-        if (play.textContent === "Pause") play.click();
-        slider.value = frame;
-        slider.dispatchEvent(new Event("input"));
-    }, FRAME, BARE);
+    await page.evaluate(
+        (frame, style) => {
+            document.head.append(Object.assign(document.createElement("style"), { textContent: style }));
+            const [play, slider] = [document.querySelector("[name=play]"), document.querySelector("[name=frame]")];
+            if (play.textContent === "Pause") play.click();
+            slider.value = frame;
+            slider.dispatchEvent(new Event("input"));
+        },
+        FRAME,
+        BARE,
+    );
     await page.waitForSelector(`body[data-frame="${FRAME}"]`, { timeout: PATIENCE });
     await delay(QUIET);
     await page.waitForFunction(() => document.querySelector("canvas").width > innerWidth, { timeout: PATIENCE });
@@ -47,7 +63,11 @@ async function pictureOf(page, url) {
 const [stream, loads = "100"] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), "bsm-views-"));
 const saved = join(folder, "page.html");
-execFileSync(process.env.PYTHON ?? "python3", ["-m", "bsm", "view", resolve(process.env.INIT_CWD ?? ".", stream), "-q", "--save", saved], { cwd: join(WEB, "..") });
+execFileSync(
+    process.env.PYTHON ?? "python3",
+    ["-m", "bsm", "view", resolve(process.env.INIT_CWD ?? ".", stream), "-q", "--save", saved],
+    { cwd: join(WEB, "..") },
+);
 const url = pathToFileURL(saved).href;
 let wrong = 0;
 for (const [name, options] of Object.entries(BROWSERS)) {

@@ -1,6 +1,13 @@
 /** Scenes of glTF whose geometry is BSM streams (EXT_bsm_compression), in Babylon.js: an extension of its loader. */
 import type { AbstractMesh } from "@babylonjs/core/Meshes/abstractMesh.js";
-import type { GLTFLoader, IBufferView, IGLTFLoaderExtension, IMesh, IMeshPrimitive, INode } from "@babylonjs/loaders/glTF/2.0/index.js";
+import type {
+    GLTFLoader,
+    IBufferView,
+    IGLTFLoaderExtension,
+    IMesh,
+    IMeshPrimitive,
+    INode,
+} from "@babylonjs/loaders/glTF/2.0/index.js";
 import { registerGLTFExtension } from "@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js";
 import type { Picture, PictureOf, Shape } from "./index";
 import { Playback } from "./playback";
@@ -25,7 +32,10 @@ class Played {
     private before = 0;
     private readonly worn = new Map<AbstractMesh, Shape>();
 
-    constructor(rate: number, private readonly decoding: StreamDecoding) {
+    constructor(
+        rate: number,
+        private readonly decoding: StreamDecoding,
+    ) {
         this.playback = new Playback(rate, true);
     }
 
@@ -63,8 +73,14 @@ class Played {
         for (const [mesh, before] of this.worn) {
             if (before !== shape) mesh.setIndices(shape.index, shape.positions.length / 3);
             mesh.setVerticesData("position", picture.positions, true);
-            mesh.setVerticesData("normal", Float32Array.from(picture.normals, (normal) => normal / MOST_NORMAL), true);
-            for (const { name, values } of before === shape ? picture.attributes : [...shape.attributes, ...picture.attributes]) {
+            mesh.setVerticesData(
+                "normal",
+                Float32Array.from(picture.normals, (normal) => normal / MOST_NORMAL),
+                true,
+            );
+            for (const { name, values } of before === shape
+                ? picture.attributes
+                : [...shape.attributes, ...picture.attributes]) {
                 if (KINDS[name]) mesh.setVerticesData(KINDS[name], Float32Array.from(values), true);
             }
             this.worn.set(mesh, shape);
@@ -80,7 +96,10 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
     /** By the places of their streams. */
     private readonly sequences = new Map<string, Played>();
 
-    constructor(private readonly loader: GLTFLoader, private readonly pool: Pool) {}
+    constructor(
+        private readonly loader: GLTFLoader,
+        private readonly pool: Pool,
+    ) {}
 
     dispose(): void {
         this.streams = new CodedViews();
@@ -88,21 +107,37 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
     }
 
     /** A mesh, which plays if it says so; null: it does not. */
-    _loadMeshPrimitiveAsync(context: string, name: string, node: INode, mesh: IMesh, primitive: IMeshPrimitive, assign: (mesh: AbstractMesh) => void): Promise<AbstractMesh> | null {
+    _loadMeshPrimitiveAsync(
+        context: string,
+        name: string,
+        node: INode,
+        mesh: IMesh,
+        primitive: IMeshPrimitive,
+        assign: (mesh: AbstractMesh) => void,
+    ): Promise<AbstractMesh> | null {
         const moving = mesh.extensions?.[EXTENSION] as { stream: number } | undefined;
         const loading = moving && this.loader._loadMeshPrimitiveAsync(context, name, node, mesh, primitive, assign);
-        return loading?.then((made) => (this.sequences.get(placeOf(this.viewOf(context, moving!.stream)))?.playOn(made), made)) ?? null;
+        return (
+            loading?.then(
+                (made) => (this.sequences.get(placeOf(this.viewOf(context, moving!.stream)))?.playOn(made), made),
+            ) ?? null
+        );
     }
 
     /** The bytes of a bufferView that a stream holds; null: it is a plain one. */
-    loadBufferViewAsync(context: string, { extensions, byteLength, index }: IBufferView): Promise<ArrayBufferView> | null {
+    loadBufferViewAsync(
+        context: string,
+        { extensions, byteLength, index }: IBufferView,
+    ): Promise<ArrayBufferView> | null {
         const coded = extensions?.[EXTENSION] as Coded | undefined;
         return coded ? this.decoded(context, coded, byteLength, index) : null;
     }
 
     private async decoded(context: string, coded: Coded, byteLength: number, index: number): Promise<ArrayBufferView> {
         const from = this.viewOf(context, coded.stream);
-        return new Uint8Array(await this.streams.made(from, coded, byteLength, index, () => this.decode(context, from)));
+        return new Uint8Array(
+            await this.streams.made(from, coded, byteLength, index, () => this.decode(context, from)),
+        );
     }
 
     private viewOf(context: string, stream: number): IBufferView {
@@ -112,7 +147,10 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
     }
 
     private async decode(context: string, view: IBufferView): Promise<Shape> {
-        const { buffer, byteOffset, byteLength } = await this.loader.loadBufferViewAsync(`/bufferViews/${view.index}`, view);
+        const { buffer, byteOffset, byteLength } = await this.loader.loadBufferViewAsync(
+            `/bufferViews/${view.index}`,
+            view,
+        );
         let [shape, sequence, rate]: [Shape?, Played?, unknown?] = [];
         const take = (picture: Picture, decoding: StreamDecoding): void => {
             if (picture.type === "whole") ({ shape } = picture);
@@ -125,7 +163,13 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
             if (sequence) sequence.complete = true;
             if (error) this.loader.log(`${context}: ${error}`);
         };
-        return this.streams.decode(this.pool, new Uint8Array(buffer.slice(byteOffset, byteOffset + byteLength) as ArrayBuffer), `${context}: bufferView ${view.index}`, take, end);
+        return this.streams.decode(
+            this.pool,
+            new Uint8Array(buffer.slice(byteOffset, byteOffset + byteLength) as ArrayBuffer),
+            `${context}: bufferView ${view.index}`,
+            take,
+            end,
+        );
     }
 }
 

@@ -3,8 +3,14 @@
 /** What a step makes of each number in eight times. */
 const table = (begin: (byte: number) => number, step: (value: number) => number): Uint32Array =>
     Uint32Array.from({ length: 256 }, (_, byte) => [1, 2, 3, 4, 5, 6, 7, 8].reduce(step, begin(byte)));
-const CRC32 = table((byte) => byte, (value) => (value >>> 1) ^ (value & 1 && 0xedb88320));
-const CRC16 = table((byte) => byte << 8, (value) => ((value << 1) ^ (value & 0x8000 && 0x1021)) & 0xffff);
+const CRC32 = table(
+    (byte) => byte,
+    (value) => (value >>> 1) ^ (value & 1 && 0xedb88320),
+);
+const CRC16 = table(
+    (byte) => byte << 8,
+    (value) => ((value << 1) ^ (value & 0x8000 && 0x1021)) & 0xffff,
+);
 
 /** CRC-32 of zlib; `before` is that of the bytes in front. */
 export function crc32(data: Uint8Array, before = 0): number {

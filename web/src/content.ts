@@ -1,5 +1,16 @@
 /** What three.js draws, as a mesh for the encoder: `web/README.md` has a table of what is kept, refused and noted. */
-import { BufferAttribute, Color, Matrix3, type BufferGeometry, type InterleavedBufferAttribute, type Material, type Matrix4, type Mesh, type Object3D, type Texture } from "three";
+import {
+    BufferAttribute,
+    Color,
+    Matrix3,
+    type BufferGeometry,
+    type InterleavedBufferAttribute,
+    type Material,
+    type Matrix4,
+    type Mesh,
+    type Object3D,
+    type Texture,
+} from "three";
 import { kindOf, refuse, wholes, type AttributeInput, type MeshInput } from "./encoding";
 import { linearOf } from "./parting";
 
@@ -11,41 +22,88 @@ interface Part {
     matrix?: Matrix4;
 }
 
-const REFUSED = { isSkinnedMesh: "skins", isInstancedMesh: "instances", isBatchedMesh: "batches", isLOD: "levels of detail" };
+const REFUSED = {
+    isSkinnedMesh: "skins",
+    isInstancedMesh: "instances",
+    isBatchedMesh: "batches",
+    isLOD: "levels of detail",
+};
 const GETTERS = ["getX", "getY", "getZ", "getW"] as const;
 const LABELS = ["part", "material"];
 const ROUNDED = 0.51 / 65535; // by which colors of glTF are off
 type ThreeAttribute = BufferAttribute | InterleavedBufferAttribute;
 
-const semanticOf = (name: string): AttributeInput["semantic"] => (name === "normal" ? "normal" : name.startsWith("color") ? "color" : /^(uv|texcoord)\d*$/.test(name) ? "texcoord" : "generic");
+const semanticOf = (name: string): AttributeInput["semantic"] =>
+    name === "normal"
+        ? "normal"
+        : name.startsWith("color")
+          ? "color"
+          : /^(uv|texcoord)\d*$/.test(name)
+            ? "texcoord"
+            : "generic";
 
 /** One mesh of all that a geometry, or an object with all that is in it, draws; `note` receives what is left out. */
-export function meshOf(given: BufferGeometry | Object3D, note: (text: string) => void = console.warn): MeshInput & { positions: Values; faces: Uint32Array } {
+export function meshOf(
+    given: BufferGeometry | Object3D,
+    note: (text: string) => void = console.warn,
+): MeshInput & { positions: Values; faces: Uint32Array } {
     const left = new Set<string>();
     const parts = "attributes" in given ? [{ geometry: given, name: "" }] : partsOf(given, left);
-    if (parts.length === 0) refuse(`there are no meshes with triangles${left.size > 0 ? `, only ${[...left].join(", ")}` : ""}`);
+    if (parts.length === 0)
+        refuse(`there are no meshes with triangles${left.size > 0 ? `, only ${[...left].join(", ")}` : ""}`);
     const materials = [...new Set(parts.flatMap(({ material = [] }: Part) => material))];
     const faces = parts.map((part) => facesOf(part, materials));
-    if (faces.every(({ labels }) => labels.length === 0)) refuse("no face is drawn: see the index, the draw range, the groups and the materials");
+    if (faces.every(({ labels }) => labels.length === 0))
+        refuse("no face is drawn: see the index, the draw range, the groups and the materials");
     const places = parts.map((part) => valuesOf(part, "position") as Values);
     const starts = places.map((_, i) => places.slice(0, i).reduce((sum, { length }) => sum + length / 3, 0));
-    const names = [...new Set(parts.flatMap(({ geometry }) => Object.keys(geometry.attributes)))].filter((name) => name !== "position");
+    const names = [...new Set(parts.flatMap(({ geometry }) => Object.keys(geometry.attributes)))].filter(
+        (name) => name !== "position",
+    );
     const attributes = names.flatMap((name): AttributeInput[] => {
         const own = parts.flatMap(({ geometry }) => geometry.attributes[name] ?? []);
         const components = own[0].itemSize;
-        const isTaken = ({ array, itemSize }: ThreeAttribute): boolean => kindOf(array ?? []) !== undefined && itemSize === components && itemSize <= GETTERS.length;
-        if (own.length < parts.length || LABELS.includes(name) || !own.every(isTaken)) return left.add(name), [];
+        const isTaken = ({ array, itemSize }: ThreeAttribute): boolean =>
+            kindOf(array ?? []) !== undefined && itemSize === components && itemSize <= GETTERS.length;
+        if (own.length < parts.length || LABELS.includes(name) || !own.every(isTaken)) return (left.add(name), []);
         const values = joined(parts.map((part) => valuesOf(part, name)));
-        if (semanticOf(name) !== "color" || components < 3) return [{ name, components, semantic: semanticOf(name), values }];
+        if (semanticOf(name) !== "color" || components < 3)
+            return [{ name, components, semantic: semanticOf(name), values }];
         const isBright = Array.prototype.some.call(values, (share: number) => share < 0 || share > 1); // more than a screen shows
-        return [isBright ? { name, components, values } : { name, components, semantic: "color", values: filed(values, components, own.every(({ array }) => array.BYTES_PER_ELEMENT === 1)) }];
+        return [
+            isBright
+                ? { name, components, values }
+                : {
+                      name,
+                      components,
+                      semantic: "color",
+                      values: filed(
+                          values,
+                          components,
+                          own.every(({ array }) => array.BYTES_PER_ELEMENT === 1),
+                      ),
+                  },
+        ];
     });
-    const labels = LABELS.map((name, which) => ({ name, components: 1, domain: "face" as const, values: Uint16Array.from(faces.flatMap(({ labels }, part) => (which ? labels : labels.map(() => part)))) }));
-    const metadata: MeshInput["metadata"] = Object.fromEntries(materials.length > 1 ? materials.map(({ name }, i) => [`material.${i}.name`, name]) : []);
+    const labels = LABELS.map((name, which) => ({
+        name,
+        components: 1,
+        domain: "face" as const,
+        values: Uint16Array.from(faces.flatMap(({ labels }, part) => (which ? labels : labels.map(() => part)))),
+    }));
+    const metadata: MeshInput["metadata"] = Object.fromEntries(
+        materials.length > 1 ? materials.map(({ name }, i) => [`material.${i}.name`, name]) : [],
+    );
     if (parts.length > 1) metadata["part.names"] = parts.map(({ name }) => name.replaceAll("\n", " ")).join("\n");
-    if (materials.some((material) => Object.values(material).some((value: Texture | undefined) => value?.isTexture))) left.add("textures");
+    if (materials.some((material) => Object.values(material).some((value: Texture | undefined) => value?.isTexture)))
+        left.add("textures");
     if (left.size > 0) note(`Left out: ${[...left].join(", ")}.`);
-    return { positions: joined(places), faces: joined(faces.map(({ corners }, i) => corners.map((vertex) => vertex + starts[i]))), attributes: [...attributes, ...labels.filter(({ values }) => values.some(Boolean))], metadata };
+    return {
+        positions: joined(places),
+        faces: joined(faces.map(({ corners }, i) => corners.map((vertex) => vertex + starts[i]))),
+        attributes: [...attributes, ...labels.filter(({ values }) => values.some(Boolean))],
+        metadata,
+    };
 }
 
 /** The meshes of an object and of all in it that can be seen. */
@@ -54,8 +112,9 @@ function partsOf(object: Object3D, left: Set<string>): Part[] {
     while (top.parent) top = top.parent;
     top.updateMatrixWorld(true);
     const found = (each: Object3D): Part[] => {
-        if (!each.visible) return left.add("what is invisible"), [];
-        for (const [kind, what] of Object.entries(REFUSED)) if (kind in each) refuse(`no stream has ${what}: encode the geometry, or a mesh of what is drawn`);
+        if (!each.visible) return (left.add("what is invisible"), []);
+        for (const [kind, what] of Object.entries(REFUSED))
+            if (kind in each) refuse(`no stream has ${what}: encode the geometry, or a mesh of what is drawn`);
         const { geometry, isMesh, material, name, matrixWorld: matrix } = each as Mesh;
         if (geometry && !isMesh) left.add("points and lines");
         return [...(isMesh ? [{ geometry, name, material, matrix }] : []), ...each.children.flatMap(found)];
@@ -64,29 +123,67 @@ function partsOf(object: Object3D, left: Set<string>): Part[] {
 }
 
 /** The drawn faces, and the material of each: with several, what is in no group is not drawn. */
-function facesOf({ geometry, material, matrix }: Part, materials: Material[]): { corners: Uint32Array; labels: number[] } {
-    const { index, attributes, groups, drawRange: { start, count }, morphAttributes } = geometry;
+function facesOf(
+    { geometry, material, matrix }: Part,
+    materials: Material[],
+): { corners: Uint32Array; labels: number[] } {
+    const {
+        index,
+        attributes,
+        groups,
+        drawRange: { start, count },
+        morphAttributes,
+    } = geometry;
     if (!(attributes.position as ThreeAttribute)?.array) refuse("the geometry has no positions");
-    if (Object.values(morphAttributes).some(({ length }) => length > 0)) refuse("no stream has morph targets: delete geometry.morphAttributes, or encode each shape");
-    if ("instanceCount" in geometry || Object.values(attributes).some((each) => "isInstancedBufferAttribute" in each)) refuse("no stream has instances: encode the geometry without them");
-    const all = index ? wholes(index.array, "an index") : Uint32Array.from({ length: attributes.position.count }, (_, i) => i);
+    if (Object.values(morphAttributes).some(({ length }) => length > 0))
+        refuse("no stream has morph targets: delete geometry.morphAttributes, or encode each shape");
+    if ("instanceCount" in geometry || Object.values(attributes).some((each) => "isInstancedBufferAttribute" in each))
+        refuse("no stream has instances: encode the geometry without them");
+    const all = index
+        ? wholes(index.array, "an index")
+        : Uint32Array.from({ length: attributes.position.count }, (_, i) => i);
     const own = material && [material].flat();
-    const numberOf = (number = 0): number => (!own ? number : own[number]?.visible ? materials.indexOf(own[number]) : -1);
+    const numberOf = (number = 0): number =>
+        !own ? number : own[number]?.visible ? materials.indexOf(own[number]) : -1;
     const isGrouped = Array.isArray(material) && groups.length > 0;
     const labels = new Int32Array(all.length).fill(isGrouped ? -1 : numberOf());
-    if (isGrouped || !own) for (const group of groups) labels.fill(numberOf(group.materialIndex), group.start, group.start + group.count);
-    const firsts = Array.from({ length: Math.floor(Math.min(count, all.length - start) / 3) }, (_, i) => start + 3 * i).filter((first) => labels[first] >= 0);
+    if (isGrouped || !own)
+        for (const group of groups) labels.fill(numberOf(group.materialIndex), group.start, group.start + group.count);
+    const firsts = Array.from(
+        { length: Math.floor(Math.min(count, all.length - start) / 3) },
+        (_, i) => start + 3 * i,
+    ).filter((first) => labels[first] >= 0);
     const isMirrored = matrix !== undefined && matrix.determinant() < 0;
-    const corners = Uint32Array.from({ length: 3 * firsts.length }, (_, i) => all[firsts[Math.floor(i / 3)] + (isMirrored ? 2 - (i % 3) : i % 3)]);
+    const corners = Uint32Array.from(
+        { length: 3 * firsts.length },
+        (_, i) => all[firsts[Math.floor(i / 3)] + (isMirrored ? 2 - (i % 3) : i % 3)],
+    );
     return { corners, labels: firsts.map((first) => labels[first]) };
 }
 
-/** Linear colors, which three.js draws, in sRGB, which streams have: bytes where these are the same to 16 bits, or else floats, or words if linear bytes were given. */
-function filed(linear: ArrayLike<number>, components: number, ofBytes: boolean): Uint8Array | Uint16Array | Float32Array {
+/**
+ * Linear colors, which three.js draws, in sRGB, which streams have: bytes where these are the same to 16 bits, or else
+ * floats, or words if linear bytes were given.
+ */
+function filed(
+    linear: ArrayLike<number>,
+    components: number,
+    ofBytes: boolean,
+): Uint8Array | Uint16Array | Float32Array {
     const [color, shares] = [new Color(), Float32Array.from(linear)];
-    for (let i = 0; i < shares.length; i += components) color.fromArray(linear as number[], i).convertLinearToSRGB().toArray(shares, i);
+    for (let i = 0; i < shares.length; i += components)
+        color
+            .fromArray(linear as number[], i)
+            .convertLinearToSRGB()
+            .toArray(shares, i);
     const bytes = Uint8Array.from(shares, (share) => Math.round(255 * share));
-    return bytes.every((byte, i) => Math.abs((i % components < 3 ? linearOf(byte / 255) : byte / 255) - linear[i]) <= ROUNDED) ? bytes : ofBytes ? Uint16Array.from(shares, (share) => Math.round(65535 * share)) : shares;
+    return bytes.every(
+        (byte, i) => Math.abs((i % components < 3 ? linearOf(byte / 255) : byte / 255) - linear[i]) <= ROUNDED,
+    )
+        ? bytes
+        : ofBytes
+          ? Uint16Array.from(shares, (share) => Math.round(65535 * share))
+          : shares;
 }
 
 /** The numbers that an attribute stands for, where its object is. */
@@ -95,21 +192,41 @@ function valuesOf({ geometry, matrix }: Part, name: string): ArrayLike<number> {
     const { array, itemSize, normalized } = attribute;
     const isPlace = name === "position";
     const [count, width] = [geometry.attributes.position.count, isPlace ? 3 : itemSize];
-    const isMoved = matrix !== undefined && (isPlace || /^(normal|tangent)$/.test(name)) && !matrix.equals(matrix.clone().identity());
-    const isPlain = !("data" in attribute || "isFloat16BufferAttribute" in attribute) && !normalized && kindOf(array) !== undefined;
-    if (isPlain && !isMoved && width === itemSize && (!isPlace || /^float/.test(kindOf(array)!))) return array.subarray(0, width * count);
-    const read = (i: number): number => (i % width < itemSize ? attribute[GETTERS[i % width]](Math.floor(i / width)) : 0);
-    const moved = new BufferAttribute(Float64Array.from({ length: width * Math.min(count, attribute.count) }, (_, i) => read(i)), width);
-    if (!isMoved) return isPlace && (kindOf(array) === "float64" || !normalized) ? moved.array : Float32Array.from(moved.array);
+    const isMoved =
+        matrix !== undefined &&
+        (isPlace || /^(normal|tangent)$/.test(name)) &&
+        !matrix.equals(matrix.clone().identity());
+    const isPlain =
+        !("data" in attribute || "isFloat16BufferAttribute" in attribute) && !normalized && kindOf(array) !== undefined;
+    if (isPlain && !isMoved && width === itemSize && (!isPlace || /^float/.test(kindOf(array)!)))
+        return array.subarray(0, width * count);
+    const read = (i: number): number =>
+        i % width < itemSize ? attribute[GETTERS[i % width]](Math.floor(i / width)) : 0;
+    const moved = new BufferAttribute(
+        Float64Array.from({ length: width * Math.min(count, attribute.count) }, (_, i) => read(i)),
+        width,
+    );
+    if (!isMoved)
+        return isPlace && (kindOf(array) === "float64" || !normalized) ? moved.array : Float32Array.from(moved.array);
     if (isPlace) return moved.applyMatrix4(matrix).array; // a matrix may place it where single precision is coarse
-    return Float32Array.from((name === "normal" ? moved.applyNormalMatrix(new Matrix3().getNormalMatrix(matrix)) : moved.transformDirection(matrix)).array);
+    return Float32Array.from(
+        (name === "normal"
+            ? moved.applyNormalMatrix(new Matrix3().getNormalMatrix(matrix))
+            : moved.transformDirection(matrix)
+        ).array,
+    );
 }
 
 /** Arrays one behind the other, in the kind of all or as floats. */
 function joined<Kind extends ArrayLike<number>>(arrays: readonly Kind[]): Kind {
     if (arrays.length === 1) return arrays[0];
     const kinds = new Set(arrays.map(kindOf));
-    const Type = kinds.size === 1 ? (arrays[0].constructor as Float32ArrayConstructor) : kinds.has("float64") ? Float64Array : Float32Array;
+    const Type =
+        kinds.size === 1
+            ? (arrays[0].constructor as Float32ArrayConstructor)
+            : kinds.has("float64")
+              ? Float64Array
+              : Float32Array;
     const all = new Type(arrays.reduce((sum, { length }) => sum + length, 0));
     arrays.reduce((at, array) => (all.set(array, at), at + array.length), 0);
     return all as unknown as Kind;

@@ -1,6 +1,22 @@
 /** A stream to a mesh, block by block, while it arrives. */
 import type { Attribute } from "./attributes";
-import { ATTRIBUTE, AWAITED, BLOCK, CONNECTIVITY, END, Engine, FAILED, FRAME, HEADER, LOSS, METADATA, NEED, OVER, REFINEMENT, type RawEvent } from "./engine";
+import {
+    ATTRIBUTE,
+    AWAITED,
+    BLOCK,
+    CONNECTIVITY,
+    END,
+    Engine,
+    FAILED,
+    FRAME,
+    HEADER,
+    LOSS,
+    METADATA,
+    NEED,
+    OVER,
+    REFINEMENT,
+    type RawEvent,
+} from "./engine";
 import { BsmError, errorLike } from "./errors";
 import type { Event, Mesh, Wishes } from "./events";
 import type { Header } from "./header";
@@ -30,7 +46,11 @@ export class Decoder {
     private readonly shared = new Map<number, SharedBlock>();
     private awaited?: number;
 
-    constructor(kernels: Kernels, limits: Partial<Limits> = {}, private readonly wishes: Wishes = {}) {
+    constructor(
+        kernels: Kernels,
+        limits: Partial<Limits> = {},
+        private readonly wishes: Wishes = {},
+    ) {
         this.engine = new Engine(kernels, limits, wishes.tolerant ?? false);
     }
 
@@ -64,7 +84,9 @@ export class Decoder {
         if (this.error) throw this.error;
         try {
             for (;;) {
-                const event = this.queue.shift() ?? (this.awaited === undefined ? this.heard(this.engine.next()) : this.received(this.awaited));
+                const event =
+                    this.queue.shift() ??
+                    (this.awaited === undefined ? this.heard(this.engine.next()) : this.received(this.awaited));
                 if (event) return event;
             }
         } catch (error) {
@@ -94,19 +116,30 @@ export class Decoder {
         }
         if (type === CONNECTIVITY) {
             const [faces, loose] = [engine.faces(raw), engine.loose()];
-            if (this.sameMesh) this.queue.push(...engine.attributes().map((attribute): Event => ({ type: "attribute", ...attribute })));
+            if (this.sameMesh)
+                this.queue.push(
+                    ...engine.attributes().map((attribute): Event => ({ type: "attribute", ...attribute })),
+                );
             return { type: "connectivity", faces, vertices, loose };
         }
-        if (!wishes.whole && (type === BLOCK || type === REFINEMENT)) return this.changed(type === BLOCK ? index : undefined);
+        if (!wishes.whole && (type === BLOCK || type === REFINEMENT))
+            return this.changed(type === BLOCK ? index : undefined);
         if (type === ATTRIBUTE) return { type: "attribute", ...engine.attribute(index)! };
-        if (type === FRAME) return { type: "frame", index, positions: engine.positions(vertices), attributes: engine.attributes(true) };
+        if (type === FRAME)
+            return { type: "frame", index, positions: engine.positions(vertices), attributes: engine.attributes(true) };
         if (type === LOSS) {
             const isOfFrames = this.header!.gopFrames > 0 && index >= 0;
-            return { type: "loss", block: isOfFrames || index < 0 ? undefined : index, ...(isOfFrames ? { frames: { first: index, count } } : {}), error: engine.error(true).described };
+            return {
+                type: "loss",
+                block: isOfFrames || index < 0 ? undefined : index,
+                ...(isOfFrames ? { frames: { first: index, count } } : {}),
+                error: engine.error(true).described,
+            };
         }
         if (type !== END) return undefined;
         const isMesh = this.header!.gopFrames === 0;
-        const losses = wishes.tolerant && isMesh ? engine.losses() : { missing: new Int32Array(0), degraded: new Int32Array(0) };
+        const losses =
+            wishes.tolerant && isMesh ? engine.losses() : { missing: new Int32Array(0), degraded: new Int32Array(0) };
         return { type: "end", ...losses, ...(wishes.whole && isMesh ? { positions: engine.positions(vertices) } : {}) };
     }
 
@@ -146,12 +179,17 @@ export function decode(kernels: Kernels, data: Uint8Array, limits: Partial<Limit
     try {
         decoder.receiveData(data);
         decoder.receiveEof();
-        for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) {
+        for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM;) {
             if (typeof event === "string" || first) continue;
             const { type: _, ...content } = event;
             if ("faces" in content) ({ faces } = content);
             if ("domain" in content) attributes.push(content);
-            if (event.type === "frame") first = { positions: event.positions, faces, attributes: attributes.map((old) => event.attributes.find(({ name }) => name === old.name) ?? old) };
+            if (event.type === "frame")
+                first = {
+                    positions: event.positions,
+                    faces,
+                    attributes: attributes.map((old) => event.attributes.find(({ name }) => name === old.name) ?? old),
+                };
             if (event.type === "end") first = { positions: event.positions ?? new Float64Array(0), faces, attributes };
         }
         return first!;

@@ -7,7 +7,9 @@ import { drawnFaces, numbersOf } from "./parting";
 
 export type { DrawnAttribute, Piece };
 
-/** A whole mesh as it is drawn: `vertices` says which vertex of the stream each drawn one is, if that is not the same. */
+/**
+ * A whole mesh as it is drawn: `vertices` says which vertex of the stream each drawn one is, if that is not the same.
+ */
 export interface Shape extends Omit<DrawnFaces, "own"> {
     positions: Float32Array;
     normals: Float32Array;
@@ -26,7 +28,15 @@ export type Picture =
      * Vertices that have moved or whose normals have, shape (k,), with what they are now, and the corners of faces that can
      * be drawn from now on. `origin`: the block that each came with, -1 if it is not there.
      */
-    | { type: "grown"; vertices: Int32Array; positions: Float32Array; normals: Float32Array; origin: Int32Array; index: Uint32Array; blocks: number }
+    | {
+          type: "grown";
+          vertices: Int32Array;
+          positions: Float32Array;
+          normals: Float32Array;
+          origin: Int32Array;
+          index: Uint32Array;
+          blocks: number;
+      }
     /** The whole mesh, or the first frame of a sequence; of a later run, that which the frames behind it have. */
     | { type: "whole"; shape: Shape; run: number }
     | { type: "frame"; index: number; positions: Float32Array; normals: Int16Array; attributes: DrawnAttribute[] }
@@ -49,7 +59,10 @@ export class Drawing {
     private origin: Int32Array = new Int32Array(0);
     /** How many corners of each face are not there. */
     private waiting = new Uint8Array(0);
-    private around: { starts: Int32Array; members: Int32Array } = { starts: new Int32Array(1), members: new Int32Array(0) };
+    private around: { starts: Int32Array; members: Int32Array } = {
+        starts: new Int32Array(1),
+        members: new Int32Array(0),
+    };
     /** Vertices that have moved, or lie at a face that has, since the last picture, and which these are. */
     private touched: number[] = [];
     private isTouched = new Uint8Array(0);
@@ -62,21 +75,34 @@ export class Drawing {
     private kept = 0;
     private run = 0;
 
-    constructor(private growing: boolean, limits: Partial<Limits>, private readonly show: Show) {
+    constructor(
+        private growing: boolean,
+        limits: Partial<Limits>,
+        private readonly show: Show,
+    ) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
     }
 
     accept(event: Event): void {
         switch (event.type) {
-            case "header": return event.header.run > 0 ? this.turn(event.header.run) : this.show(event);
-            case "connectivity": return this.begin(event);
+            case "header":
+                return event.header.run > 0 ? this.turn(event.header.run) : this.show(event);
+            case "connectivity":
+                return this.begin(event);
             case "block":
-            case "refinement": return this.grow(event);
+            case "refinement":
+                return this.grow(event);
             case "attribute":
                 this.carried.push(event);
                 if (this.run > 0) return undefined;
-                return this.show({ type: "attribute", name: event.name, semantic: event.semantic, domain: event.domain });
-            case "frame": return this.addFrame(event);
+                return this.show({
+                    type: "attribute",
+                    name: event.name,
+                    semantic: event.semantic,
+                    domain: event.domain,
+                });
+            case "frame":
+                return this.addFrame(event);
             case "loss":
                 this.flush();
                 return this.show(event);
@@ -85,7 +111,8 @@ export class Drawing {
                 if (event.positions) this.take(event.positions);
                 if (!this.shape) this.finish();
                 return this.show({ ...event, positions: undefined });
-            default: return this.show(event);
+            default:
+                return this.show(event);
         }
     }
 
@@ -204,19 +231,37 @@ export class Drawing {
         const { faces, origin, points, carried } = this;
         const isThere = (corner: number): boolean => origin[faces[corner]] >= 0;
         const all = new Int32Array(faces.length / 3).map((_, face) => face);
-        const whole = origin.includes(-1) ? all.filter((face) => isThere(3 * face) && isThere(3 * face + 1) && isThere(3 * face + 2)) : all;
-        const { index, vertices, pieces, attributes, own } = carried.length > 0 ? drawnFaces(faces, whole, carried, points.length / 3) : this.bare(whole);
+        const whole = origin.includes(-1)
+            ? all.filter((face) => isThere(3 * face) && isThere(3 * face + 1) && isThere(3 * face + 2))
+            : all;
+        const { index, vertices, pieces, attributes, own } =
+            carried.length > 0 ? drawnFaces(faces, whole, carried, points.length / 3) : this.bare(whole);
         const positions = spread(points, 3, vertices);
         const normals = own ?? spread(normalsOf(faces, origin, points), 3, vertices);
-        const shape = (this.shape = { index, positions, normals, attributes, vertices, pieces, ...boundsOf(positions) });
-        const buffers = [index, positions, normals, ...attributes.map(({ values }) => values)].map(({ buffer }) => buffer);
+        const shape = (this.shape = {
+            index,
+            positions,
+            normals,
+            attributes,
+            vertices,
+            pieces,
+            ...boundsOf(positions),
+        });
+        const buffers = [index, positions, normals, ...attributes.map(({ values }) => values)].map(
+            ({ buffer }) => buffer,
+        );
         if (this.run > 0) this.kept += buffers.reduce((sum, { byteLength }) => sum + byteLength, 0);
         this.show({ type: "whole", shape, run: this.run }, buffers);
     }
 
     private bare(faces: Int32Array): DrawnFaces {
-        const index = 3 * faces.length === this.faces.length ? new Uint32Array(this.faces) : cornersOf(this.faces, faces);
-        return { index, pieces: index.length > 0 ? [{ part: 0, material: 0, start: 0, count: index.length }] : [], attributes: [] };
+        const index =
+            3 * faces.length === this.faces.length ? new Uint32Array(this.faces) : cornersOf(this.faces, faces);
+        return {
+            index,
+            pieces: index.length > 0 ? [{ part: 0, material: 0, start: 0, count: index.length }] : [],
+            attributes: [],
+        };
     }
 }
 
@@ -242,13 +287,18 @@ function toLength1(n: Float32Array, at: number): void {
 /** Normals of all vertices, shape (n, 3); faces that lack a corner count for nothing. */
 function normalsOf(faces: Int32Array, origin: Int32Array, points: ArrayLike<number>): Float32Array {
     const normals = new Float32Array(points.length);
-    for (let k = 0; k < faces.length; k += 3) if (origin[faces[k]] >= 0 && origin[faces[k + 1]] >= 0 && origin[faces[k + 2]] >= 0) addNormal(normals, points, faces, k);
+    for (let k = 0; k < faces.length; k += 3)
+        if (origin[faces[k]] >= 0 && origin[faces[k + 1]] >= 0 && origin[faces[k + 2]] >= 0)
+            addNormal(normals, points, faces, k);
     for (let i = 0; i < normals.length; i += 3) toLength1(normals, i);
     return normals;
 }
 
 function boundsOf(p: Float32Array): Pick<Shape, "center" | "radius" | "low" | "high"> {
-    const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+    const [low, high] = [
+        [Infinity, Infinity, Infinity],
+        [-Infinity, -Infinity, -Infinity],
+    ];
     for (let i = 0; i < p.length; i += 3) {
         for (let d = 0; d < 3; d++) {
             if (p[i + d] < low[d]) low[d] = p[i + d];
@@ -257,7 +307,8 @@ function boundsOf(p: Float32Array): Pick<Shape, "center" | "radius" | "low" | "h
     }
     const [x, y, z] = low.map((least, d) => (least + high[d]) / 2);
     let most = 0;
-    for (let i = 0; i < p.length; i += 3) most = Math.max(most, (p[i] - x) ** 2 + (p[i + 1] - y) ** 2 + (p[i + 2] - z) ** 2);
+    for (let i = 0; i < p.length; i += 3)
+        most = Math.max(most, (p[i] - x) ** 2 + (p[i + 1] - y) ** 2 + (p[i + 2] - z) ** 2);
     return { center: [x, y, z], radius: Math.sqrt(most), low, high };
 }
 

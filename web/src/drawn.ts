@@ -12,7 +12,9 @@ export interface DrawnAttribute {
     values: Float32Array;
 }
 
-/** Faces as they are drawn, which vertex each drawn one is if that is not the same, and what they carry; `own`: normals. */
+/**
+ * Faces as they are drawn, which vertex each drawn one is if that is not the same, and what they carry; `own`: normals.
+ */
 export interface DrawnFaces {
     index: Uint32Array;
     vertices?: Int32Array;
@@ -25,7 +27,8 @@ export interface DrawnFaces {
 export function spread(numbers: ArrayLike<number>, width: number, vertices?: Int32Array): Float32Array {
     if (!vertices) return new Float32Array(numbers);
     const rows = new Float32Array(width * vertices.length);
-    for (let i = 0; i < vertices.length; i++) for (let d = 0; d < width; d++) rows[width * i + d] = numbers[width * vertices[i] + d];
+    for (let i = 0; i < vertices.length; i++)
+        for (let d = 0; d < width; d++) rows[width * i + d] = numbers[width * vertices[i] + d];
     return rows;
 }
 

@@ -1,4 +1,6 @@
-/** One WebGL context for all players of a page, since a page may have few: it draws them in turn, and each keeps a copy. */
+/**
+ * One WebGL context for all players of a page, since a page may have few: it draws them in turn, and each keeps a copy.
+ */
 import { type Camera, type Scene, WebGLRenderer } from "three";
 
 /** A scene with a canvas of its own. */
@@ -65,7 +67,8 @@ function draw(renderer: WebGLRenderer, { canvas, scene, camera }: Pictured): voi
     const { width, height } = canvas;
     const { domElement } = renderer;
     // It only grows: another size makes another buffer.
-    if (width > domElement.width || height > domElement.height) renderer.setSize(Math.max(width, domElement.width), Math.max(height, domElement.height), false);
+    if (width > domElement.width || height > domElement.height)
+        renderer.setSize(Math.max(width, domElement.width), Math.max(height, domElement.height), false);
     renderer.setViewport(0, 0, width, height);
     renderer.setScissor(0, 0, width, height);
     renderer.render(scene, camera);

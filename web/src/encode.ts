@@ -4,7 +4,14 @@ import { EncodeError, encodeWith, type Answer, type EncodeOptions, type MeshInpu
 import { compiled, once } from "./fetched";
 import { started } from "./threads";
 
-export { EncodeError, encodeWith, type AttributeInput, type EncodeOptions, type MeshInput, type Quality } from "./encoding";
+export {
+    EncodeError,
+    encodeWith,
+    type AttributeInput,
+    type EncodeOptions,
+    type MeshInput,
+    type Quality,
+} from "./encoding";
 
 /** A `BufferGeometry` or an `Object3D` of three.js. */
 export type Drawn = { readonly isBufferGeometry: true } | { readonly isObject3D: true };
@@ -14,18 +21,24 @@ const load = once((url: string) => compiled(new URL(url)));
 /** The compiled encoder of meshes, or of sequences. */
 export function loadEncoder(wasm?: EncodeOptions["wasm"], moves = false): Promise<WebAssembly.Module> {
     if (wasm instanceof WebAssembly.Module) return Promise.resolve(wasm);
-    const given = wasm ?? (moves ? new URL("./encode-moving.wasm", import.meta.url) : new URL("./encode.wasm", import.meta.url));
+    const given =
+        wasm ?? (moves ? new URL("./encode-moving.wasm", import.meta.url) : new URL("./encode.wasm", import.meta.url));
     if (typeof given !== "string" && !(given instanceof URL)) return WebAssembly.compile(given);
     return load(new URL(given, globalThis.document?.baseURI ?? globalThis.location?.href).href);
 }
 
 /** A mesh as it is given, or as three.js draws it, which is there then. */
 async function wholeOf(input: MeshInput | Drawn, { onNote }: EncodeOptions): Promise<MeshInput> {
-    return "positions" in input ? input : (await import("./content")).meshOf(input as BufferGeometry | Object3D, onNote);
+    return "positions" in input
+        ? input
+        : (await import("./content")).meshOf(input as BufferGeometry | Object3D, onNote);
 }
 
 /** Encode in this thread, which waits for that. */
-export async function encodeHere(input: MeshInput | Drawn, options: EncodeOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
+export async function encodeHere(
+    input: MeshInput | Drawn,
+    options: EncodeOptions = {},
+): Promise<Uint8Array<ArrayBuffer>> {
     const mesh = await wholeOf(input, options);
     return encodeWith(await loadEncoder(options.wasm, Boolean(mesh.frames)), mesh, options);
 }
@@ -46,7 +59,10 @@ export async function encode(input: MeshInput | Drawn, options: EncodeOptions = 
         const bytes = await new Promise<Uint8Array<ArrayBuffer> | undefined>((resolve, reject) => {
             signal?.addEventListener("abort", () => reject(signal.reason as Error), { once: true });
             let begun = false;
-            worker.onerror = (event) => (begun ? reject(new Error(event.message || "the worker of the encoder was stopped")) : resolve(undefined));
+            worker.onerror = (event) =>
+                begun
+                    ? reject(new Error(event.message || "the worker of the encoder was stopped"))
+                    : resolve(undefined);
             worker.onmessage = ({ data }: MessageEvent<Answer>) => {
                 begun = true;
                 if ("part" in data) onProgress?.(data.part);
@@ -68,12 +84,18 @@ export async function encode(input: MeshInput | Drawn, options: EncodeOptions = 
  */
 export class BSMExporter {
     /** Encode, and call `onDone` with the stream, or `onError`. */
-    parse(object: Drawn, onDone: (bytes: Uint8Array<ArrayBuffer>) => void, onError?: (error: unknown) => void, options: EncodeOptions = {}): void {
+    parse(
+        object: Drawn,
+        onDone: (bytes: Uint8Array<ArrayBuffer>) => void,
+        onError?: (error: unknown) => void,
+        options: EncodeOptions = {},
+    ): void {
         this.parseAsync(object, options).then(onDone, onError ?? ((error: unknown) => console.error(error)));
     }
 
     async parseAsync(object: Drawn, options: EncodeOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
-        if (!("isBufferGeometry" in object || "isObject3D" in object)) throw new EncodeError("BSMExporter writes geometries, and objects with meshes", 2);
+        if (!("isBufferGeometry" in object || "isObject3D" in object))
+            throw new EncodeError("BSMExporter writes geometries, and objects with meshes", 2);
         return encode(object, options);
     }
 }

@@ -2,7 +2,8 @@
 import { DOMAINS, KINDS, SEMANTICS, type Attribute } from "./attributes";
 
 /** The quality of an attribute: "exact", a number of bits, the largest error, or of normals degrees or "recompute". */
-export type Quality = "exact" | "recompute" | { bits: number } | { bound: number } | { percent: number } | { degrees: number };
+export type Quality =
+    "exact" | "recompute" | { bits: number } | { bound: number } | { percent: number } | { degrees: number };
 
 /** Values of vertices, of corners or of faces, one after the other. */
 export interface AttributeInput {
@@ -55,20 +56,28 @@ export interface EncodeOptions {
 /** The mesh cannot be encoded so: the message says why. */
 export class EncodeError extends Error {
     override readonly name = "EncodeError";
-    constructor(message: string, readonly status: number) {
+    constructor(
+        message: string,
+        readonly status: number,
+    ) {
         super(message);
     }
 }
 
 /** The functions of `library/wasm/encode.c`. */
-type EncoderCalls = { memory: WebAssembly.Memory; make_priors?: () => void } & Record<`page_${string}` | `encode_${string}`, (...numbers: number[]) => number>;
+type EncoderCalls = { memory: WebAssembly.Memory; make_priors?: () => void } & Record<
+    `page_${string}` | `encode_${string}`,
+    (...numbers: number[]) => number
+>;
 
 /** As `bsmenc_quality` numbers them. */
 const WAYS = ["default", "exact", "bits", "bound", "percent", "degrees", "recompute"];
 
 /** The kind of an array, of any realm; undefined where C takes no such numbers. */
 export function kindOf(values: ArrayLike<number>): Attribute["kind"] | undefined {
-    return KINDS.find((kind) => (values as Float32Array)[Symbol.toStringTag]?.replace("Clamped", "").toLowerCase() === `${kind}array`);
+    return KINDS.find(
+        (kind) => (values as Float32Array)[Symbol.toStringTag]?.replace("Clamped", "").toLowerCase() === `${kind}array`,
+    );
 }
 
 export function refuse(what: string): never {
@@ -78,12 +87,17 @@ export function refuse(what: string): never {
 /** Numbers of vertices or values, none of them changed on its way to C. */
 export function wholes(values: ArrayLike<number>, what: string): Uint32Array {
     if (kindOf(values) === "uint32") return values as Uint32Array;
-    for (let i = 0; i < values.length; i++) if (values[i] !== values[i] >>> 0) refuse(`${what} are whole numbers from 0 on, not ${values[i]}`);
+    for (let i = 0; i < values.length; i++)
+        if (values[i] !== values[i] >>> 0) refuse(`${what} are whole numbers from 0 on, not ${values[i]}`);
     return Uint32Array.from(values);
 }
 
 /** Encode in this thread. */
-export function encodeWith(module: WebAssembly.Module, mesh: MeshInput, options: EncodeOptions = {}): Uint8Array<ArrayBuffer> {
+export function encodeWith(
+    module: WebAssembly.Module,
+    mesh: MeshInput,
+    options: EncodeOptions = {},
+): Uint8Array<ArrayBuffer> {
     let wrong: unknown;
     const progress = (part: number): number => {
         try {
@@ -110,30 +124,72 @@ export function encodeWith(module: WebAssembly.Module, mesh: MeshInput, options:
     const isSingle = kindOf(given) === "float32";
     const positions = isSingle || kindOf(given) === "float64" ? (given as Float64Array) : Float64Array.from(given);
     const vertices = positions.length / 3 / (frames || 1);
-    if (![vertices, frames, faces.length / 3].every(Number.isSafeInteger)) refuse("positions, in each frame, and faces are three numbers each");
+    if (![vertices, frames, faces.length / 3].every(Number.isSafeInteger))
+        refuse("positions, in each frame, and faces are three numbers each");
     if (frames && !calls.make_priors) refuse("sequences need encode-moving.wasm");
     calls.make_priors?.();
     const places = put(positions);
     calls.encode_begin(vertices, faces.length / 3, isSingle ? 0 : places, isSingle ? places : 0, put(faces), frames);
-    for (const { name, values: numbers, components, domain = "vertex", semantic = "generic", indices, quality } of attributes) {
+    for (const {
+        name,
+        values: numbers,
+        components,
+        domain = "vertex",
+        semantic = "generic",
+        indices,
+        quality,
+    } of attributes) {
         const values = (kindOf(numbers) ? numbers : Float32Array.from(numbers)) as Float32Array;
         const asked = options.qualities?.[name] ?? quality ?? "default";
         const [way, amount] = typeof asked === "string" ? [asked, 0] : Object.entries(asked)[0];
         const rows = indices && domain === "corner" ? indices.length : values.length / components;
-        if (rows !== { vertex: vertices, corner: faces.length, face: faces.length / 3 }[domain]) refuse(`the attribute ${name} has not ${components} numbers for each ${domain}`);
-        if (name.includes("\0") || !Number.isFinite(amount) || !WAYS.includes(way)) refuse(`the attribute ${name.replaceAll("\0", "?")} has a name or a quality that nothing can have`);
-        const row = [DOMAINS.indexOf(domain), SEMANTICS.indexOf(semantic), KINDS.indexOf(kindOf(values)!), components, values.length / components] as const;
-        if (!calls.encode_attribute(text(name), ...row, put(values), indices ? put(wholes(indices, `indices of ${name}`)) : 0, WAYS.indexOf(way), amount)) refuse("too many attributes");
+        if (rows !== { vertex: vertices, corner: faces.length, face: faces.length / 3 }[domain])
+            refuse(`the attribute ${name} has not ${components} numbers for each ${domain}`);
+        if (name.includes("\0") || !Number.isFinite(amount) || !WAYS.includes(way))
+            refuse(`the attribute ${name.replaceAll("\0", "?")} has a name or a quality that nothing can have`);
+        const row = [
+            DOMAINS.indexOf(domain),
+            SEMANTICS.indexOf(semantic),
+            KINDS.indexOf(kindOf(values)!),
+            components,
+            values.length / components,
+        ] as const;
+        if (
+            !calls.encode_attribute(
+                text(name),
+                ...row,
+                put(values),
+                indices ? put(wholes(indices, `indices of ${name}`)) : 0,
+                WAYS.indexOf(way),
+                amount,
+            )
+        )
+            refuse("too many attributes");
     }
     for (const [name, value] of Object.entries(metadata)) {
-        if (typeof value !== "number" && typeof value !== "string" && kindOf(value) !== "uint8") refuse(`the metadata ${name} are neither a number nor a string nor bytes`);
-        const bytes = typeof value === "number" ? new Uint8Array() : typeof value === "string" ? new TextEncoder().encode(value) : value;
-        const type = typeof value === "number" ? (Number.isSafeInteger(value) ? 1 : 2) : typeof value === "string" ? 3 : 4;
-        if (!calls.encode_metadata(text(name), type, typeof value === "number" ? value : 0, put(bytes), bytes.length)) refuse("too much metadata");
+        if (typeof value !== "number" && typeof value !== "string" && kindOf(value) !== "uint8")
+            refuse(`the metadata ${name} are neither a number nor a string nor bytes`);
+        const bytes =
+            typeof value === "number"
+                ? new Uint8Array()
+                : typeof value === "string"
+                  ? new TextEncoder().encode(value)
+                  : value;
+        const type =
+            typeof value === "number" ? (Number.isSafeInteger(value) ? 1 : 2) : typeof value === "string" ? 3 : 4;
+        if (!calls.encode_metadata(text(name), type, typeof value === "number" ? value : 0, put(bytes), bytes.length))
+            refuse("too much metadata");
     }
     const { bits = 0, cell = 0, origin = [0, 0, 0], lossless = false, keepOrder = false, quick = false } = options;
     if (![bits, cell, ...origin].every(Number.isFinite)) refuse("bits, cell and origin are finite numbers");
-    const status = calls.encode_run(lossless ? 2 : cell > 0 ? 1 : 0, bits, cell, ...origin, Number(keepOrder), Number(quick));
+    const status = calls.encode_run(
+        lossless ? 2 : cell > 0 ? 1 : 0,
+        bits,
+        cell,
+        ...origin,
+        Number(keepOrder),
+        Number(quick),
+    );
     if (wrong) throw wrong;
     options.signal?.throwIfAborted();
     if (status !== 0) {
@@ -148,13 +204,21 @@ export type Answer = { part: number } | { bytes: Uint8Array<ArrayBuffer> } | { m
 
 /** A worker, for one mesh. */
 export function serve(): void {
-    const scope = globalThis as unknown as { onmessage: unknown; postMessage(answer: Answer, transferred?: Transferable[]): void };
-    scope.onmessage = ({ data: { module, mesh, options } }: MessageEvent<{ module: WebAssembly.Module; mesh: MeshInput; options: EncodeOptions }>) => {
+    const scope = globalThis as unknown as {
+        onmessage: unknown;
+        postMessage(answer: Answer, transferred?: Transferable[]): void;
+    };
+    scope.onmessage = ({
+        data: { module, mesh, options },
+    }: MessageEvent<{ module: WebAssembly.Module; mesh: MeshInput; options: EncodeOptions }>) => {
         try {
             const bytes = encodeWith(module, mesh, { ...options, onProgress: (part) => scope.postMessage({ part }) });
             scope.postMessage({ bytes }, [bytes.buffer]);
         } catch (error) {
-            scope.postMessage({ message: error instanceof Error ? error.message : String(error), status: error instanceof EncodeError ? error.status : 1 });
+            scope.postMessage({
+                message: error instanceof Error ? error.message : String(error),
+                status: error instanceof EncodeError ? error.status : 1,
+            });
         }
     };
 }

@@ -9,9 +9,33 @@ import { errorName, Memory } from "./memory";
 import type { Share, SharedBlock } from "./share";
 
 /** Events in the order of library/bsmdec.h, and one of decoders with helpers. */
-export const [NEED, HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, OVER, FAILED, , AWAITED] = Array.from({ length: 14 }, (_, i) => i);
+export const [
+    NEED,
+    HEADER,
+    METADATA,
+    CONNECTIVITY,
+    BLOCK,
+    REFINEMENT,
+    ATTRIBUTE,
+    FRAME,
+    LOSS,
+    END,
+    OVER,
+    FAILED,
+    ,
+    AWAITED,
+] = Array.from({ length: 14 }, (_, i) => i);
 
-const VIEWS: ViewType<ArrayLike<number> & { slice(): ArrayLike<number> }>[] = [Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array, Float64Array];
+const VIEWS: ViewType<ArrayLike<number> & { slice(): ArrayLike<number> }>[] = [
+    Uint8Array,
+    Int8Array,
+    Uint16Array,
+    Int16Array,
+    Uint32Array,
+    Int32Array,
+    Float32Array,
+    Float64Array,
+];
 const [WHOLE, NUMBER, TEXT] = [1, 2, 3];
 const TEXTS = new TextDecoder("utf-8", { ignoreBOM: true });
 const LAST_ATTRIBUTE = 255;
@@ -27,7 +51,12 @@ interface ViewType<View> {
 export type RawEvent = Record<"type" | "index" | "count" | "vertices" | "faces", number>;
 
 export class Engine extends Memory {
-    constructor(kernels: Kernels, limits: Partial<Limits>, tolerant: boolean, { number, among }: Share = { number: 0, among: 0 }) {
+    constructor(
+        kernels: Kernels,
+        limits: Partial<Limits>,
+        tolerant: boolean,
+        { number, among }: Share = { number: 0, among: 0 },
+    ) {
         super(kernels, limits, "page_open", tolerant ? 1 : 0, number, among);
     }
 
@@ -59,8 +88,14 @@ export class Engine extends Memory {
     error(isLoss = false): BsmError {
         const at = this.call("page_error", isLoss ? 1 : 0);
         const view = new DataView(this.buffer, at);
-        const [offset, frame, block] = [8, 16, 24].map((place) => Number(view.getBigInt64(place, true))).map((value) => (value < 0 ? undefined : value));
-        return errorLike({ name: errorName(view.getInt32(0, true)), problem: this.text(at + 32), place: { offset, frame, block } });
+        const [offset, frame, block] = [8, 16, 24]
+            .map((place) => Number(view.getBigInt64(place, true)))
+            .map((value) => (value < 0 ? undefined : value));
+        return errorLike({
+            name: errorName(view.getInt32(0, true)),
+            problem: this.text(at + 32),
+            place: { offset, frame, block },
+        });
     }
 
     /** Bytes that were made use of, work that was charged, vertices that the faces so far have. */
@@ -70,11 +105,60 @@ export class Engine extends Memory {
 
     header(): Header {
         const at = this.call("page_header");
-        const [numbers, counts] = [this.doubles(at, MOST_KEY * MOST_LIST), this.ints(at + 8 * MOST_KEY * MOST_LIST, MOST_KEY)];
-        const lists = Array.from(counts, (count, key) => [...numbers.subarray(MOST_LIST * key, MOST_LIST * key + count)]);
-        const [, [vertices], [faces], [blocks], [blockSize], [coefficients], [keyInterval], [step], center, [scale], [smoothing]] = lists;
-        const [refinement, [attributes], grid, lattice, corner, [light], [frames = 0, gopFrames = 0], [run = 0, again], [bits = 0]] = lists.slice(11);
-        return { vertices, faces, blocks, blockSize, coefficients, keyInterval, step, center, scale, smoothing, refinement, attributes, grid, lattice, corner, light, frames, gopFrames, run, again, bits };
+        const [numbers, counts] = [
+            this.doubles(at, MOST_KEY * MOST_LIST),
+            this.ints(at + 8 * MOST_KEY * MOST_LIST, MOST_KEY),
+        ];
+        const lists = Array.from(counts, (count, key) => [
+            ...numbers.subarray(MOST_LIST * key, MOST_LIST * key + count),
+        ]);
+        const [
+            ,
+            [vertices],
+            [faces],
+            [blocks],
+            [blockSize],
+            [coefficients],
+            [keyInterval],
+            [step],
+            center,
+            [scale],
+            [smoothing],
+        ] = lists;
+        const [
+            refinement,
+            [attributes],
+            grid,
+            lattice,
+            corner,
+            [light],
+            [frames = 0, gopFrames = 0],
+            [run = 0, again],
+            [bits = 0],
+        ] = lists.slice(11);
+        return {
+            vertices,
+            faces,
+            blocks,
+            blockSize,
+            coefficients,
+            keyInterval,
+            step,
+            center,
+            scale,
+            smoothing,
+            refinement,
+            attributes,
+            grid,
+            lattice,
+            corner,
+            light,
+            frames,
+            gopFrames,
+            run,
+            again,
+            bits,
+        };
     }
 
     /** Entries of metadata, from number `from` on. */
@@ -88,7 +172,14 @@ export class Engine extends Memory {
                 const bytes = this.copied(view.getUint32(24, true), view.getUint32(28, true));
                 const whole = view.getBigInt64(8, true);
                 const integer = whole >= -(2n ** 31n) && whole < 2n ** 32n ? Number(whole) : whole;
-                const value = type === WHOLE ? integer : type === NUMBER ? view.getFloat64(16, true) : type === TEXT ? TEXTS.decode(bytes) : bytes;
+                const value =
+                    type === WHOLE
+                        ? integer
+                        : type === NUMBER
+                          ? view.getFloat64(16, true)
+                          : type === TEXT
+                            ? TEXTS.decode(bytes)
+                            : bytes;
                 entries.set(this.text(view.getUint32(0, true)), value);
             }
         });
@@ -132,21 +223,44 @@ export class Engine extends Memory {
             const [rows, corners] = [24, 32].map((place) => Number(view.getBigInt64(place, true)));
             if (moving && view.getInt32(40, true) === 0) return undefined;
             const name = this.text(view.getUint32(0, true));
-            const bytes = this.filled(Uint8Array, rows * components * VIEWS[kind].BYTES_PER_ELEMENT, "bsmdec_attribute_values", index);
-            const indices = corners > 0 ? this.filled(Int32Array, corners, "bsmdec_attribute_indices", index) : undefined;
+            const bytes = this.filled(
+                Uint8Array,
+                rows * components * VIEWS[kind].BYTES_PER_ELEMENT,
+                "bsmdec_attribute_values",
+                index,
+            );
+            const indices =
+                corners > 0 ? this.filled(Int32Array, corners, "bsmdec_attribute_indices", index) : undefined;
             const values = new VIEWS[kind](bytes.buffer, 0, rows * components);
-            return { name, semantic: SEMANTICS[semantic], domain: DOMAINS[domain], kind: KINDS[kind], components, values: Float64Array.from(values), indices };
+            return {
+                name,
+                semantic: SEMANTICS[semantic],
+                domain: DOMAINS[domain],
+                kind: KINDS[kind],
+                components,
+                values: Float64Array.from(values),
+                indices,
+            };
         });
     }
 
     /** All attributes that are whole, or those of them that move. */
     attributes(moving = false): Attribute[] {
-        return Array.from({ length: LAST_ATTRIBUTE + 1 }, (_, index) => this.attribute(index, moving)).filter((attribute) => attribute !== undefined);
+        return Array.from({ length: LAST_ATTRIBUTE + 1 }, (_, index) => this.attribute(index, moving)).filter(
+            (attribute) => attribute !== undefined,
+        );
     }
 
     handed(index: number): SharedBlock {
         const [count, vertices, positions, weights] = this.rows("page_handed");
-        return { index, block: { vertices: new Int32Array(this.buffer, vertices, count).slice(), positions: this.doubles(positions, 3 * count), weights: this.doubles(weights, count) } };
+        return {
+            index,
+            block: {
+                vertices: new Int32Array(this.buffer, vertices, count).slice(),
+                positions: this.doubles(positions, 3 * count),
+                weights: this.doubles(weights, count),
+            },
+        };
     }
 
     add({ index, block }: SharedBlock): void {

@@ -20,7 +20,10 @@ export class BsmError extends Error {
     override readonly name: string = "BsmError";
     readonly place: Place = {};
 
-    constructor(readonly problem: string, place: Place = {}) {
+    constructor(
+        readonly problem: string,
+        place: Place = {},
+    ) {
         super(problem);
         this.located(place);
     }

@@ -10,10 +10,17 @@ export function isPage(bytes: Uint8Array): boolean {
 /** The bytes at an address, of a file where files can be read. */
 async function bytesAt(url: URL): Promise<ArrayBuffer | Uint8Array<ArrayBuffer>> {
     const builtin = globalThis.process?.getBuiltinModule?.bind(globalThis.process);
-    if (url.protocol === "file:" && builtin) return new Uint8Array(await builtin("node:fs/promises").readFile(builtin("node:url").fileURLToPath(url.href)));
-    const without = (error: Error): Promise<never> => Promise.reject(url.protocol === "file:" && !globalThis.document ? new Error("Node 20.16 or later is needed", { cause: error }) : error);
+    if (url.protocol === "file:" && builtin)
+        return new Uint8Array(await builtin("node:fs/promises").readFile(builtin("node:url").fileURLToPath(url.href)));
+    const without = (error: Error): Promise<never> =>
+        Promise.reject(
+            url.protocol === "file:" && !globalThis.document
+                ? new Error("Node 20.16 or later is needed", { cause: error })
+                : error,
+        );
     const response = await fetch(url).catch(without);
-    if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}; the decoder's files must lie there`);
+    if (!response.ok)
+        throw new Error(`${url}: ${response.status} ${response.statusText}; the decoder's files must lie there`);
     return response.arrayBuffer();
 }
 

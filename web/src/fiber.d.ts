@@ -2,5 +2,9 @@
 declare module "@react-three/fiber" {
     import type { Loader } from "three";
 
-    export function useLoader<Result, Kind extends new () => Loader<Result>>(loader: Kind, url: string, extend?: (loader: InstanceType<Kind>) => void): Result;
+    export function useLoader<Result, Kind extends new () => Loader<Result>>(
+        loader: Kind,
+        url: string,
+        extend?: (loader: InstanceType<Kind>) => void,
+    ): Result;
 }

@@ -67,14 +67,19 @@ export class BSMGeometry extends BufferGeometry {
                 return;
             case "metadata":
                 return picture.entries.forEach((value, name) => this.metadata.set(name, value));
-            case "begun": return this.begin(picture);
-            case "grown": return this.grow(picture);
+            case "begun":
+                return this.begin(picture);
+            case "grown":
+                return this.grow(picture);
             case "whole":
                 this.coming = picture.shape;
                 return picture.run === 0 ? this.take(picture.shape) : undefined;
-            case "attribute": return void this.carried.push(picture);
-            case "frame": return this.keep(picture);
-            case "loss": return this.lose(picture);
+            case "attribute":
+                return void this.carried.push(picture);
+            case "frame":
+                return this.keep(picture);
+            case "loss":
+                return this.lose(picture);
         }
     }
 
@@ -84,9 +89,14 @@ export class BSMGeometry extends BufferGeometry {
         if (index === this.shown) return;
         this.shown = index;
         if (shape !== this.worn) this.take(shape);
-        if (!(this.getAttribute("normal").array instanceof Int16Array)) this.setAttribute("normal", new BufferAttribute(normals, 3, true));
+        if (!(this.getAttribute("normal").array instanceof Int16Array))
+            this.setAttribute("normal", new BufferAttribute(normals, 3, true));
         // Arrays change hands; nothing is copied but to the graphics.
-        for (const { name, values } of [{ name: "position", values: positions }, { name: "normal", values: normals }, ...attributes]) {
+        for (const { name, values } of [
+            { name: "position", values: positions },
+            { name: "normal", values: normals },
+            ...attributes,
+        ]) {
             const attribute = this.getAttribute(name) as BufferAttribute;
             attribute.array = values;
             attribute.needsUpdate = true;
@@ -158,10 +168,12 @@ export class BSMGeometry extends BufferGeometry {
         this.setIndex(new BufferAttribute(this.cornersOf(shape), 1));
         this.setAttribute("position", new BufferAttribute(positions, 3));
         this.setAttribute("normal", new BufferAttribute(normals, 3));
-        for (const { name, values, components } of attributes) this.setAttribute(name, new BufferAttribute(values, components));
+        for (const { name, values, components } of attributes)
+            this.setAttribute(name, new BufferAttribute(values, components));
         this.color = this.attributes.color as BufferAttribute | undefined;
         this.setDrawRange(0, index.length);
-        if (pieces.some(({ material }) => material > 0)) pieces.forEach(({ start, count, material }) => this.addGroup(start, count, material));
+        if (pieces.some(({ material }) => material > 0))
+            pieces.forEach(({ start, count, material }) => this.addGroup(start, count, material));
         this.boundingBox = new Box3(new Vector3(...low), new Vector3(...high));
         this.boundingSphere = new Sphere(new Vector3(...center), radius);
     }

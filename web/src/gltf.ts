@@ -18,20 +18,30 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
     /** Sequences by the places of their streams. */
     private readonly sequences = new Map<string, BSMSequence>();
 
-    constructor(private readonly parser: GLTFParser, private readonly pool: Pool = (shared ??= new Pool())) {}
+    constructor(
+        private readonly parser: GLTFParser,
+        private readonly pool: Pool = (shared ??= new Pool()),
+    ) {}
 
     /** The bytes of a bufferView that a stream holds; null: it is a plain one. */
     loadBufferView(index: number): Promise<ArrayBuffer> | null {
         const { extensions, byteLength } = this.parser.json.bufferViews[index];
         const coded = extensions?.[EXTENSION] as Coded | undefined;
-        return coded ? this.streams.made(this.parser.json.bufferViews[coded.stream], coded, byteLength, index, () => this.decode(coded.stream)) : null;
+        return coded
+            ? this.streams.made(this.parser.json.bufferViews[coded.stream], coded, byteLength, index, () =>
+                  this.decode(coded.stream),
+              )
+            : null;
     }
 
     /** Meshes that say so show the frames of their stream. */
     afterRoot(gltf: GLTF): null {
         for (const [object, place] of this.parser.associations) {
             const meshes = (place as typeof place | undefined)?.meshes; // of a texture that was not found there is none
-            const moving = meshes === undefined ? undefined : (this.parser.json.meshes[meshes].extensions?.[EXTENSION] as { stream: number } | undefined);
+            const moving =
+                meshes === undefined
+                    ? undefined
+                    : (this.parser.json.meshes[meshes].extensions?.[EXTENSION] as { stream: number } | undefined);
             const sequence = moving && this.sequences.get(placeOf(this.parser.json.bufferViews[moving.stream]));
             if (!sequence || !(object instanceof Mesh)) continue;
             object.geometry = sequence.geometry;
@@ -51,6 +61,8 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
             this.sequences.set(placeOf(this.parser.json.bufferViews[stream]), (sequence = new BSMSequence(geometry)));
             sequence.addEventListener("dispose", () => decoding.close());
         };
-        return this.streams.decode(this.pool, data, `bufferView ${stream}`, take, (error) => (error ? sequence?.fail(error) : sequence && (sequence.complete = true)));
+        return this.streams.decode(this.pool, data, `bufferView ${stream}`, take, (error) =>
+            error ? sequence?.fail(error) : sequence && (sequence.complete = true),
+        );
     }
 }

@@ -39,9 +39,11 @@ export class Grammar {
         if (packet.type === "grid") {
             const { first, count } = packet;
             if (first !== nextVertex) throw new CorruptError(`vertices begin at ${first}, expected ${nextVertex}`);
-            if (count === 0 || count > header!.vertices - first) throw new CorruptError(`${count} vertices from ${first} on`);
+            if (count === 0 || count > header!.vertices - first)
+                throw new CorruptError(`${count} vertices from ${first} on`);
             this.nextVertex = first + count;
         }
-        if (packet.type === "end" && nextVertex < header!.vertices) throw new CorruptError(`the positions end at vertex ${nextVertex} of ${header!.vertices}`);
+        if (packet.type === "end" && nextVertex < header!.vertices)
+            throw new CorruptError(`the positions end at vertex ${nextVertex} of ${header!.vertices}`);
     }
 }

@@ -24,7 +24,15 @@ class Light extends Memory {
     }
 
     begin({ vertices, faces, grid, lattice, corner, center, scale }: Header): void {
-        const numbers = [vertices, faces, scale, ...grid, ...center, ...(corner.length ? corner : [0, 0, 0]), ...(lattice.length ? lattice : [0, 0])];
+        const numbers = [
+            vertices,
+            faces,
+            scale,
+            ...grid,
+            ...center,
+            ...(corner.length ? corner : [0, 0, 0]),
+            ...(lattice.length ? lattice : [0, 0]),
+        ];
         this.lent(8 * numbers.length, (at) => {
             new Float64Array(this.buffer, at).set(numbers);
             this.call("light_begin", at);
@@ -125,9 +133,12 @@ export class GridDecoder {
                 this.header = packet.header;
                 this.light.begin(packet.header);
                 return void this.queue.push(packet);
-            case "metadata": return void this.queue.push(packet);
-            case "connectivity": return void (this.faces = this.light.faces(packet.data, this.header!.faces));
-            case "grid": return this.acceptGrid(packet.first, packet.count, packet.data);
+            case "metadata":
+                return void this.queue.push(packet);
+            case "connectivity":
+                return void (this.faces = this.light.faces(packet.data, this.header!.faces));
+            case "grid":
+                return this.acceptGrid(packet.first, packet.count, packet.data);
             case "end":
                 this.check(packet.positions);
                 this.queue.push({ type: "end", missing: new Int32Array(0), degraded: new Int32Array(0) });
@@ -138,18 +149,32 @@ export class GridDecoder {
     private check(expected?: number): void {
         if (expected === undefined) return;
         const places = this.positions.map((place) => place + 0); // -0 counts as 0
-        if (crc32(new Uint8Array(places.buffer)) !== expected) throw new CorruptError("the checksum of decoded positions is wrong: they are not those that the encoder saw");
+        if (crc32(new Uint8Array(places.buffer)) !== expected)
+            throw new CorruptError(
+                "the checksum of decoded positions is wrong: they are not those that the encoder saw",
+            );
     }
 
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
         if (first === 0) {
             const loose = { vertices: new Int32Array(0), positions: new Float64Array(0) };
-            this.queue.push({ type: "connectivity", faces: this.faces!.slice(), vertices: this.header!.vertices, loose });
+            this.queue.push({
+                type: "connectivity",
+                faces: this.faces!.slice(),
+                vertices: this.header!.vertices,
+                loose,
+            });
         }
         this.places = this.light.decode(data, first, count);
         const vertices = Int32Array.from({ length: count }, (_, i) => first + i);
         const positions = this.light.doubles(this.places + 24 * first, 3 * count);
-        this.queue.push({ type: "block", index: this.chunks++, vertices, positions, final: new Uint8Array(count).fill(1) });
+        this.queue.push({
+            type: "block",
+            index: this.chunks++,
+            vertices,
+            positions,
+            final: new Uint8Array(count).fill(1),
+        });
     }
 }
 

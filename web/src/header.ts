@@ -4,7 +4,21 @@ import { CorruptError, UnsupportedError } from "./errors";
 import { checkLimit, type Limits } from "./limits";
 import { parseMap, type Value } from "./maps";
 
-type Numbers = Record<"vertices" | "faces" | "blocks" | "blockSize" | "coefficients" | "keyInterval" | "step" | "scale" | "smoothing" | "attributes" | "light" | "bits", number>;
+type Numbers = Record<
+    | "vertices"
+    | "faces"
+    | "blocks"
+    | "blockSize"
+    | "coefficients"
+    | "keyInterval"
+    | "step"
+    | "scale"
+    | "smoothing"
+    | "attributes"
+    | "light"
+    | "bits",
+    number
+>;
 type Lists = Record<"center" | "refinement" | "grid" | "lattice" | "corner", number[]>;
 
 /** The names are those of the specification. */
@@ -27,22 +41,46 @@ export interface Field {
     lengths?: readonly [number, number];
 }
 
-type Fields = Pick<Numbers, "vertices" | "faces" | "scale" | "light"> & Pick<Lists, "center" | "grid" | "lattice" | "corner">;
+type Fields = Pick<Numbers, "vertices" | "faces" | "scale" | "light"> &
+    Pick<Lists, "center" | "grid" | "lattice" | "corner">;
 
 const FIELDS = Object.entries(GRID_FIELDS as unknown as Record<string, Field>);
 /** Bytes of a header (F 4.9). */
 const MOST_HEADER = 2 ** 16;
 const LIGHT = 1;
-const OTHERS = { blocks: 0, blockSize: 0, coefficients: 0, keyInterval: 0, step: 2 ** -8, smoothing: 0, attributes: 0, refinement: [], frames: 0, gopFrames: 0, run: 0, again: undefined, bits: 0 };
+const OTHERS = {
+    blocks: 0,
+    blockSize: 0,
+    coefficients: 0,
+    keyInterval: 0,
+    step: 2 ** -8,
+    smoothing: 0,
+    attributes: 0,
+    refinement: [],
+    frames: 0,
+    gopFrames: 0,
+    run: 0,
+    again: undefined,
+    bits: 0,
+};
 
 /** The header of a light grid in a payload; its counts are checked against `limits`. */
 export function parseHeader(payload: Uint8Array, limits: Limits): Header {
-    if (payload.length > MOST_HEADER) throw new CorruptError(`a header of ${payload.length} bytes, where ${MOST_HEADER} are legal`);
+    if (payload.length > MOST_HEADER)
+        throw new CorruptError(`a header of ${payload.length} bytes, where ${MOST_HEADER} are legal`);
     const entries = new Map(parseMap(payload).map(([key, value]) => [key.value, value]));
     const { light, grid } = GRID_FIELDS;
     const isOther = [...entries.keys()].some((key) => !FIELDS.some(([, field]) => field.key === key));
-    if (isOther || entries.get(light.key)?.value !== LIGHT || !entries.has(grid.key)) throw new UnsupportedError("this build decodes light grids alone, which this is not; small.js and bsm.js decode more");
-    const header = { ...OTHERS, ...(Object.fromEntries(FIELDS.map(([name, field]) => [name, contentOf(name, field, entries.get(field.key))])) as unknown as Fields) };
+    if (isOther || entries.get(light.key)?.value !== LIGHT || !entries.has(grid.key))
+        throw new UnsupportedError(
+            "this build decodes light grids alone, which this is not; small.js and bsm.js decode more",
+        );
+    const header = {
+        ...OTHERS,
+        ...(Object.fromEntries(
+            FIELDS.map(([name, field]) => [name, contentOf(name, field, entries.get(field.key))]),
+        ) as unknown as Fields),
+    };
     check(header);
     checkLimit(limits, "vertices", header.vertices);
     checkLimit(limits, "faces", header.faces);
@@ -57,10 +95,16 @@ function contentOf(name: string, field: Field, value?: Value): Field["default"] 
     }
     const items = field.lengths && value.type === "array" ? value.value : [value];
     const list = items.map((item) => (item.type === type ? Number(item.value) : NaN));
-    if (list.length < lengths[0] || list.length > lengths[1] || !list.every((number) => number >= low && number <= high) || (field.lengths && value.type !== "array")) {
+    if (
+        list.length < lengths[0] ||
+        list.length > lengths[1] ||
+        !list.every((number) => number >= low && number <= high) ||
+        (field.lengths && value.type !== "array")
+    ) {
         throw new CorruptError(`header field ${name} has another type, or is outside its legal range`);
     }
-    if (`${list}` === `${field.default}`) throw new CorruptError(`header field ${name} is stored with its default value`);
+    if (`${list}` === `${field.default}`)
+        throw new CorruptError(`header field ${name} is stored with its default value`);
     return field.lengths ? list : list[0];
 }
 

@@ -1,8 +1,25 @@
 import { LIMITS } from "./constants.json";
 import { LimitError } from "./errors";
 
-type Counts = "vertices" | "faces" | "blocks" | "blockSize" | "coefficients" | "frames" | "gopFrames" | "attributes" | "attributeValues";
-type Bytes = "frameBytes" | "metadataBytes" | "sequenceBytes" | "keptBytes" | "blockMemory" | "blockMemoryPerVertex" | "memoryPerByte" | "memory";
+type Counts =
+    | "vertices"
+    | "faces"
+    | "blocks"
+    | "blockSize"
+    | "coefficients"
+    | "frames"
+    | "gopFrames"
+    | "attributes"
+    | "attributeValues";
+type Bytes =
+    | "frameBytes"
+    | "metadataBytes"
+    | "sequenceBytes"
+    | "keptBytes"
+    | "blockMemory"
+    | "blockMemoryPerVertex"
+    | "memoryPerByte"
+    | "memory";
 type Work = "work" | "workPerVertex" | "workPerByte";
 
 /**
@@ -17,6 +34,8 @@ export const DEFAULT_LIMITS: Readonly<Limits> = { ...LIMITS, keptBytes: 2 ** 30,
 /** Throw `LimitError` if `value` exceeds the limit called `name`. */
 export function checkLimit(limits: Limits, name: keyof Limits, value: number): void {
     if (value > limits[name]) {
-        throw new LimitError(`${name} = ${value} is over the limit of ${limits[name]}; raise it if you trust the source`);
+        throw new LimitError(
+            `${name} = ${value} is over the limit of ${limits[name]}; raise it if you trust the source`,
+        );
     }
 }

@@ -36,7 +36,11 @@ function compareKeys(a: Key, b: Key): number {
 }
 
 /** Values, or lengths, of one, two or four bytes: the tag of the first, and the least value without a shorter form. */
-const LONG = [["int", 0xcc, 128], ["string", 0xd9, 32], ["binary", 0xc4, 0]] as const;
+const LONG = [
+    ["int", 0xcc, 128],
+    ["string", 0xd9, 32],
+    ["binary", 0xc4, 0],
+] as const;
 
 class MapReader {
     private readonly view: DataView;
@@ -75,16 +79,27 @@ class MapReader {
             if (tag < first || tag > first + 2) continue;
             const size = tag - first;
             const value = this.shortest(this.unsigned(1 << size), [least, 256, 65536][size]);
-            return type === "int" ? { type, value } : type === "string" ? this.text(value) : { type, value: this.bytes(value) };
+            return type === "int"
+                ? { type, value }
+                : type === "string"
+                  ? this.text(value)
+                  : { type, value: this.bytes(value) };
         }
         switch (tag) {
-            case 0xcf: return this.integer(this.view.getBigUint64(this.take(8)), (v) => v >= 1n << 32n);
-            case 0xd0: return this.integer(this.view.getInt8(this.take(1)), (v) => v < -32);
-            case 0xd1: return this.integer(this.view.getInt16(this.take(2)), (v) => v < -128);
-            case 0xd2: return this.integer(this.view.getInt32(this.take(4)), (v) => v < -32768);
-            case 0xd3: return this.integer(this.view.getBigInt64(this.take(8)), (v) => v < -(1n << 31n));
-            case 0xca: return { type: "float", value: this.finite(this.view.getFloat32(this.take(4))) };
-            case 0xcb: return this.double();
+            case 0xcf:
+                return this.integer(this.view.getBigUint64(this.take(8)), (v) => v >= 1n << 32n);
+            case 0xd0:
+                return this.integer(this.view.getInt8(this.take(1)), (v) => v < -32);
+            case 0xd1:
+                return this.integer(this.view.getInt16(this.take(2)), (v) => v < -128);
+            case 0xd2:
+                return this.integer(this.view.getInt32(this.take(4)), (v) => v < -32768);
+            case 0xd3:
+                return this.integer(this.view.getBigInt64(this.take(8)), (v) => v < -(1n << 31n));
+            case 0xca:
+                return { type: "float", value: this.finite(this.view.getFloat32(this.take(4))) };
+            case 0xcb:
+                return this.double();
         }
         throw new CorruptError(`a map may not hold a value that begins with byte ${tag} here`);
     }
@@ -98,7 +113,11 @@ class MapReader {
     private text(size: number): Text {
         const bytes = this.bytes(size);
         try {
-            return { type: "string", value: new TextDecoder("utf-8", { fatal: true, ignoreBOM: true }).decode(bytes), bytes };
+            return {
+                type: "string",
+                value: new TextDecoder("utf-8", { fatal: true, ignoreBOM: true }).decode(bytes),
+                bytes,
+            };
         } catch {
             throw new CorruptError("a string of a map is not UTF-8");
         }

@@ -1,5 +1,14 @@
 /** Materials and images that metadata speak of, in the words of glTF, for three.js. */
-import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshStandardMaterial, NoColorSpace, RepeatWrapping, SRGBColorSpace, Texture } from "three";
+import {
+    DoubleSide,
+    FrontSide,
+    LinearSRGBColorSpace,
+    MeshStandardMaterial,
+    NoColorSpace,
+    RepeatWrapping,
+    SRGBColorSpace,
+    Texture,
+} from "three";
 import type { BSMGeometry } from "./geometry";
 import type { Metadata } from "./index";
 
@@ -12,7 +21,11 @@ export function turnOf(metadata: Metadata): [number, number, number] {
 /** What metadata call a part or a material. */
 export function nameOf(metadata: Metadata, kind: "part" | "material", number: number): string {
     const names = metadata.get(`${kind}.names`);
-    return String(metadata.get(`${kind}.${number}.name`) ?? (typeof names === "string" ? names.split("\n")[number] : undefined) ?? `${kind} ${number}`);
+    return String(
+        metadata.get(`${kind}.${number}.name`) ??
+            (typeof names === "string" ? names.split("\n")[number] : undefined) ??
+            `${kind} ${number}`,
+    );
 }
 
 type Words = Map<string, string | number>;
@@ -44,8 +57,16 @@ async function imagesOf(metadata: Metadata): Promise<Map<number, Texture>> {
 /** An image as a texture whose first row is at the bottom; undefined if the browser does not know its format. */
 async function textureOf(data: Uint8Array): Promise<Texture | undefined> {
     try {
-        const image = await createImageBitmap(new Blob([data as Uint8Array<ArrayBuffer>]), { imageOrientation: "flipY", colorSpaceConversion: "none" });
-        return Object.assign(new Texture(image), { flipY: false, wrapS: RepeatWrapping, wrapT: RepeatWrapping, needsUpdate: true });
+        const image = await createImageBitmap(new Blob([data as Uint8Array<ArrayBuffer>]), {
+            imageOrientation: "flipY",
+            colorSpaceConversion: "none",
+        });
+        return Object.assign(new Texture(image), {
+            flipY: false,
+            wrapS: RepeatWrapping,
+            wrapT: RepeatWrapping,
+            needsUpdate: true,
+        });
     } catch {
         return undefined;
     }
@@ -54,21 +75,34 @@ async function textureOf(data: Uint8Array): Promise<Texture | undefined> {
 /** The materials of a geometry by their numbers; plain ones where it has none. */
 export async function materialsOf({ metadata, pieces, color }: BSMGeometry): Promise<MeshStandardMaterial[]> {
     const images = await imagesOf(metadata);
-    const words = Array.from({ length: 1 + Math.max(0, ...pieces.map(({ material }) => material)) }, (): Words => new Map());
+    const words = Array.from(
+        { length: 1 + Math.max(0, ...pieces.map(({ material }) => material)) },
+        (): Words => new Map(),
+    );
     for (const [key, value] of metadata) {
         const match = /^material\.(\d+)\.(.+)$/s.exec(key);
-        if (match && Number(match[1]) < words.length && (typeof value === "string" || typeof value === "number")) words[Number(match[1])].set(match[2], value);
+        if (match && Number(match[1]) < words.length && (typeof value === "string" || typeof value === "number"))
+            words[Number(match[1])].set(match[2], value);
     }
     return words.map((material) => Object.assign(materialOf(material, images), { vertexColors: color !== undefined }));
 }
 
 function numbersIn(value: string | number | undefined): number[] {
-    return String(value ?? "").split(/\s+/).filter(Boolean).map(Number);
+    return String(value ?? "")
+        .split(/\s+/)
+        .filter(Boolean)
+        .map(Number);
 }
 
 function materialOf(words: Words, images: Map<number, Texture>): MeshStandardMaterial {
-    const isMtl = !["baseColorFactor", "baseColorTexture", "metallicFactor", "roughnessFactor"].some((name) => words.has(name));
-    const material = new MeshStandardMaterial({ name: String(words.get("name") ?? ""), metalness: isMtl ? 0 : 1, roughness: 1 });
+    const isMtl = !["baseColorFactor", "baseColorTexture", "metallicFactor", "roughnessFactor"].some((name) =>
+        words.has(name),
+    );
+    const material = new MeshStandardMaterial({
+        name: String(words.get("name") ?? ""),
+        metalness: isMtl ? 0 : 1,
+        roughness: 1,
+    });
     const color = numbersIn(words.get("baseColorFactor") ?? words.get("Kd"));
     const isBlack = words.has("map_Kd") && !color.some(Boolean); // some programs write that beside an image
     const [r = 1, g = 1, b = 1, a = 1] = isBlack ? [] : color;
@@ -76,7 +110,12 @@ function materialOf(words: Words, images: Map<number, Texture>): MeshStandardMat
     material.color.setRGB(r, g, b, spaceOf("baseColorFactor"));
     const [red = 0, green = 0, blue = 0] = numbersIn(words.get("emissiveFactor") ?? words.get("Ke"));
     material.emissive.setRGB(red, green, blue, spaceOf("emissiveFactor"));
-    for (const [name, set] of [["metallicFactor", "metalness"], ["Pm", "metalness"], ["roughnessFactor", "roughness"], ["Pr", "roughness"]] as const) {
+    for (const [name, set] of [
+        ["metallicFactor", "metalness"],
+        ["Pm", "metalness"],
+        ["roughnessFactor", "roughness"],
+        ["Pr", "roughness"],
+    ] as const) {
         if (words.has(name)) material[set] = Number(words.get(name));
     }
     for (const [name, slots] of Object.entries(TEXTURES)) {

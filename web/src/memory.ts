@@ -3,7 +3,15 @@ import { LimitError } from "./errors";
 import type { Exports, Kernels } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
 
-const NAMES: Record<number, string> = { 3: "Format", 4: "Corrupt", 5: "Unsupported", 6: "Limit", 7: "Numeric", 8: "Limit", 12: "Truncated" };
+const NAMES: Record<number, string> = {
+    3: "Format",
+    4: "Corrupt",
+    5: "Unsupported",
+    6: "Limit",
+    7: "Numeric",
+    8: "Limit",
+    12: "Truncated",
+};
 
 /** The name of the error that a status of library/bsmdec.h means. */
 export function errorName(status: number): string {
@@ -16,13 +24,37 @@ export class Memory {
     protected readonly decoder: number;
 
     /** Call the first function, `begin`, with the limits and more. */
-    constructor(private readonly kernels: Kernels, limits: Partial<Limits>, begin: string, ...more: number[]) {
+    constructor(
+        private readonly kernels: Kernels,
+        limits: Partial<Limits>,
+        begin: string,
+        ...more: number[]
+    ) {
         this.exports = kernels.borrow();
         const l = { ...DEFAULT_LIMITS, ...limits };
         const bounds = [
-            l.vertices, l.faces, l.blocks, l.blockSize, l.coefficients, l.frames, l.gopFrames, l.frameBytes, l.metadataBytes, l.attributes,
-            l.attributeValues, l.sequenceBytes, l.memory, l.work, l.workPerVertex, l.workPerByte, Infinity, l.blockMemory,
-            l.blockMemoryPerVertex, l.memoryPerByte, Infinity, l.memory,
+            l.vertices,
+            l.faces,
+            l.blocks,
+            l.blockSize,
+            l.coefficients,
+            l.frames,
+            l.gopFrames,
+            l.frameBytes,
+            l.metadataBytes,
+            l.attributes,
+            l.attributeValues,
+            l.sequenceBytes,
+            l.memory,
+            l.work,
+            l.workPerVertex,
+            l.workPerByte,
+            Infinity,
+            l.blockMemory,
+            l.blockMemoryPerVertex,
+            l.memoryPerByte,
+            Infinity,
+            l.memory,
         ];
         this.decoder = this.lent(8 * bounds.length, (at) => {
             new Float64Array(this.buffer, at).set(bounds);

@@ -60,8 +60,14 @@ export const PARSERS: Parsers = {
         const frames = payload.varint();
         const crc = payload.take(4);
         const rest = payload.rest();
-        if (rest.length !== 0 && rest.length !== 4) throw new CorruptError("a payload has bytes too many, or lacks some");
-        return { type: "end", frames, crc: littleEndian(crc), positions: rest.length > 0 ? littleEndian(rest) : undefined };
+        if (rest.length !== 0 && rest.length !== 4)
+            throw new CorruptError("a payload has bytes too many, or lacks some");
+        return {
+            type: "end",
+            frames,
+            crc: littleEndian(crc),
+            positions: rest.length > 0 ? littleEndian(rest) : undefined,
+        };
     },
 };
 

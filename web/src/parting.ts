@@ -9,8 +9,16 @@ const BASES = { texcoord: "uv", color: "color", normal: "normal" } as const;
 
 /** Faces `whole`, which are sorted, of a mesh of `size` vertices, with all that it carries. */
 export function drawnFaces(faces: Int32Array, whole: Int32Array, carried: Attribute[], size: number): DrawnFaces {
-    const labels = [PART, MATERIAL].map((name) => carried.find((attribute) => attribute.name === name && attribute.domain === "face" && attribute.components === 1));
-    const [part, material] = labels.map((attribute) => (face: number): number => attribute?.values[face] ?? 0);
+    const labels = [PART, MATERIAL].map((name) =>
+        carried.find(
+            (attribute) => attribute.name === name && attribute.domain === "face" && attribute.components === 1,
+        ),
+    );
+    const [part, material] = labels.map(
+        (attribute) =>
+            (face: number): number =>
+                attribute?.values[face] ?? 0,
+    );
     if (labels.some(Boolean)) whole.sort((a, b) => part(a) - part(b) || material(a) - material(b) || a - b);
     const pieces: Piece[] = [];
     let last: Piece | undefined;
@@ -21,19 +29,33 @@ export function drawnFaces(faces: Int32Array, whole: Int32Array, carried: Attrib
     const drawn = carried.filter((attribute) => !labels.includes(attribute));
     const { index, vertices, rows } = parted(faces, whole, drawn, size);
     const normal = drawn.find(({ semantic, domain }) => semantic === "normal" && domain !== "face");
-    const used = new Map([["position", 1], ["normal", 1]]);
+    const used = new Map([
+        ["position", 1],
+        ["normal", 1],
+    ]);
     const attributes = drawn.flatMap((attribute, i) => {
         if (attribute === normal) return [];
         const base = attribute.semantic === "generic" ? attribute.name : BASES[attribute.semantic];
         const count = used.get(base) ?? 0;
         used.set(base, count + 1);
-        return [{ name: count ? `${base}${count}` : base, source: attribute.name, components: attribute.components, values: numbersOf(attribute, rows[i]) }];
+        return [
+            {
+                name: count ? `${base}${count}` : base,
+                source: attribute.name,
+                components: attribute.components,
+                values: numbersOf(attribute, rows[i]),
+            },
+        ];
     });
     return { index, vertices, pieces, attributes, own: normal && numbersOf(normal, rows[drawn.indexOf(normal)]) };
 }
 
 /** The value of each corner of some faces that an attribute has; of faces, equal ones have the number of the first. */
-function valuesOf({ domain, values, components, indices }: Attribute, faces: Int32Array, chosen: Int32Array): Int32Array {
+function valuesOf(
+    { domain, values, components, indices }: Attribute,
+    faces: Int32Array,
+    chosen: Int32Array,
+): Int32Array {
     const numbers = new Int32Array(3 * chosen.length);
     const first = new Map<string, number>();
     chosen.forEach((face, i) => {
@@ -45,7 +67,8 @@ function valuesOf({ domain, values, components, indices }: Attribute, faces: Int
         }
         for (let k = 0; k < 3; k++) {
             const corner = 3 * face + k;
-            numbers[3 * i + k] = domain === "face" ? ofFace : domain === "corner" ? indices?.[corner] ?? 0 : faces[corner];
+            numbers[3 * i + k] =
+                domain === "face" ? ofFace : domain === "corner" ? (indices?.[corner] ?? 0) : faces[corner];
         }
     });
     return numbers;
@@ -55,7 +78,12 @@ function valuesOf({ domain, values, components, indices }: Attribute, faces: Int
  * A vertex for each vertex of `faces` and values of the attributes that meet at a corner of the `chosen` ones: which drawn vertices these
  * have, which vertex each drawn one is, and which value of each attribute it has. Nothing is parted where nothing needs it.
  */
-function parted(faces: Int32Array, chosen: Int32Array, attributes: Attribute[], size: number): { index: Uint32Array; vertices?: Int32Array; rows: (Int32Array | undefined)[] } {
+function parted(
+    faces: Int32Array,
+    chosen: Int32Array,
+    attributes: Attribute[],
+    size: number,
+): { index: Uint32Array; vertices?: Int32Array; rows: (Int32Array | undefined)[] } {
     const index = cornersOf(faces, chosen);
     const parting = attributes.filter(({ domain }) => domain !== "vertex");
     if (parting.length === 0) return { index, rows: attributes.map(() => undefined) };
@@ -83,12 +111,15 @@ function parted(faces: Int32Array, chosen: Int32Array, attributes: Attribute[], 
 }
 
 /** The linear color of one in sRGB. */
-export const linearOf = (share: number): number => (share <= 0.04045 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4);
+export const linearOf = (share: number): number =>
+    share <= 0.04045 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
 
 /** Numbers of the drawn vertices; colors are linear, and their integers are shares of their range. */
 export function numbersOf({ name, semantic, kind, components, values }: Attribute, rows?: Int32Array): Float32Array {
     const numbers = spread(values, components, rows);
     const most = { uint8: 255, uint16: 65535 }[kind as string] ?? 1;
-    if (semantic === "color" && components > 2) for (let i = 0; i < numbers.length; i++) numbers[i] = name !== LINEAR && i % components < 3 ? linearOf(numbers[i] / most) : numbers[i] / most;
+    if (semantic === "color" && components > 2)
+        for (let i = 0; i < numbers.length; i++)
+            numbers[i] = name !== LINEAR && i % components < 3 ? linearOf(numbers[i] / most) : numbers[i] / most;
     return numbers;
 }

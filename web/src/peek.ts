@@ -13,17 +13,33 @@ export interface Need {
     vertices: number;
 }
 
-/** What the stream needs; undefined where the header is not there yet. What is wrong with a stream the decoder of everything says best. */
+/**
+ * What the stream needs; undefined where the header is not there yet. What is wrong with a stream the decoder of
+ * everything says best.
+ */
 export function needOf(data: Uint8Array): Need | undefined {
     try {
         const tag = parseVarint(data, PREAMBLE.length, data.length);
         if (!tag) return undefined;
         const end = tag.end + Math.floor(tag.value / 16);
-        if (end > data.length) return data[0] === PREAMBLE[0] && tag.value % 16 === 1 ? undefined : { build: "whole", vertices: 0 };
-        const header = new Map(parseMap(data.subarray(tag.end, end)).map(([key, value]) => [Number(key.value), value.type === "array" ? value.value[0] : value]));
+        if (end > data.length)
+            return data[0] === PREAMBLE[0] && tag.value % 16 === 1 ? undefined : { build: "whole", vertices: 0 };
+        const header = new Map(
+            parseMap(data.subarray(tag.end, end)).map(([key, value]) => [
+                Number(key.value),
+                value.type === "array" ? value.value[0] : value,
+            ]),
+        );
         const first = (key: number): number => Number(header.get(key)?.value ?? 0);
         const { vertices, paper, sequence, attributes, light, congruence } = HEADER_KEYS;
-        const build = first(paper) > 0 || header.has(attributes) ? "whole" : header.has(sequence) ? "moving" : first(light) === 1 && !header.has(congruence) ? "quick" : "small";
+        const build =
+            first(paper) > 0 || header.has(attributes)
+                ? "whole"
+                : header.has(sequence)
+                  ? "moving"
+                  : first(light) === 1 && !header.has(congruence)
+                    ? "quick"
+                    : "small";
         return { build, vertices: first(vertices) };
     } catch (error) {
         if (!(error instanceof BsmError)) throw error;

@@ -3,7 +3,10 @@
 const UNKNOWN_RATE = 24; // as where `bsm` writes glTF and USD
 /** Seconds of frames that must be there before playing goes on behind a wait. */
 const RESERVE = 0.5;
-/** By how much of its time each frame is shown early: where a screen's pictures come as frames do, or several to each, clocks that tremble skip none. */
+/**
+ * By how much of its time each frame is shown early: where a screen's pictures come as frames do, or several to each,
+ * clocks that tremble skip none.
+ */
 const EARLY = 0.1;
 
 /** Goes through the frames that are there; where they end too early, it waits for half a second of them. */
@@ -15,7 +18,10 @@ export class Playback {
     waiting = true;
 
     /** Frames per second; 0: unknown. */
-    constructor(private readonly given: number, playing: boolean) {
+    constructor(
+        private readonly given: number,
+        playing: boolean,
+    ) {
         this.playing = playing;
     }
 

@@ -1,5 +1,17 @@
 /** `<bsm-player src="horse.bsm">`: a mesh, a scene or a sequence on a page of plain HTML, drawn by three.js. */
-import { Box3, DirectionalLight, type Group, HemisphereLight, type Material, Mesh, PerspectiveCamera, Scene, Sphere, Texture, Vector3 } from "three";
+import {
+    Box3,
+    DirectionalLight,
+    type Group,
+    HemisphereLight,
+    type Material,
+    Mesh,
+    PerspectiveCamera,
+    Scene,
+    Sphere,
+    Texture,
+    Vector3,
+} from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { hang, redraw, takeDown } from "./easel";
 import type { BSMGeometry } from "./geometry";
@@ -12,7 +24,8 @@ const STYLE = `
 canvas { display: block; width: 100%; height: 100%; touch-action: none; }
 img { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: contain; pointer-events: none; }
 img:not([src]) { display: none; }
-p { position: absolute; inset: auto 0 45% 0; margin: 0; padding: 0 1em; text-align: center; font: 14px system-ui, sans-serif; color: #222; }`;
+p { position: absolute; inset: auto 0 45% 0; margin: 0; padding: 0 1em; text-align: center;
+    font: 14px system-ui, sans-serif; color: #222; }`;
 /** What a sequence says, and the element says again. */
 const PASSED = ["play", "pause", "frame", "loop", "ended", "waiting"] as const;
 /** How far outside of the window a player is drawn already. */
@@ -109,7 +122,10 @@ export class BSMPlayer extends Base {
         poster.alt = "";
         canvas.tabIndex = 0;
         canvas.setAttribute("role", "img");
-        canvas.setAttribute("aria-label", this.getAttribute("aria-label") ?? "A mesh in three dimensions. Arrow keys turn it, plus and minus zoom.");
+        canvas.setAttribute(
+            "aria-label",
+            this.getAttribute("aria-label") ?? "A mesh in three dimensions. Arrow keys turn it, plus and minus zoom.",
+        );
         (this.shadowRoot ?? this.attachShadow({ mode: "open" })).replaceChildren(style, canvas, poster, note);
         this.controls = new OrbitControls(camera, canvas);
         this.controls.addEventListener("change", () => this.redraw());
@@ -121,7 +137,9 @@ export class BSMPlayer extends Base {
         scene.clear().add(new HemisphereLight(0xffffff, 0x888888, 1.5), camera);
         this.resizes = new ResizeObserver(() => this.fit());
         this.resizes.observe(this);
-        this.scrolls = new IntersectionObserver((seen) => (this.inView = seen.at(-1)!.isIntersecting), { rootMargin: NEAR });
+        this.scrolls = new IntersectionObserver((seen) => (this.inView = seen.at(-1)!.isIntersecting), {
+            rootMargin: NEAR,
+        });
         this.scrolls.observe(this);
         try {
             hang(this);
@@ -194,7 +212,8 @@ export class BSMPlayer extends Base {
         this.note.setAttribute("role", "status");
         this.note.textContent = "Loading";
         const onProgress = ({ lengthComputable, loaded, total }: ProgressEvent): void => {
-            if (mine() && !this.content && lengthComputable) this.note.textContent = `Loading, ${Math.floor((100 * loaded) / total)} %`;
+            if (mine() && !this.content && lengthComputable)
+                this.note.textContent = `Loading, ${Math.floor((100 * loaded) / total)} %`;
         };
         let first: Promise<void> | undefined;
         let moving: BSMSequence | undefined;
@@ -248,7 +267,11 @@ export class BSMPlayer extends Base {
 
     /** Have the ball fill the shorter side, until the reader chooses another place. */
     private aim(): void {
-        const { ball: { center, radius }, camera, controls } = this;
+        const {
+            ball: { center, radius },
+            camera,
+            controls,
+        } = this;
         const half = Math.atan(Math.tan((Math.PI / 360) * camera.fov) * Math.min(camera.aspect, 1));
         const far = (ROOM * radius) / Math.sin(half) || 1;
         [camera.near, camera.far] = [far / 100, 10 * far];

@@ -32,7 +32,12 @@ const LIMIT = 4;
 const MOST_FAILED = 1; // threads that may fail to start before the page does without
 const MOMENT = 100; // milliseconds that a stream waits for the headers of others, to have one decoder with them
 /** Which streams each build reads, the smallest first. */
-const READS: Record<Build, Build[]> = { quick: ["quick"], moving: ["moving"], small: ["quick", "small"], whole: ["quick", "moving", "small", "whole"] };
+const READS: Record<Build, Build[]> = {
+    quick: ["quick"],
+    moving: ["moving"],
+    small: ["quick", "small"],
+    whole: ["quick", "moving", "small", "whole"],
+};
 const BUILDS = Object.keys(READS) as Build[];
 
 /** A thread, and the streams that it works on, as their decoder or as a helper. */
@@ -59,7 +64,10 @@ export class Pool {
     /** Builds whose kernels were asked for. */
     private readonly asked = new Set<Build>();
 
-    constructor(private readonly source: Source = here, private limit = LIMIT) {}
+    constructor(
+        private readonly source: Source = here,
+        private limit = LIMIT,
+    ) {}
 
     setLimit(limit: number): void {
         this.limit = Math.max(1, limit);
@@ -72,7 +80,12 @@ export class Pool {
     }
 
     open(listener: Listener, wishes: StreamWishes = {}): StreamDecoding {
-        const stream: PooledStream = new PooledStream(listener, wishes, (need) => void this.begin(stream, need), () => this.end(stream));
+        const stream: PooledStream = new PooledStream(
+            listener,
+            wishes,
+            (need) => void this.begin(stream, need),
+            () => this.end(stream),
+        );
         this.streams.add(stream);
         return stream;
     }
@@ -86,20 +99,33 @@ export class Pool {
 
     private async begin(stream: PooledStream, named: Need): Promise<void> {
         stream.need = named;
-        if (!this.asked.has(named.build)) await Promise.race([Promise.all([...this.streams].map(({ said }) => said)), new Promise((go) => setTimeout(go, MOMENT))]);
+        if (!this.asked.has(named.build))
+            await Promise.race([
+                Promise.all([...this.streams].map(({ said }) => said)),
+                new Promise((go) => setTimeout(go, MOMENT)),
+            ]);
         if (stream.closed) return;
         const need = { ...named, build: this.buildFor(named.build) };
-        const kernels = await this.source.kernels(need.build).catch((error: unknown) => stream.fail(error instanceof Error ? error : new Error(`${error}`)));
+        const kernels = await this.source
+            .kernels(need.build)
+            .catch((error: unknown) => stream.fail(error instanceof Error ? error : new Error(`${error}`)));
         if (!kernels || stream.closed) return;
         [stream.kernels, stream.need] = [kernels, need];
         this.place(stream);
     }
 
-    /** A build that was asked for and reads a stream, or the smallest that also reads all streams which no such build reads. */
+    /**
+     * A build that was asked for and reads a stream, or the smallest that also reads all streams which no such build
+     * reads.
+     */
     private buildFor(build: Build): Build {
-        const there = (wanted: Build): Build | undefined => BUILDS.find((each) => this.asked.has(each) && READS[each].includes(wanted));
-        const wanted = [...this.streams].filter((stream) => stream.known && !there(stream.need.build)).map(({ need }) => need.build);
-        const found = there(build) ?? BUILDS.find((each) => [build, ...wanted].every((one) => READS[each].includes(one)))!;
+        const there = (wanted: Build): Build | undefined =>
+            BUILDS.find((each) => this.asked.has(each) && READS[each].includes(wanted));
+        const wanted = [...this.streams]
+            .filter((stream) => stream.known && !there(stream.need.build))
+            .map(({ need }) => need.build);
+        const found =
+            there(build) ?? BUILDS.find((each) => [build, ...wanted].every((one) => READS[each].includes(one)))!;
         this.asked.add(found);
         return found;
     }
@@ -121,7 +147,10 @@ export class Pool {
         stream.work((message, moved) => hand.worker.postMessage(message, moved), ports);
     }
 
-    /** A thread of a build without work, started if there may be one more, in the place of another that has none if there may not. */
+    /**
+     * A thread of a build without work, started if there may be one more, in the place of another that has none if
+     * there may not.
+     */
     private free(build: Build): Hand | undefined {
         const idle = this.hands.filter((hand) => hand.streams.size === 0);
         const found = idle.find((hand) => hand.build === build);
@@ -137,10 +166,11 @@ export class Pool {
     private helpersFor(stream: PooledStream, hand: Hand): Hand[] {
         const { need, wishes } = stream;
         const most = Math.min(processors(), this.limit) - 1;
-        if (need.build === "quick" || need.vertices < (wishes.worthwhile ?? WORTHWHILE) || this.waiting.length > 0) return [];
+        if (need.build === "quick" || need.vertices < (wishes.worthwhile ?? WORTHWHILE) || this.waiting.length > 0)
+            return [];
         const busy = this.hands.filter((other) => other !== hand && other.streams.size > 0).length;
         const found: Hand[] = [];
-        for (let helper; found.length < most - busy && (helper = this.free(need.build)); ) {
+        for (let helper; found.length < most - busy && (helper = this.free(need.build));) {
             helper.streams.add(stream);
             found.push(helper);
         }
@@ -164,7 +194,8 @@ export class Pool {
     }
 
     private settle(): void {
-        if (!this.alone && typeof Worker !== "undefined") console.warn("BSM: this page may have no threads of its own, it decodes in the one that draws");
+        if (!this.alone && typeof Worker !== "undefined")
+            console.warn("BSM: this page may have no threads of its own, it decodes in the one that draws");
         this.alone = true;
     }
 
@@ -177,12 +208,15 @@ export class Pool {
         for (const other of this.hands) for (const stream of streams) other.streams.delete(stream);
         if (!hand.ready && ++this.failed > MOST_FAILED) this.settle();
         for (const stream of streams) if (hand.ready || stream.begun) stream.fail(error);
-        if (!hand.ready) for (const stream of [...streams, ...this.waiting.splice(0)]) if (!stream.closed) this.place(stream);
+        if (!hand.ready)
+            for (const stream of [...streams, ...this.waiting.splice(0)]) if (!stream.closed) this.place(stream);
     }
 
     private async stay(stream: PooledStream): Promise<void> {
         const task = (stream.task = this.task++);
-        const local = await this.source.local(stream.need.build).catch((error: unknown) => stream.fail(new Error(`${error}`)));
+        const local = await this.source
+            .local(stream.need.build)
+            .catch((error: unknown) => stream.fail(new Error(`${error}`)));
         let worker: StreamWorker | undefined;
         const hear = (report: Report): void => (stream.task === task ? stream.hear(report) : undefined);
         stream.work((message) => {
@@ -201,8 +235,9 @@ export class Pool {
         this.hands.push(...this.hands.splice(0).filter((hand) => !worked.includes(hand)), ...worked);
         const at = this.waiting.indexOf(stream);
         if (at >= 0) this.waiting.splice(at, 1);
-        const isRoom = (): boolean => this.hands.length < this.limit || this.hands.some(({ streams }) => streams.size === 0);
-        for (let next; isRoom() && (next = this.waiting.shift()); ) this.place(next);
+        const isRoom = (): boolean =>
+            this.hands.length < this.limit || this.hands.some(({ streams }) => streams.size === 0);
+        for (let next; isRoom() && (next = this.waiting.shift());) this.place(next);
     }
 }
 
@@ -291,7 +326,14 @@ class PooledStream {
         else if ("problem" in report) {
             // Lesser builds do not know everything, nor what to say of it.
             if (this.need.build !== "whole") this.restart();
-            else this.fail(errorLike(isPage(joined(this.pieces.slice(0, 64))) ? { ...report.problem, problem: PAGE, place: {} } : report.problem));
+            else
+                this.fail(
+                    errorLike(
+                        isPage(joined(this.pieces.slice(0, 64)))
+                            ? { ...report.problem, problem: PAGE, place: {} }
+                            : report.problem,
+                    ),
+                );
         } else if ("fault" in report) this.fail(new Error(report.fault));
         else if ("over" in report) {
             this.close();

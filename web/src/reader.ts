@@ -22,7 +22,12 @@ const BLOCK_TAG = 6;
 const kinds: Record<number, string> = KINDS;
 
 /** What a tag says, and where the frame's payload and the frame end. */
-export function frameOf(tag: { value: number; end: number }): { type: number; length: number; sum: number; end: number } {
+export function frameOf(tag: { value: number; end: number }): {
+    type: number;
+    length: number;
+    sum: number;
+    end: number;
+} {
     const type = tag.value % 16;
     const length = Math.floor(tag.value / 16);
     const sum = tag.end + length;
@@ -43,7 +48,10 @@ export class Reader {
     private metadataRead = 0;
     private started = false;
 
-    constructor(private readonly limits: Limits, private readonly charge: Charge) {}
+    constructor(
+        private readonly limits: Limits,
+        private readonly charge: Charge,
+    ) {}
 
     /** Take more bytes of the stream, any number of them. */
     receiveData(data: Uint8Array): void {
@@ -69,7 +77,9 @@ export class Reader {
         try {
             return this.next();
         } catch (error) {
-            throw error instanceof BsmError ? error.located({ offset: this.offset, frame: this.started ? this.frames : undefined }) : error;
+            throw error instanceof BsmError
+                ? error.located({ offset: this.offset, frame: this.started ? this.frames : undefined })
+                : error;
         }
     }
 
@@ -103,8 +113,12 @@ export class Reader {
         const present = this.buffer.subarray(this.begin, Math.min(this.end, this.begin + PREAMBLE.length));
         for (let i = 0; i < present.length; i++) {
             if ((present[i] ^ PREAMBLE[i]) <= (i < MAGIC_SIZE ? 0 : MINORS)) continue;
-            if (i < MAGIC_SIZE) throw new FormatError("not a BSM stream: it does not begin with 89 42 53 4D", { offset: 0 });
-            throw new UnsupportedError(`written by version ${present[i] >> 4}, and this reads ${PREAMBLE[i] >> 4}; if that is later, encode the source again`, { offset: i });
+            if (i < MAGIC_SIZE)
+                throw new FormatError("not a BSM stream: it does not begin with 89 42 53 4D", { offset: 0 });
+            throw new UnsupportedError(
+                `written by version ${present[i] >> 4}, and this reads ${PREAMBLE[i] >> 4}; if that is later, encode the source again`,
+                { offset: i },
+            );
         }
         if (present.length < PREAMBLE.length) {
             this.incomplete();

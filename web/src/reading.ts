@@ -1,5 +1,17 @@
 /** Mesh files, read with the loaders of three.js: for the page without a server, and for `bsm-encode`. */
-import { type AnimationClip, Box3, BufferAttribute, BufferGeometry, Group, type InstancedMesh, LoadingManager, type Material, Mesh, MeshBasicMaterial, type Object3D } from "three";
+import {
+    type AnimationClip,
+    Box3,
+    BufferAttribute,
+    BufferGeometry,
+    Group,
+    type InstancedMesh,
+    LoadingManager,
+    type Material,
+    Mesh,
+    MeshBasicMaterial,
+    type Object3D,
+} from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
@@ -12,7 +24,10 @@ import { isPosed, posesOf } from "./poses";
 /** A file by its name or its path in a folder. */
 export type Given = Pick<File, "name" | "size" | "arrayBuffer">;
 
-/** A mesh or sequence, what is to be said of it, whether something of the file is left out, and names of files that were read with it. */
+/**
+ * A mesh or sequence, what is to be said of it, whether something of the file is left out, and names of files that were
+ * read with it.
+ */
 export interface Reading {
     mesh: MeshInput & { positions: Float32Array | Float64Array };
     notes: string[];
@@ -35,10 +50,16 @@ function isFar(positions: ArrayLike<number>): boolean {
     return far > FAR * min.distanceTo(max) && far < Infinity;
 }
 
-/** The text of a file whose loader rounds to single precision and parts vertices, with their numbers as x, and where they are. */
+/**
+ * The text of a file whose loader rounds to single precision and parts vertices, with their numbers as x, and where
+ * they are.
+ */
 function numbered(bytes: ArrayBuffer): { content: string; places: number[] } {
     const places: number[] = [];
-    const content = text(bytes).replace(VERTEX, (_, name: string, ...place: string[]) => `${name} ${places.push(...place.slice(0, 3).map(Number)) / 3 - 1} 0 0`);
+    const content = text(bytes).replace(
+        VERTEX,
+        (_, name: string, ...place: string[]) => `${name} ${places.push(...place.slice(0, 3).map(Number)) / 3 - 1} 0 0`,
+    );
     return { content, places };
 }
 
@@ -50,7 +71,13 @@ interface Scene {
 }
 
 /** The meshes of a file; `lost` gets the names of what is left out, `used` those of files beside it that it names. */
-async function read(suffix: string, bytes: ArrayBuffer, lost: Set<string>, beside: Given[], used: string[]): Promise<Scene> {
+async function read(
+    suffix: string,
+    bytes: ArrayBuffer,
+    lost: Set<string>,
+    beside: Given[],
+    used: string[],
+): Promise<Scene> {
     if (suffix === "stl") {
         const isText = /^\s*solid[^]*?\bvertex\b/.test(text(bytes.slice(0, 1024)));
         const { content = bytes, places } = isText ? numbered(bytes) : {};
@@ -65,7 +92,8 @@ async function read(suffix: string, bytes: ArrayBuffer, lost: Set<string>, besid
         return { root, places };
     }
     if (suffix === "ply") return { root: readPly(bytes, lost) };
-    if (!/^gl(b|tf)$/.test(suffix)) throw new Error("Only PLY, OBJ, STL, GLB and glTF files are read here, PC2 and MDD with their mesh.");
+    if (!/^gl(b|tf)$/.test(suffix))
+        throw new Error("Only PLY, OBJ, STL, GLB and glTF files are read here, PC2 and MDD with their mesh.");
     const manager = new LoadingManager().setURLModifier((url) => {
         if (/^(data|blob):/.test(url)) return url;
         const path = decodeURIComponent(url).replace(/^(\.\/)+/, "");
@@ -76,9 +104,19 @@ async function read(suffix: string, bytes: ArrayBuffer, lost: Set<string>, besid
     });
     const loader = new GLTFLoader(manager).register(({ json }) => ({
         name: "plain",
-        loadMaterial: (index: number) => Promise.resolve(new MeshBasicMaterial({ name: String((json as { materials: { name?: string }[] }).materials[index].name ?? "") })),
+        loadMaterial: (index: number) =>
+            Promise.resolve(
+                new MeshBasicMaterial({
+                    name: String((json as { materials: { name?: string }[] }).materials[index].name ?? ""),
+                }),
+            ),
     }));
-    const { animations, scene, scenes, parser: { json } } = await loader.parseAsync(bytes, "");
+    const {
+        animations,
+        scene,
+        scenes,
+        parser: { json },
+    } = await loader.parseAsync(bytes, "");
     if (!(scene ?? scenes[0])) throw new Error("It has no scene.");
     if (scenes.length > 1) lost.add("other scenes");
     if (/color|texture/i.test(JSON.stringify(json.materials ?? []))) lost.add("colors and textures of materials");
@@ -90,12 +128,16 @@ async function read(suffix: string, bytes: ArrayBuffer, lost: Set<string>, besid
 function readPly(bytes: ArrayBuffer, lost: Set<string>): BufferGeometry {
     const header = text(bytes.slice(0, 1 << 16)).split("end_header")[0];
     const faces = Number(/^element face (\d+)/m.exec(header)?.[1] ?? 0);
-    for (const [, name] of header.matchAll(/^property (?:list \w+ \w+|\w+) (\w+)/gm)) if (!PLY.test(name)) lost.add(name);
+    for (const [, name] of header.matchAll(/^property (?:list \w+ \w+|\w+) (\w+)/gm))
+        if (!PLY.test(name)) lost.add(name);
     const loader = new PLYLoader();
-    if (/^property (uchar|uint8) red$/m.test(header)) loader.setCustomPropertyNameMapping({ bytes: ["red", "green", "blue"] }); // it would round these as linear numbers
+    if (/^property (uchar|uint8) red$/m.test(header))
+        loader.setCustomPropertyNameMapping({ bytes: ["red", "green", "blue"] }); // it would round these as linear numbers
     const geometry = loader.parse(bytes);
-    if (/^property (double|float64) x$/m.test(header) && geometry.attributes.position?.array instanceof Float32Array) lost.add("digits beyond single precision"); // by three.js of before
-    if ((geometry.index?.count ?? 0) / 3 < faces) throw new Error("It has faces of more than four corners, which are not read here.");
+    if (/^property (double|float64) x$/m.test(header) && geometry.attributes.position?.array instanceof Float32Array)
+        lost.add("digits beyond single precision"); // by three.js of before
+    if ((geometry.index?.count ?? 0) / 3 < faces)
+        throw new Error("It has faces of more than four corners, which are not read here.");
     return geometry.index ? geometry : new BufferGeometry(); // points
 }
 
@@ -103,9 +145,27 @@ function readPly(bytes: ArrayBuffer, lost: Set<string>): BufferGeometry {
 function plainOf(geometry: BufferGeometry, flipped: boolean, lost: Set<string>): BufferGeometry {
     const plain = Object.assign(new BufferGeometry().setIndex(geometry.index), { groups: geometry.groups });
     for (const [name, attribute] of Object.entries(geometry.attributes)) {
-        if (name === "bytes") plain.setAttribute("color", new BufferAttribute(Float32Array.from(attribute.array, (byte) => linearOf(byte / 255)), 3));
+        if (name === "bytes")
+            plain.setAttribute(
+                "color",
+                new BufferAttribute(
+                    Float32Array.from(attribute.array, (byte) => linearOf(byte / 255)),
+                    3,
+                ),
+            );
         else if (name !== "position" && !NAMES[name]) lost.add(name);
-        else plain.setAttribute(NAMES[name] ?? name, name === "uv" && flipped ? new BufferAttribute(Float32Array.from({ length: 2 * attribute.count }, (_, i) => (i % 2 ? 1 - attribute.getY(i >> 1) : attribute.getX(i >> 1))), 2) : attribute);
+        else
+            plain.setAttribute(
+                NAMES[name] ?? name,
+                name === "uv" && flipped
+                    ? new BufferAttribute(
+                          Float32Array.from({ length: 2 * attribute.count }, (_, i) =>
+                              i % 2 ? 1 - attribute.getY(i >> 1) : attribute.getX(i >> 1),
+                          ),
+                          2,
+                      )
+                    : attribute,
+            );
     }
     return plain;
 }
@@ -137,8 +197,15 @@ function drawnOf(root: Object3D | BufferGeometry, isScene: boolean, lost: Set<st
 /** A mesh whose vertices have their numbers as x, with the vertices that these are. */
 function indexed({ positions, faces, attributes = [], metadata }: Reading["mesh"], places: number[]): Reading["mesh"] {
     const all = isFar(places) ? Float64Array.from(places) : Float32Array.from(places);
-    const parted = attributes.map((attribute) => (attribute.domain === "face" ? attribute : { ...attribute, domain: "corner" as const, indices: faces }));
-    return { positions: all, faces: Uint32Array.from(faces, (corner) => positions[3 * corner]), attributes: parted, metadata };
+    const parted = attributes.map((attribute) =>
+        attribute.domain === "face" ? attribute : { ...attribute, domain: "corner" as const, indices: faces },
+    );
+    return {
+        positions: all,
+        faces: Uint32Array.from(faces, (corner) => positions[3 * corner]),
+        attributes: parted,
+        metadata,
+    };
 }
 
 /** Read a file by the suffix of its name, and files beside it that it names. */
@@ -157,9 +224,15 @@ export async function readMesh(given: Given, beside: Given[] = []): Promise<Read
 }
 
 /** Attributes that stay while vertices move. */
-const still = ({ attributes }: MeshInput): MeshInput["attributes"] => attributes?.filter(({ semantic }) => semantic !== "normal");
+const still = ({ attributes }: MeshInput): MeshInput["attributes"] =>
+    attributes?.filter(({ semantic }) => semantic !== "normal");
 
 /** A mesh that moves. */
-export function moving(mesh: MeshInput, positions: Reading["mesh"]["positions"], frames: number, rate: number): Reading["mesh"] {
+export function moving(
+    mesh: MeshInput,
+    positions: Reading["mesh"]["positions"],
+    frames: number,
+    rate: number,
+): Reading["mesh"] {
     return { ...mesh, positions, frames, attributes: still(mesh), metadata: { ...mesh.metadata, frame_rate: rate } };
 }

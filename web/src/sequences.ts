@@ -8,7 +8,10 @@ import { Playback } from "./playback";
  * `waiting`: frames come more slowly than they are shown; `error`: the rest of the stream cannot be decoded, the frames before
  * it are available; `dispose`: nobody wants it any more, and its load stops.
  */
-export type SequenceEvents = Record<"play" | "pause" | "loop" | "ended" | "waiting" | "dispose", object> & { frame: { index: number }; error: { error: unknown } };
+export type SequenceEvents = Record<"play" | "pause" | "loop" | "ended" | "waiting" | "dispose", object> & {
+    frame: { index: number };
+    error: { error: unknown };
+};
 
 /** A sequence that plays: `update` is to be called for every picture, as that of an AnimationMixer. */
 export class BSMSequence extends EventDispatcher<SequenceEvents> {
@@ -19,7 +22,10 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
     private readonly playback: Playback;
     private wasWaiting = false;
 
-    constructor(readonly geometry: BSMGeometry, playing = true) {
+    constructor(
+        readonly geometry: BSMGeometry,
+        playing = true,
+    ) {
         super();
         this.playback = new Playback(geometry.frameRate, playing);
     }
@@ -31,7 +37,9 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
 
     /** Frames that there are; as long as not all have come, those that the stream announces. */
     get length(): number {
-        return this.complete ? this.geometry.frames.length : Math.max(this.geometry.header?.frames ?? 0, this.geometry.frames.length);
+        return this.complete
+            ? this.geometry.frames.length
+            : Math.max(this.geometry.header?.frames ?? 0, this.geometry.frames.length);
     }
 
     /** Seconds from the first frame to the end of the last. */

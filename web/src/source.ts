@@ -31,7 +31,10 @@ function beside(address: () => URL): URL {
     try {
         return address();
     } catch {
-        throw new Error("this bundle does not know where the decoder's files are: copy those of bsm-decoder/built, and name their folder with setDecoderPath");
+        throw new Error(
+            "this bundle does not know where the decoder's files are: " +
+                "copy those of bsm-decoder/built, and name their folder with setDecoderPath",
+        );
     }
 }
 
@@ -46,9 +49,19 @@ export const here: Source = {
 
 /** The files in a folder, as those of `built`. */
 export function placeOf(path: string): Source {
-    const base = new URL(path.endsWith("/") ? path : `${path}/`, globalThis.document?.baseURI ?? globalThis.location?.href);
+    const base = new URL(
+        path.endsWith("/") ? path : `${path}/`,
+        globalThis.document?.baseURI ?? globalThis.location?.href,
+    );
     return {
-        worker: (build) => started(() => new Worker(new URL(build === "whole" ? "worker.js" : `${build}-worker.js`, base), { type: "module", name: "BSM" })),
+        worker: (build) =>
+            started(
+                () =>
+                    new Worker(new URL(build === "whole" ? "worker.js" : `${build}-worker.js`, base), {
+                        type: "module",
+                        name: "BSM",
+                    }),
+            ),
         kernels: once((build) => compiled(new URL(`${build === "whole" ? "kernels" : build}.wasm`, base))),
         local,
     };

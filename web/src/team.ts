@@ -11,14 +11,21 @@ const TASK = 0;
 /** How many helpers have something to do; none for fewer vertices than are worthwhile. */
 export function helpersFor(header: Header, worthwhile = WORTHWHILE): number {
     if (header.vertices < worthwhile) return 0;
-    return Math.max(0, Math.min(Math.ceil(header.blocks / (header.keyInterval || header.blocks)), processors(), MOST + 1) - 1); // chains: M 10.1
+    return Math.max(
+        0,
+        Math.min(Math.ceil(header.blocks / (header.keyInterval || header.blocks)), processors(), MOST + 1) - 1,
+    ); // chains: M 10.1
 }
 
 /** Lines to threads that run `serve`, with which a stream is shared: each takes all of its bytes. */
 export class Team {
     private busy: number;
 
-    constructor(private readonly members: MessagePort[], start: Omit<Start, "share" | "helpers">, private readonly listener: { onBlock: (shared: SharedBlock) => void; onOver: (why: string) => void }) {
+    constructor(
+        private readonly members: MessagePort[],
+        start: Omit<Start, "share" | "helpers">,
+        private readonly listener: { onBlock: (shared: SharedBlock) => void; onOver: (why: string) => void },
+    ) {
         this.busy = members.length;
         members.forEach((member, k) => {
             const share = { number: k + 1, among: 1 + members.length };
@@ -43,6 +50,7 @@ export class Team {
             this.close();
             this.listener.onOver(answer.fault);
         } else if ("shared" in answer) this.listener.onBlock(answer.shared);
-        else if (("through" in answer || "problem" in answer) && --this.busy === 0) this.listener.onOver("all helpers are through");
+        else if (("through" in answer || "problem" in answer) && --this.busy === 0)
+            this.listener.onOver("all helpers are through");
     }
 }

@@ -41,7 +41,10 @@ export class BSMLoader extends Loader<BSMGeometry> {
         return this;
     }
 
-    /** Have a thread and the decoder ready before there is a stream: of all meshes, static ones, sequences, or those of `--quick`. */
+    /**
+     * Have a thread and the decoder ready before there is a stream: of all meshes, static ones, sequences, or those of
+     * `--quick`.
+     */
     preload(build: Build = "small"): this {
         this.pool.preload(build).catch((error) => console.error(error));
         return this;
@@ -79,12 +82,20 @@ export class BSMLoader extends Loader<BSMGeometry> {
             .finally(() => manager.itemEnd(url));
     }
 
-    override loadAsync(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
+    override loadAsync(
+        url: string,
+        onProgress?: (event: ProgressEvent) => void,
+        progress?: Progress,
+    ): Promise<BSMGeometry> {
         return new Promise((keep, fail) => this.load(url, keep, onProgress, fail, progress));
     }
 
     /** The geometry of a stream that is there. */
-    parse(data: ArrayBuffer | Uint8Array, onLoad: (geometry: BSMGeometry) => void, onError: (error: unknown) => void = console.error): void {
+    parse(
+        data: ArrayBuffer | Uint8Array,
+        onLoad: (geometry: BSMGeometry) => void,
+        onError: (error: unknown) => void = console.error,
+    ): void {
         this.parseAsync(data).then(onLoad).catch(onError);
     }
 
@@ -111,7 +122,8 @@ export class BSMLoader extends Loader<BSMGeometry> {
                 keep((sequence = new BSMSequence(geometry)));
                 sequence.addEventListener("dispose", () => stop.abort());
             };
-            const onLoad = (): unknown => (sequence ? (sequence.complete = true) : fail(new Error(`${url}: this stream is no sequence`)));
+            const onLoad = (): unknown =>
+                sequence ? (sequence.complete = true) : fail(new Error(`${url}: this stream is no sequence`));
             const onError = (error: unknown): void => (sequence ? sequence.fail(error) : fail(error));
             const either = AbortSignal.any(signal ? [stop.signal, signal] : [stop.signal]);
             this.load(url, onLoad, onProgress, onError, { onFrame, signal: either });
@@ -124,16 +136,28 @@ export class BSMLoader extends Loader<BSMGeometry> {
         return pool;
     }
 
-    private fetched(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
-        return this.decoded(progress, (stream, signal) => this.pass(url, stream, onProgress, signal)).catch((error: unknown) => {
-            if (error instanceof BsmError) throw errorLike({ ...error.described, problem: `${url}: ${error.problem}` });
-            const message = `${url}: ${error instanceof Error ? error.message : error}`; // what others made stays as it was
-            throw error instanceof DOMException ? new DOMException(message, error.name) : new Error(message, { cause: error });
-        });
+    private fetched(
+        url: string,
+        onProgress?: (event: ProgressEvent) => void,
+        progress?: Progress,
+    ): Promise<BSMGeometry> {
+        return this.decoded(progress, (stream, signal) => this.pass(url, stream, onProgress, signal)).catch(
+            (error: unknown) => {
+                if (error instanceof BsmError)
+                    throw errorLike({ ...error.described, problem: `${url}: ${error.problem}` });
+                const message = `${url}: ${error instanceof Error ? error.message : error}`; // what others made stays as it was
+                throw error instanceof DOMException
+                    ? new DOMException(message, error.name)
+                    : new Error(message, { cause: error });
+            },
+        );
     }
 
     /** The geometry of a stream that is given its bytes, until somebody or an error stops it. */
-    private decoded(progress: Progress | undefined, give: (stream: StreamDecoding, signal: AbortSignal) => Promise<void>): Promise<BSMGeometry> {
+    private decoded(
+        progress: Progress | undefined,
+        give: (stream: StreamDecoding, signal: AbortSignal) => Promise<void>,
+    ): Promise<BSMGeometry> {
         const own = new AbortController(); // a signal outlives loads, and keeps none that is over
         const stoppers = [own, this.aborting, this.manager.abortController as AbortController | undefined, progress];
         const signal = AbortSignal.any(stoppers.flatMap((stopper) => stopper?.signal ?? []));
@@ -141,7 +165,10 @@ export class BSMLoader extends Loader<BSMGeometry> {
             signal.throwIfAborted();
             const geometry = new BSMGeometry(progress);
             const drawing = progress?.onBlock || progress?.onConnectivity ? "growing" : "whole";
-            const stream = this.pool.open({ onPicture: (picture) => geometry.accept(picture), onEnd: () => keep(geometry), onError: fail }, { drawing, limits: this.limits });
+            const stream = this.pool.open(
+                { onPicture: (picture) => geometry.accept(picture), onEnd: () => keep(geometry), onError: fail },
+                { drawing, limits: this.limits },
+            );
             const fall = (error: unknown): void => {
                 stream.close();
                 fail(error);
@@ -156,7 +183,12 @@ export class BSMLoader extends Loader<BSMGeometry> {
     }
 
     /** Give a stream its bytes as they come. */
-    private async pass(url: string, stream: StreamDecoding, onProgress?: (event: ProgressEvent) => void, signal?: AbortSignal): Promise<void> {
+    private async pass(
+        url: string,
+        stream: StreamDecoding,
+        onProgress?: (event: ProgressEvent) => void,
+        signal?: AbortSignal,
+    ): Promise<void> {
         const address = this.manager.resolveURL(this.path + url);
         const response = await fetch(new URL(address, globalThis.document?.baseURI ?? globalThis.location?.href), {
             headers: this.requestHeader,
@@ -167,7 +199,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
         const total = Number(response.headers.get("content-length") ?? 0);
         const reader = response.body.getReader();
         let loaded = 0;
-        for (let piece; !(piece = await reader.read()).done; ) {
+        for (let piece; !(piece = await reader.read()).done;) {
             loaded += piece.value.length;
             stream.receiveData(piece.value);
             onProgress?.(new ProgressEvent("progress", { lengthComputable: total > 0, loaded, total }));
@@ -181,8 +213,16 @@ export class BSMSceneLoader extends Loader<Group> {
     /** What loads the geometry; ask it for threads and paths. */
     readonly geometries = new BSMLoader(this.manager);
 
-    override load(url: string, onLoad: (group: Group) => void, onProgress?: (event: ProgressEvent) => void, onError: (error: unknown) => void = console.error): void {
-        this.geometries.setPath(this.path).setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
+    override load(
+        url: string,
+        onLoad: (group: Group) => void,
+        onProgress?: (event: ProgressEvent) => void,
+        onError: (error: unknown) => void = console.error,
+    ): void {
+        this.geometries
+            .setPath(this.path)
+            .setRequestHeader(this.requestHeader)
+            .setWithCredentials(this.withCredentials);
         this.geometries.loadScene(url, onProgress).then(onLoad).catch(onError);
     }
 
@@ -201,14 +241,27 @@ export async function sceneOf(geometry: BSMGeometry): Promise<Group> {
     group.name = String(metadata.get("name") ?? "");
     group.userData = Object.fromEntries([...metadata].filter(([, value]) => !(value instanceof Uint8Array)));
     const parts = new Set(pieces.map(({ part }) => part));
-    if (parts.size < 2) group.add(new Mesh<BSMGeometry, MeshStandardMaterial | MeshStandardMaterial[]>(geometry, materials.length > 1 ? materials : materials[0]));
-    else for (const piece of pieces) group.add(meshOf(geometry, piece, materials[piece.material], nameOf(metadata, "part", piece.part)));
+    if (parts.size < 2)
+        group.add(
+            new Mesh<BSMGeometry, MeshStandardMaterial | MeshStandardMaterial[]>(
+                geometry,
+                materials.length > 1 ? materials : materials[0],
+            ),
+        );
+    else
+        for (const piece of pieces)
+            group.add(meshOf(geometry, piece, materials[piece.material], nameOf(metadata, "part", piece.part)));
     group.rotation.set(...turnOf(metadata));
     return group;
 }
 
 /** A mesh of some of the faces; the arrays are those of all. */
-function meshOf(geometry: BSMGeometry, { start, count }: { start: number; count: number }, material: MeshStandardMaterial, name: string): Mesh {
+function meshOf(
+    geometry: BSMGeometry,
+    { start, count }: { start: number; count: number },
+    material: MeshStandardMaterial,
+    name: string,
+): Mesh {
     const piece = new BufferGeometry();
     for (const key of Object.keys(geometry.attributes)) piece.setAttribute(key, geometry.getAttribute(key));
     piece.setIndex(geometry.getIndex());

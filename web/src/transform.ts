@@ -1,6 +1,28 @@
-/** Scenes of glTF whose geometry is BSM streams (EXT_bsm_compression), in glTF-Transform: read as plain geometry, and written. */
-import { Accessor, BufferUtils, Extension, GLB_BUFFER, Primitive, PropertyType, Root, type Buffer, type GLTF, type ReaderContext, type WriterContext } from "@gltf-transform/core";
-import { EncodeError, encodeWith, loadEncoder, type AttributeInput, type EncodeOptions, type MeshInput } from "./encode";
+/**
+ * Scenes of glTF whose geometry is BSM streams (EXT_bsm_compression), in glTF-Transform: read as plain geometry, and
+ * written.
+ */
+import {
+    Accessor,
+    BufferUtils,
+    Extension,
+    GLB_BUFFER,
+    Primitive,
+    PropertyType,
+    Root,
+    type Buffer,
+    type GLTF,
+    type ReaderContext,
+    type WriterContext,
+} from "@gltf-transform/core";
+import {
+    EncodeError,
+    encodeWith,
+    loadEncoder,
+    type AttributeInput,
+    type EncodeOptions,
+    type MeshInput,
+} from "./encode";
 import { errorLike, openDesk, type Shape } from "./index";
 import { here } from "./pool";
 import { CodedViews, EXTENSION, sizeOf, type Coded } from "./views";
@@ -81,7 +103,9 @@ export class EXTBSMCompression extends Extension {
                 streams.charge(sizeOf(made));
                 return made;
             });
-            bufferViews[index] = new Uint8Array(streams.bytes(shape, views[coded.stream], coded, view.byteLength, index));
+            bufferViews[index] = new Uint8Array(
+                streams.bytes(shape, views[coded.stream], coded, view.byteLength, index),
+            );
         });
         return this;
     }
@@ -94,7 +118,8 @@ export class EXTBSMCompression extends Extension {
             if (!coded) return;
             const [filled, kept] = [buffers[view.buffer], buffers[views[coded.stream].buffer]];
             bufferViewBuffers[index] = kept;
-            for (const accessor of this.document.getRoot().listAccessors()) if (accessor.getBuffer() === filled) accessor.setBuffer(kept);
+            for (const accessor of this.document.getRoot().listAccessors())
+                if (accessor.getBuffer() === filled) accessor.setBuffer(kept);
             replaced.add(filled);
         });
         for (const buffer of replaced) buffer.dispose();
@@ -105,11 +130,18 @@ export class EXTBSMCompression extends Extension {
 
     override prewrite(context: WriterContext): this {
         const { decoder, encoder, coded } = this;
-        if (!decoder || !encoder) throw new Error(`[${EXTENSION}] needs two dependencies, "bsm.decoder" and "bsm.encoder": await loadSceneEncoder()`);
+        if (!decoder || !encoder)
+            throw new Error(
+                `[${EXTENSION}] needs two dependencies, "bsm.decoder" and "bsm.encoder": await loadSceneEncoder()`,
+            );
         coded.clear();
-        for (const primitive of this.document.getRoot().listMeshes().flatMap((mesh) => mesh.listPrimitives())) {
+        for (const primitive of this.document
+            .getRoot()
+            .listMeshes()
+            .flatMap((mesh) => mesh.listPrimitives())) {
             try {
-                if (!coded.has(primitive)) coded.set(primitive, this.codePrimitive(primitive, encoder, decoder, context));
+                if (!coded.has(primitive))
+                    coded.set(primitive, this.codePrimitive(primitive, encoder, decoder, context));
             } catch (error) {
                 if (!(error instanceof EncodeError)) throw error;
                 context.logger.warn(`[${EXTENSION}] a primitive stays as it is: ${error.message}`);
@@ -117,12 +149,22 @@ export class EXTBSMCompression extends Extension {
         }
         for (const [primitive, { accessors }] of coded)
             for (const [name, accessor] of [...arraysOf(primitive), ["indices", primitive.getIndices()] as const])
-                if (accessor?.listParents().every((parent) => parent instanceof Root || (parent instanceof Primitive && coded.has(parent)))) context.accessorIndexMap.set(accessor, accessors[name]);
+                if (
+                    accessor
+                        ?.listParents()
+                        .every((parent) => parent instanceof Root || (parent instanceof Primitive && coded.has(parent)))
+                )
+                    context.accessorIndexMap.set(accessor, accessors[name]);
         return this;
     }
 
     /** Encode a primitive, and declare the accessors of what a decoder makes of it. */
-    private codePrimitive(primitive: Primitive, encoder: SceneEncoder, decoder: SceneDecoder, context: WriterContext): CodedPrimitive {
+    private codePrimitive(
+        primitive: Primitive,
+        encoder: SceneEncoder,
+        decoder: SceneDecoder,
+        context: WriterContext,
+    ): CodedPrimitive {
         const stream = encoder(meshOf(primitive), primitive.getAttribute("JOINTS_0") !== null); // joints open faces without area
         const shape = decoder(stream);
         const { json } = context.jsonDoc;
@@ -133,10 +175,22 @@ export class EXTBSMCompression extends Extension {
         for (const [name, accessor] of arraysOf(primitive)) {
             const count = shape.positions.length / 3;
             const { componentType, normalized, type } = context.createAccessorDef(accessor);
-            const bounds = name === "POSITION" ? { min: shape.low.map(Math.fround), max: shape.high.map(Math.fround) } : {};
-            declare(name, { type, count, ...bounds, ...(isFloat(name, accessor) ? { componentType: Accessor.ComponentType.FLOAT } : { componentType, normalized }) });
+            const bounds =
+                name === "POSITION" ? { min: shape.low.map(Math.fround), max: shape.high.map(Math.fround) } : {};
+            declare(name, {
+                type,
+                count,
+                ...bounds,
+                ...(isFloat(name, accessor)
+                    ? { componentType: Accessor.ComponentType.FLOAT }
+                    : { componentType, normalized }),
+            });
         }
-        declare("indices", { type: "SCALAR", count: shape.index.length, componentType: Accessor.ComponentType.UNSIGNED_INT });
+        declare("indices", {
+            type: "SCALAR",
+            count: shape.index.length,
+            componentType: Accessor.ComponentType.UNSIGNED_INT,
+        });
         const buffer = primitive.getAttribute("POSITION")!.getBuffer() ?? this.document.getRoot().listBuffers()[0];
         context.otherBufferViews.set(buffer, [...(context.otherBufferViews.get(buffer) ?? []), stream]);
         return { stream, accessors };
@@ -145,22 +199,33 @@ export class EXTBSMCompression extends Extension {
     override write({ jsonDoc: { json }, otherBufferViewsIndexMap }: WriterContext): this {
         const views = json.bufferViews!;
         let size = 0;
-        this.document.getRoot().listMeshes().forEach((mesh, at) => mesh.listPrimitives().forEach((primitive, index) => {
-            const coded = this.coded.get(primitive);
-            if (!coded) return;
-            const { indices, ...attributes } = coded.accessors;
-            Object.assign(json.meshes![at].primitives[index], { attributes, indices });
-            const stream = otherBufferViewsIndexMap.get(coded.stream)!;
-            for (const [attribute, number] of Object.entries(coded.accessors)) {
-                const accessor = json.accessors![number];
-                if (accessor.bufferView !== undefined) continue; // a mesh's that stands in the scene twice
-                const { componentType, count, type } = accessor;
-                const byteLength = count * Accessor.getElementSize(type) * Accessor.getComponentSize(componentType);
-                accessor.bufferView = views.length;
-                views.push({ buffer: json.buffers!.length, byteOffset: size, byteLength, extensions: { [EXTENSION]: { stream, attribute, componentType } } });
-                size += Math.ceil(byteLength / 4) * 4;
-            }
-        }));
+        this.document
+            .getRoot()
+            .listMeshes()
+            .forEach((mesh, at) =>
+                mesh.listPrimitives().forEach((primitive, index) => {
+                    const coded = this.coded.get(primitive);
+                    if (!coded) return;
+                    const { indices, ...attributes } = coded.accessors;
+                    Object.assign(json.meshes![at].primitives[index], { attributes, indices });
+                    const stream = otherBufferViewsIndexMap.get(coded.stream)!;
+                    for (const [attribute, number] of Object.entries(coded.accessors)) {
+                        const accessor = json.accessors![number];
+                        if (accessor.bufferView !== undefined) continue; // a mesh's that stands in the scene twice
+                        const { componentType, count, type } = accessor;
+                        const byteLength =
+                            count * Accessor.getElementSize(type) * Accessor.getComponentSize(componentType);
+                        accessor.bufferView = views.length;
+                        views.push({
+                            buffer: json.buffers!.length,
+                            byteOffset: size,
+                            byteLength,
+                            extensions: { [EXTENSION]: { stream, attribute, componentType } },
+                        });
+                        size += Math.ceil(byteLength / 4) * 4;
+                    }
+                }),
+            );
         if (size > 0) json.buffers!.push({ byteLength: size, extensions: { [EXTENSION]: { fallback: true } } });
         return this;
     }
@@ -168,7 +233,10 @@ export class EXTBSMCompression extends Extension {
 
 /** What a primitive has of its vertices. */
 function arraysOf(primitive: Primitive): [string, Accessor][] {
-    return primitive.listSemantics().sort().map((name) => [name, primitive.getAttribute(name)!]);
+    return primitive
+        .listSemantics()
+        .sort()
+        .map((name) => [name, primitive.getAttribute(name)!]);
 }
 
 /** Names whose arrays decoders return in single precision. */
@@ -176,11 +244,19 @@ const FLOATS = /^(POSITION|NORMAL|TEXCOORD_[01]|COLOR_0)$/;
 
 /** Whether an array is coded in single precision; integers that take no multiple of four bytes are, too. */
 function isFloat(name: string, accessor: Accessor): boolean {
-    return FLOATS.test(name) || accessor.getComponentType() === Accessor.ComponentType.FLOAT || (accessor.getElementSize() * accessor.getComponentSize()) % 4 !== 0;
+    return (
+        FLOATS.test(name) ||
+        accessor.getComponentType() === Accessor.ComponentType.FLOAT ||
+        (accessor.getElementSize() * accessor.getComponentSize()) % 4 !== 0
+    );
 }
 
 /** Qualities, as `bsm glb` has them. */
-const QUALITIES: Record<string, AttributeInput["quality"]> = { NORMAL: { bits: 10 }, TANGENT: { bits: 9 }, COLOR_0: { bits: 8 } };
+const QUALITIES: Record<string, AttributeInput["quality"]> = {
+    NORMAL: { bits: 10 },
+    TANGENT: { bits: 9 },
+    COLOR_0: { bits: 8 },
+};
 
 /** A primitive as a mesh; why it is none, is an `EncodeError`. */
 function meshOf(primitive: Primitive): MeshInput {
@@ -191,14 +267,27 @@ function meshOf(primitive: Primitive): MeshInput {
     };
     if (primitive.getMode() !== Primitive.Mode.TRIANGLES || !positions) return refused("no triangles");
     if (primitive.listTargets().length > 0) refused("morph targets");
-    const attributes = arraysOf(primitive).filter(([name]) => name !== "POSITION").map(([name, accessor]): AttributeInput => ({
-        name,
-        values: isFloat(name, accessor) ? floatsOf(accessor) : (accessor.getArray() as AttributeInput["values"]),
-        components: accessor.getElementSize(),
-        semantic: name === "NORMAL" ? "normal" : name === "COLOR_0" ? "color" : /^TEXCOORD_[01]$/.test(name) ? "texcoord" : "generic",
-        quality: isFloat(name, accessor) ? QUALITIES[name] : "exact",
-    }));
-    return { positions: floatsOf(positions), faces: indices ? Uint32Array.from(indices) : Uint32Array.from({ length: positions.getCount() }, (_, i) => i), attributes };
+    const attributes = arraysOf(primitive)
+        .filter(([name]) => name !== "POSITION")
+        .map(([name, accessor]): AttributeInput => ({
+            name,
+            values: isFloat(name, accessor) ? floatsOf(accessor) : (accessor.getArray() as AttributeInput["values"]),
+            components: accessor.getElementSize(),
+            semantic:
+                name === "NORMAL"
+                    ? "normal"
+                    : name === "COLOR_0"
+                      ? "color"
+                      : /^TEXCOORD_[01]$/.test(name)
+                        ? "texcoord"
+                        : "generic",
+            quality: isFloat(name, accessor) ? QUALITIES[name] : "exact",
+        }));
+    return {
+        positions: floatsOf(positions),
+        faces: indices ? Uint32Array.from(indices) : Uint32Array.from({ length: positions.getCount() }, (_, i) => i),
+        attributes,
+    };
 }
 
 /** The numbers of an accessor, of normalized integers those that they stand for. */

@@ -4,7 +4,12 @@ import { type PerspectiveCamera, Spherical, type Vector3 } from "three";
 const TURN = Math.PI / 24;
 const ZOOM = 1.1;
 const STEPS: Record<string, [theta: number, phi: number, radius: number]> = {
-    ArrowLeft: [-TURN, 0, 1], ArrowRight: [TURN, 0, 1], ArrowUp: [0, -TURN, 1], ArrowDown: [0, TURN, 1], "+": [0, 0, 1 / ZOOM], "-": [0, 0, ZOOM],
+    ArrowLeft: [-TURN, 0, 1],
+    ArrowRight: [TURN, 0, 1],
+    ArrowUp: [0, -TURN, 1],
+    ArrowDown: [0, TURN, 1],
+    "+": [0, 0, 1 / ZOOM],
+    "-": [0, 0, ZOOM],
 };
 
 /** Move the camera as a key says; returns whether it says so. */

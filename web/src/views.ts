@@ -5,7 +5,14 @@ import type { Pool, StreamDecoding } from "./pool";
 export const EXTENSION = "EXT_bsm_compression";
 
 /** Constructors by the component types of glTF. */
-const KINDS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array } as const;
+const KINDS = {
+    5120: Int8Array,
+    5121: Uint8Array,
+    5122: Int16Array,
+    5123: Uint16Array,
+    5125: Uint32Array,
+    5126: Float32Array,
+} as const;
 const SETS: Record<string, string> = { TEXCOORD_0: "uv", TEXCOORD_1: "uv1", COLOR_0: "color" };
 
 /** What the extension says of a bufferView. */
@@ -33,7 +40,14 @@ export class CodedViews<T> {
     }
 
     /** The bytes of a bufferView, of what `decode` makes of the stream of `from`. */
-    async made(this: CodedViews<Promise<Shape>>, from: BufferView, coded: Coded, byteLength: number, index: number, decode: () => Promise<Shape>): Promise<ArrayBuffer> {
+    async made(
+        this: CodedViews<Promise<Shape>>,
+        from: BufferView,
+        coded: Coded,
+        byteLength: number,
+        index: number,
+        decode: () => Promise<Shape>,
+    ): Promise<ArrayBuffer> {
         return this.bytes(await this.shape(from, decode), from, coded, byteLength, index);
     }
 
@@ -46,8 +60,17 @@ export class CodedViews<T> {
         return bytes;
     }
 
-    /** What is drawn of a stream, or of its first frame; `take` gets all pictures, and `end` hears that no more will come. */
-    decode(pool: Pool, data: Uint8Array, what: string, take: (picture: Picture, decoding: StreamDecoding) => void, end: (error?: unknown) => void): Promise<Shape> {
+    /**
+     * What is drawn of a stream, or of its first frame; `take` gets all pictures, and `end` hears that no more will
+     * come.
+     */
+    decode(
+        pool: Pool,
+        data: Uint8Array,
+        what: string,
+        take: (picture: Picture, decoding: StreamDecoding) => void,
+        end: (error?: unknown) => void,
+    ): Promise<Shape> {
         return new Promise((resolve, fail) => {
             let shape: Shape | undefined;
             const onError = (error: unknown): void => (fail(error), end(error));
@@ -57,7 +80,10 @@ export class CodedViews<T> {
                 take(picture, decoding);
                 if (picture.type === "frame" && shape) resolve(shape);
             };
-            const onEnd = (): void => (end(), shape ? resolve(shape) : fail(new Error(`${what} is a stream without a mesh`)));
+            const onEnd = (): void => (
+                end(),
+                shape ? resolve(shape) : fail(new Error(`${what} is a stream without a mesh`))
+            );
             const decoding = pool.open({ onPicture, onEnd, onError }, { drawing: "whole" });
             this.decodings.add(decoding);
             this.charge(0);
@@ -88,8 +114,16 @@ export function placeOf({ buffer, byteOffset = 0, byteLength }: BufferView): str
 }
 
 /** Bytes of the arrays in which a stream or a frame is drawn. */
-export function sizeOf({ index, positions, normals, attributes }: Record<"index" | "positions" | "normals", ArrayBufferView> & Pick<Shape, "attributes">): number {
-    return [index, positions, normals, ...attributes.map(({ values }) => values)].reduce((sum, { byteLength }) => sum + byteLength, 0);
+export function sizeOf({
+    index,
+    positions,
+    normals,
+    attributes,
+}: Record<"index" | "positions" | "normals", ArrayBufferView> & Pick<Shape, "attributes">): number {
+    return [index, positions, normals, ...attributes.map(({ values }) => values)].reduce(
+        (sum, { byteLength }) => sum + byteLength,
+        0,
+    );
 }
 
 /** The bytes of a bufferView, of what is drawn of its stream; it says how many these are. */
@@ -98,12 +132,17 @@ function bytesOf(shape: Shape, { attribute, componentType }: Coded, byteLength: 
     const Kind = KINDS[componentType ?? (attribute === "indices" ? 5125 : 5126)];
     if (!values || !Kind) throw new Error(`bufferView ${index}: its stream has no ${attribute} of such a type`);
     const bytes = Kind.from(values as ArrayLike<number>).buffer as ArrayBuffer;
-    if (bytes.byteLength !== byteLength) throw new Error(`bufferView ${index}: ${attribute} has ${bytes.byteLength} bytes, not ${byteLength}`);
+    if (bytes.byteLength !== byteLength)
+        throw new Error(`bufferView ${index}: ${attribute} has ${bytes.byteLength} bytes, not ${byteLength}`);
     return bytes;
 }
 
 /** The numbers that the extension calls so. */
 function valuesOf({ index, positions, normals, attributes }: Shape, name: string): ArrayLike<number> | undefined {
-    const own = new Map<string, ArrayLike<number>>([["indices", index], ["POSITION", positions], ["NORMAL", normals]]);
+    const own = new Map<string, ArrayLike<number>>([
+        ["indices", index],
+        ["POSITION", positions],
+        ["NORMAL", normals],
+    ]);
     return own.get(name) ?? attributes.find((attribute) => attribute.name === (SETS[name] ?? name))?.values;
 }

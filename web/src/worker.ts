@@ -30,7 +30,10 @@ export interface Start {
 export type Order = { task: number } & ({ start: Start } | { data: Uint8Array | null } | { stop: true });
 export type Message = Order | { help: MessagePort };
 
-/** Of a task: an event or a picture, a block, the end of blocks, events before what is wrong, that, bytes taken, or the end. */
+/**
+ * Of a task: an event or a picture, a block, the end of blocks, events before what is wrong, that, bytes taken, or the
+ * end.
+ */
 export type Report =
     | { event: DrawnEvent }
     | { picture: Picture }
@@ -56,7 +59,12 @@ export interface StreamWorker {
 
 export type Guard = (work: () => void) => void;
 /** `close` is called once, at the end or after what is wrong: everything is given back there. */
-export type Open = (start: Start, kernels: Kernels, say: Say, guarded: Guard) => Pick<StreamWorker, "take"> & { close: () => void };
+export type Open = (
+    start: Start,
+    kernels: Kernels,
+    say: Say,
+    guarded: Guard,
+) => Pick<StreamWorker, "take"> & { close: () => void };
 
 /** Return a worker that takes the bytes of a stream; after its end or a fault it takes and reports nothing more. */
 function opened(open: Open, start: Start, say: Say, kernels = new Kernels(start.kernels)): StreamWorker {
@@ -92,7 +100,15 @@ function attend(end: Endpoint, open: Open, own: { kernels?: Kernels } = {}): voi
         const { task } = order;
         if ("start" in order) {
             own.kernels ??= new Kernels(order.start.kernels);
-            workers.set(task, opened(open, order.start, (report, moved = []) => end.postMessage({ task, ...report }, moved), own.kernels));
+            workers.set(
+                task,
+                opened(
+                    open,
+                    order.start,
+                    (report, moved = []) => end.postMessage({ task, ...report }, moved),
+                    own.kernels,
+                ),
+            );
         } else if ("stop" in order) {
             workers.get(task)?.stop();
             workers.delete(task);
@@ -120,10 +136,15 @@ export class Reporter {
     /** Events that were reported; below 0 are those that another decoder has reported. */
     private reported: number;
 
-    constructor(private readonly decoder: Decoding, private readonly start: Start, private readonly out: Say) {
+    constructor(
+        private readonly decoder: Decoding,
+        private readonly start: Start,
+        private readonly out: Say,
+    ) {
         const { drawing, limits, reported = 0 } = start;
         this.reported = -reported;
-        if (drawing) this.drawing = new Drawing(drawing === "growing", limits, (picture, moved) => this.say({ picture }, moved));
+        if (drawing)
+            this.drawing = new Drawing(drawing === "growing", limits, (picture, moved) => this.say({ picture }, moved));
     }
 
     take(data: Uint8Array | null): void {

@@ -17,7 +17,12 @@ class DecodingWorker implements Taking {
     private team?: Team;
     private over?: string;
 
-    constructor(private readonly start: Start, kernels: Kernels, say: Say, private readonly guarded: Guard) {
+    constructor(
+        private readonly start: Start,
+        kernels: Kernels,
+        say: Say,
+        private readonly guarded: Guard,
+    ) {
         const { limits, tolerant, drawing } = start;
         const whole = drawing === "whole" && !tolerant;
         this.decoder = new Decoder(kernels, limits, { tolerant, whole, helpers: (header) => this.findHelpers(header) });
@@ -44,7 +49,11 @@ class DecodingWorker implements Taking {
         if (found.length === 0) return 0;
         const heard = (act: () => void): void => this.guarded(() => (act(), this.report()));
         const onBlock = (shared: SharedBlock): void => heard(() => this.decoder.receiveBlock(shared));
-        this.team = new Team(found, { kernels, limits, tolerant }, { onBlock, onOver: (why) => heard(() => (this.over = why)) });
+        this.team = new Team(
+            found,
+            { kernels, limits, tolerant },
+            { onBlock, onOver: (why) => heard(() => (this.over = why)) },
+        );
         for (const piece of pieces) this.team.take(piece);
         return found.length;
     }
@@ -58,7 +67,12 @@ class DecodingWorker implements Taking {
 class HelpingWorker implements Taking {
     private readonly helper: Helper;
 
-    constructor({ limits, tolerant }: Start, kernels: Kernels, share: Share, private readonly say: Say) {
+    constructor(
+        { limits, tolerant }: Start,
+        kernels: Kernels,
+        share: Share,
+        private readonly say: Say,
+    ) {
         this.helper = new Helper(kernels, share, limits, tolerant);
     }
 
@@ -66,7 +80,7 @@ class HelpingWorker implements Taking {
         const { helper } = this;
         if (data) helper.receiveData(data);
         else helper.receiveEof();
-        for (let shared; (shared = helper.nextBlock()) !== NEED_DATA; ) {
+        for (let shared; (shared = helper.nextBlock()) !== NEED_DATA;) {
             if (shared === END_OF_STREAM) return this.say({ through: true });
             const { block } = shared;
             this.say({ shared }, block && [block.vertices.buffer, block.positions.buffer, block.weights.buffer]);

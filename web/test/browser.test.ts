@@ -7,18 +7,38 @@ import test, { after, before, describe } from "node:test";
 import { fileURLToPath } from "node:url";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
 import { readNpz } from "./npz";
-import { base64, CHROMIUM, contentOf, drop, FLAGS, PATIENCE, rowsOf, savedPage, silhouette, tableOf, VECTORS, viewerScript } from "./shared";
+import {
+    base64,
+    CHROMIUM,
+    contentOf,
+    drop,
+    FLAGS,
+    PATIENCE,
+    rowsOf,
+    savedPage,
+    silhouette,
+    tableOf,
+    VECTORS,
+    viewerScript,
+} from "./shared";
 
 const STREAM = "good-labels";
 /** One of the specification, and a real one if it is named. */
-const SEQUENCES = [join(VECTORS, "good-sequence-learnt.bsm"), join(VECTORS, "good-sequence-runs.bsm"), ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : [])];
+const SEQUENCES = [
+    join(VECTORS, "good-sequence-learnt.bsm"),
+    join(VECTORS, "good-sequence-runs.bsm"),
+    ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : []),
+];
 
 /** What stands over the mesh is no part of it, nor is what changes behind it. */
 const BARE = ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: #e9ecf0 !important }";
 
 /** Shares of the pixels that are red and green, and how high these are on the mean, from the top. */
 function colorsIn(png: Buffer): { red: number; green: number; redHeight: number; greenHeight: number } {
-    const [counts, heights] = [[0, 0], [0, 0]];
+    const [counts, heights] = [
+        [0, 0],
+        [0, 0],
+    ];
     let all = 1;
     for (const { row, channels, y, width, height } of rowsOf(png)) {
         all = width * height;
@@ -28,7 +48,12 @@ function colorsIn(png: Buffer): { red: number; green: number; redHeight: number;
             if (which !== undefined) [counts[which], heights[which]] = [counts[which] + 1, heights[which] + y];
         }
     }
-    return { red: counts[0] / all, green: counts[1] / all, redHeight: heights[0] / counts[0], greenHeight: heights[1] / counts[1] };
+    return {
+        red: counts[0] / all,
+        green: counts[1] / all,
+        redHeight: heights[0] / counts[0],
+        greenHeight: heights[1] / counts[1],
+    };
 }
 
 describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}` }, () => {
@@ -38,14 +63,23 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
     const complaints: string[] = [];
 
     before(async () => {
-        const options = { executablePath: CHROMIUM, headless: true, args: FLAGS, viewport: { width: 800, height: 500 } };
+        const options = {
+            executablePath: CHROMIUM,
+            headless: true,
+            args: FLAGS,
+            viewport: { width: 800, height: 500 },
+        };
         context = await chromium.launchPersistentContext(join(folder, "profile"), options);
         context.setDefaultTimeout(PATIENCE);
         page = await context.newPage();
-        await context.addInitScript((bare) => document.addEventListener("DOMContentLoaded", () => {
-            document.head.append(Object.assign(document.createElement("style"), { textContent: bare }));
-            document.querySelector<HTMLElement>("[name=panel]")?.click();
-        }), BARE);
+        await context.addInitScript(
+            (bare) =>
+                document.addEventListener("DOMContentLoaded", () => {
+                    document.head.append(Object.assign(document.createElement("style"), { textContent: bare }));
+                    document.querySelector<HTMLElement>("[name=panel]")?.click();
+                }),
+            BARE,
+        );
         page.on("pageerror", (error) => complaints.push(error.message));
         page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(request.url()));
     });
@@ -57,14 +91,15 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
     const whole = readFileSync(join(VECTORS, `${STREAM}.bsm`));
     const state = (name: string): Promise<unknown> => page.waitForSelector(`body[data-state=${name}]`);
 
-    for (const [name, stream] of Object.entries({ grid: readFileSync(join(VECTORS, "good-grid.bsm")), whole })) test(`draws a ${name} stream to its end, and fetches nothing`, async () => {
-        await page.goto(savedPage(folder, { [name]: stream }));
-        await state("complete");
-        const { share, x, y } = silhouette(await page.locator("canvas").screenshot());
-        assert.ok(share > 0.05 && share < 0.6, `share ${share}`);
-        assert.ok(x > 0.4 && x < 0.8 && Math.abs(y - 0.5) < 0.1, `beside the card: ${x} ${y}`);
-        assert.deepEqual(complaints, []);
-    });
+    for (const [name, stream] of Object.entries({ grid: readFileSync(join(VECTORS, "good-grid.bsm")), whole }))
+        test(`draws a ${name} stream to its end, and fetches nothing`, async () => {
+            await page.goto(savedPage(folder, { [name]: stream }));
+            await state("complete");
+            const { share, x, y } = silhouette(await page.locator("canvas").screenshot());
+            assert.ok(share > 0.05 && share < 0.6, `share ${share}`);
+            assert.ok(x > 0.4 && x < 0.8 && Math.abs(y - 0.5) < 0.1, `beside the card: ${x} ${y}`);
+            assert.deepEqual(complaints, []);
+        });
 
     test("cuts the stream at any byte, and goes on", async () => {
         await page.getByLabel("Stop after byte").fill("0");
@@ -81,7 +116,8 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             await page.evaluate(async () => {
                 const canvas = document.querySelector("canvas")!;
                 const context = canvas.getContext("webgl2")!.getExtension("WEBGL_lose_context")!;
-                const event = (type: string): Promise<unknown> => new Promise((keep) => canvas.addEventListener(type, keep, { once: true }));
+                const event = (type: string): Promise<unknown> =>
+                    new Promise((keep) => canvas.addEventListener(type, keep, { once: true }));
                 const lost = event("webglcontextlost");
                 context.loseContext();
                 await lost;
@@ -91,8 +127,9 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
                 await restored;
                 await new Promise((keep) => requestAnimationFrame(() => requestAnimationFrame(keep)));
             });
-            const isThere = async (): Promise<boolean> => Math.abs(silhouette(await canvas.screenshot()).share - silhouette(before).share) < 0.02;
-            for (const end = Date.now() + PATIENCE; !(await isThere()); ) assert.ok(Date.now() < end, `time ${k + 1}`);
+            const isThere = async (): Promise<boolean> =>
+                Math.abs(silhouette(await canvas.screenshot()).share - silhouette(before).share) < 0.02;
+            for (const end = Date.now() + PATIENCE; !(await isThere());) assert.ok(Date.now() < end, `time ${k + 1}`);
         }
     });
 
@@ -100,7 +137,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await page.getByLabel("Bandwidth, Mbit/s").fill(String((whole.length * 8) / 1e6 / 2));
         await page.getByRole("button", { name: "Stream again" }).click();
         const seen = new Set<string>();
-        for (const start = Date.now(); Date.now() - start < 10_000; ) {
+        for (const start = Date.now(); Date.now() - start < 10_000;) {
             seen.add((await page.locator("body").getAttribute("data-blocks")) ?? "");
             if ((await page.locator("body").getAttribute("data-state")) === "complete") break;
         }
@@ -119,14 +156,41 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         const name = (): Promise<string> =>
             page.evaluate(() => {
                 const active = document.activeElement as HTMLElement;
-                const label = active.getAttribute("aria-label") ?? (active as HTMLInputElement).labels?.[0]?.textContent;
-                return (label ?? active.textContent ?? "").trim().split(/[\n,.(:]/)[0].trim();
+                const label =
+                    active.getAttribute("aria-label") ?? (active as HTMLInputElement).labels?.[0]?.textContent;
+                return (label ?? active.textContent ?? "")
+                    .trim()
+                    .split(/[\n,.(:]/)[0]
+                    .trim();
             });
-        const expected = ["The mesh", "Measured", "Open a mesh or stream", "Save a picture", "Full screen", "Dark or light", "Keys", "Settings", "Light from", "Background", "Auto-rotate", "Stop after byte", "Bandwidth", "Stream again", "Copy the code", "Licenses", "Smooth", "Color"];
+        const expected = [
+            "The mesh",
+            "Measured",
+            "Open a mesh or stream",
+            "Save a picture",
+            "Full screen",
+            "Dark or light",
+            "Keys",
+            "Settings",
+            "Light from",
+            "Background",
+            "Auto-rotate",
+            "Stop after byte",
+            "Bandwidth",
+            "Stream again",
+            "Copy the code",
+            "Licenses",
+            "Smooth",
+            "Color",
+        ];
         await page.locator("canvas").focus();
         const met = [await name()];
         for (const _ of expected.slice(1)) met.push((await page.keyboard.press("Tab"), await name()));
-        assert.deepEqual(met.map((found, i) => found.startsWith(expected[i])), expected.map(() => true), met.join(" | "));
+        assert.deepEqual(
+            met.map((found, i) => found.startsWith(expected[i])),
+            expected.map(() => true),
+            met.join(" | "),
+        );
         await page.getByRole("combobox", { name: "Color" }).selectOption("blocks");
         await page.waitForFunction(() => document.body.textContent!.includes("Order in which blocks arrive"));
         await page.getByRole("combobox", { name: "Color" }).selectOption("plain");
@@ -165,17 +229,25 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
     }
 
     test("plots the largest error of each frame", async () => {
-        const frames = Number(await page.evaluate(() => document.querySelector<HTMLInputElement>("[name=frame]")!.max)) + 1;
+        const frames =
+            Number(await page.evaluate(() => document.querySelector<HTMLInputElement>("[name=frame]")!.max)) + 1;
         const errors = Array.from({ length: frames }, (_, i) => (i === 1 ? 0.004 : 0.001));
         assert.ok(await page.locator("[data-part=errors]").isHidden(), "nothing is known of the errors");
-        await page.goto(savedPage(folder, { sequence: readFileSync(SEQUENCES.at(-1)!) }, { facts: { errors, farthest: 0.004 } }));
+        await page.goto(
+            savedPage(folder, { sequence: readFileSync(SEQUENCES.at(-1)!) }, { facts: { errors, farthest: 0.004 } }),
+        );
         await state("complete");
         const path = (await page.locator("[data-part=errors] path").getAttribute("d"))!.split("L");
         assert.equal(path.length, frames + 2);
-        assert.deepEqual(path.slice(1, 4).map((point) => Number(point.split(",")[1])), [0.75, 0, 0.75]);
+        assert.deepEqual(
+            path.slice(1, 4).map((point) => Number(point.split(",")[1])),
+            [0.75, 0, 0.75],
+        );
         await page.getByRole("button", { name: "Pause" }).click();
         await page.getByRole("slider", { name: "Frame" }).fill("1");
-        await page.waitForFunction(() => document.querySelector("[data-part=time]")!.textContent!.endsWith("error 0.4\u00a0%"));
+        await page.waitForFunction(() =>
+            document.querySelector("[data-part=time]")!.textContent!.endsWith("error 0.4\u00a0%"),
+        );
         assert.deepEqual(complaints, []);
     });
 
@@ -197,14 +269,43 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         const { positions } = readNpz(readFileSync(join(VECTORS, `${STREAM}.npz`)));
         const [vertices, diagonal] = [positions.values.length / 3, 2];
         const layer = (title: string, size: number, share?: number): object => ({
-            title, detail: "", size, data: base64(whole),
-            ...(share === undefined ? {} : { off: { data: base64(new Uint8Array(new Float32Array(vertices).fill(share * diagonal).buffer)) } }),
+            title,
+            detail: "",
+            size,
+            data: base64(whole),
+            ...(share === undefined
+                ? {}
+                : { off: { data: base64(new Uint8Array(new Float32Array(vertices).fill(share * diagonal).buffer)) } }),
         });
-        const facts = { look: 0.9, farthest: 0.01, promised: { look: 1, farthest: 0.02 }, diagonal, draco: { bytes: 4000, bits: 11 }, attributes: { color: { max_error: 3, range: 255 }, chart: null } };
-        await page.goto(savedPage(folder, { three: whole }, { main: 1, facts, layers: [layer("Original", 64 * whole.length), layer("BSM", whole.length, 0.0075), layer("Draco", 2000, 0)] }));
+        const facts = {
+            look: 0.9,
+            farthest: 0.01,
+            promised: { look: 1, farthest: 0.02 },
+            diagonal,
+            draco: { bytes: 4000, bits: 11 },
+            attributes: { color: { max_error: 3, range: 255 }, chart: null },
+        };
+        await page.goto(
+            savedPage(
+                folder,
+                { three: whole },
+                {
+                    main: 1,
+                    facts,
+                    layers: [
+                        layer("Original", 64 * whole.length),
+                        layer("BSM", whole.length, 0.0075),
+                        layer("Draco", 2000, 0),
+                    ],
+                },
+            ),
+        );
         await page.waitForSelector("body[data-layers='3']");
         await page.waitForFunction(() => document.body.innerText.includes("64 times smaller"));
-        assert.match(await page.locator("[data-part=facts]").innerText(), /Look distance\s+0.90\s+promised 1;[^]*1\u00a0%[^]*promised 2\u00a0%[^]*Draco at the same look[^]*4 kB 11 bits[^]*Error of color\s+up to 3 of 255\s+Error of chart\s+missing/);
+        assert.match(
+            await page.locator("[data-part=facts]").innerText(),
+            /Look distance\s+0.90\s+promised 1;[^]*1\u00a0%[^]*promised 2\u00a0%[^]*Draco at the same look[^]*4 kB 11 bits[^]*Error of color\s+up to 3 of 255\s+Error of chart\s+missing/,
+        );
         const redOf = async (): Promise<number> => {
             await page.waitForTimeout(300);
             const { red } = colorsIn(await page.locator("canvas").screenshot());
@@ -217,18 +318,27 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await page.keyboard.press("Escape");
         assert.ok(await page.getByRole("region", { name: "Keys" }).isHidden());
         await page.keyboard.press("1");
-        assert.ok(await page.getByRole("radio", { name: "Wipe" }).isDisabled(), "the original is not compared with itself");
+        assert.ok(
+            await page.getByRole("radio", { name: "Wipe" }).isDisabled(),
+            "the original is not compared with itself",
+        );
         await page.keyboard.press("2");
         await page.keyboard.press("e");
         await page.waitForFunction(() => document.body.innerText.includes("Distance from the original"));
         assert.match(await page.locator("[data-part=scale]").innerText(), /0\u00a0%[^]*0.5\u00a0%[^]*1\u00a0%\n0.02/);
         const half = await redOf();
         // The handle has 44 pixels, and captions are 14 beside it, but 4 within the page.
-        const tagged = (width: number): Promise<unknown> => page.waitForFunction((width) => {
-            const share = Number(document.querySelector<HTMLInputElement>("[name=wipe]")!.value) / 1000;
-            const tag = document.querySelector<HTMLElement>("[data-part=right]")!;
-            return Math.abs(parseFloat(tag.style.left) - Math.min(22 + share * (width - 44) + 14, width - tag.offsetWidth - 4)) < 0.01;
-        }, width);
+        const tagged = (width: number): Promise<unknown> =>
+            page.waitForFunction((width) => {
+                const share = Number(document.querySelector<HTMLInputElement>("[name=wipe]")!.value) / 1000;
+                const tag = document.querySelector<HTMLElement>("[data-part=right]")!;
+                return (
+                    Math.abs(
+                        parseFloat(tag.style.left) -
+                            Math.min(22 + share * (width - 44) + 14, width - tag.offsetWidth - 4),
+                    ) < 0.01
+                );
+            }, width);
         await tagged(800);
         await page.setViewportSize({ width: 600, height: 500 });
         await tagged(600);
@@ -281,16 +391,22 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         const fresh = await context.newPage();
         const url = savedPage(folder, { sequence: readFileSync(SEQUENCES[0]), tiled: whole });
         const path = fileURLToPath(url);
-        writeFileSync(path, readFileSync(path, "utf8").replace('"name":"tiled"', '"name":"tiled","tiles":"http://bsm.test"'));
+        writeFileSync(
+            path,
+            readFileSync(path, "utf8").replace('"name":"tiled"', '"name":"tiled","tiles":"http://bsm.test"'),
+        );
         const manifest = { cell: 1, origin: [0, 0, 0], levels: [], shards: [] };
-        await fresh.route("http://bsm.test/*", (route) => route.fulfill({ json: manifest, headers: { "Access-Control-Allow-Origin": "*" } }));
+        await fresh.route("http://bsm.test/*", (route) =>
+            route.fulfill({ json: manifest, headers: { "Access-Control-Allow-Origin": "*" } }),
+        );
         await fresh.goto(url);
         await fresh.waitForSelector("body[data-state=complete]");
         await fresh.getByRole("combobox", { name: "Color" }).selectOption("blocks");
         await fresh.getByText("Order in which blocks arrive").waitFor();
         await fresh.getByRole("combobox", { name: "Stream" }).selectOption("tiled");
         await fresh.waitForSelector("body[data-state=complete][data-tiles='0']");
-        for (const part of ["sequence", "scale", "colors"]) assert.ok(await fresh.locator(`[data-part=${part}]`).isHidden(), part);
+        for (const part of ["sequence", "scale", "colors"])
+            assert.ok(await fresh.locator(`[data-part=${part}]`).isHidden(), part);
         await fresh.close();
     });
 
@@ -299,22 +415,37 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await page.waitForFunction(() => document.querySelector("h1")!.textContent === "other.bsm");
         await state("complete");
         await drop(page, { "ball.ply": new Uint8Array(10) });
-        await page.waitForFunction(() => document.querySelector("[role=alert]")!.textContent!.includes("bsm view ball.ply"));
+        await page.waitForFunction(() =>
+            document.querySelector("[role=alert]")!.textContent!.includes("bsm view ball.ply"),
+        );
         assert.deepEqual(complaints, []);
     });
 
     test("compares two streams that are dropped on it", async () => {
         const read = (name: string): Buffer => readFileSync(join(VECTORS, `${name}.bsm`));
-        const said = async (claim: RegExp): Promise<void> => void (await page.waitForFunction((text) => new RegExp(text).test(document.querySelector("[data-part=claim]")!.textContent!), claim.source));
+        const said = async (claim: RegExp): Promise<void> =>
+            void (await page.waitForFunction(
+                (text) => new RegExp(text).test(document.querySelector("[data-part=claim]")!.textContent!),
+                claim.source,
+            ));
         await drop(page, { "a.bsm": read("good-labels"), "b.bsm": read("good-labels") });
         await said(/^No difference was measured$/);
         assert.ok(await page.getByRole("radio", { name: "Wipe" }).isChecked());
-        assert.deepEqual(await page.locator("[data-part=layers] label").allInnerTexts().then((all) => all.map((text) => text.split(",")[1].trim())), ["a.bsm", "b.bsm"]);
+        assert.deepEqual(
+            await page
+                .locator("[data-part=layers] label")
+                .allInnerTexts()
+                .then((all) => all.map((text) => text.split(",")[1].trim())),
+            ["a.bsm", "b.bsm"],
+        );
         assert.match((await tableOf(page))["Largest vertex error"], /^0.%/);
         await drop(page, { "a.bsm": read("good-labels"), "b.bsm": read("good-tetrahedron") });
         await said(/^Differences up to [\d.]+.% of the diagonal/);
         const table = await tableOf(page);
-        assert.ok(parseFloat(table["Largest surface distance"]) > parseFloat(table["Mean surface distance"]), JSON.stringify(table));
+        assert.ok(
+            parseFloat(table["Largest surface distance"]) > parseFloat(table["Mean surface distance"]),
+            JSON.stringify(table),
+        );
         assert.match(table.Original, /vertices [\d,]+ triangles/);
         await page.locator("canvas").press("e");
         await page.getByText("Distance from the original's surface").waitFor();
@@ -322,11 +453,19 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await said(/^No difference was measured$/);
         assert.ok(await page.locator("[data-part=errors]").isVisible());
         await drop(page, { "a.bsm": read("good-sequence-learnt"), "b.bsm": read("good-grid") });
-        await page.waitForFunction(() => /cannot be compared.*sequence/.test(document.querySelector("[role=alert]")!.textContent!));
+        await page.waitForFunction(() =>
+            /cannot be compared.*sequence/.test(document.querySelector("[role=alert]")!.textContent!),
+        );
         await drop(page, { "a.bsm": read("good-grid"), "b.bsm": read("good-grid"), "c.bsm": read("good-grid") });
-        await page.waitForFunction(() => /a.bsm and b.bsm and c.bsm cannot be shown. Open one file, or two/.test(document.querySelector("[role=alert]")!.textContent!));
+        await page.waitForFunction(() =>
+            /a.bsm and b.bsm and c.bsm cannot be shown. Open one file, or two/.test(
+                document.querySelector("[role=alert]")!.textContent!,
+            ),
+        );
         await drop(page, { "b.ply": new Uint8Array(10), "a.bsm": read("good-grid") });
-        await page.waitForFunction(() => document.querySelector("[role=alert]")!.textContent!.includes("bsm view a.bsm --original b.ply"));
+        await page.waitForFunction(() =>
+            document.querySelector("[role=alert]")!.textContent!.includes("bsm view a.bsm --original b.ply"),
+        );
         assert.deepEqual(complaints, []);
     });
 
@@ -340,18 +479,43 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         assert.equal(await streams.inputValue(), "");
         await streams.selectOption("whole");
         await page.locator("h1").waitFor({ state: "hidden" });
-        await page.waitForFunction((length) => document.querySelector("[data-part=bytes]")!.textContent!.includes(`of ${length} bytes`), whole.length);
+        await page.waitForFunction(
+            (length) => document.querySelector("[data-part=bytes]")!.textContent!.includes(`of ${length} bytes`),
+            whole.length,
+        );
     });
 
     test("takes no bytes of a stream that still comes into what is dropped", async () => {
         const fresh = await context.newPage();
         const grid = readFileSync(join(VECTORS, "good-grid.bsm"));
         await fresh.addInitScript(() => {
-            window.fetch = async () => new Response(new ReadableStream({ start: (out) => void Object.assign(window, { send: (bytes: number[]) => out.enqueue(Uint8Array.from(bytes)) }) }));
+            window.fetch = async () =>
+                new Response(
+                    new ReadableStream({
+                        start: (out) =>
+                            void Object.assign(window, {
+                                send: (bytes: number[]) => out.enqueue(Uint8Array.from(bytes)),
+                            }),
+                    }),
+                );
         });
-        const send = (bytes: Uint8Array): Promise<void> => fresh.evaluate((bytes) => (window as unknown as { send: (bytes: number[]) => void }).send(bytes), [...bytes]);
-        const taken = (length: number): Promise<unknown> => fresh.waitForFunction((length) => document.querySelector("[data-part=bytes]")!.textContent!.includes(`of ${length} bytes`), length);
-        await fresh.goto(savedPage(folder, { live: whole }, { layers: [{ title: "BSM", detail: "", size: 0, url: "http://bsm.test/live" }], live: true }));
+        const send = (bytes: Uint8Array): Promise<void> =>
+            fresh.evaluate(
+                (bytes) => (window as unknown as { send: (bytes: number[]) => void }).send(bytes),
+                [...bytes],
+            );
+        const taken = (length: number): Promise<unknown> =>
+            fresh.waitForFunction(
+                (length) => document.querySelector("[data-part=bytes]")!.textContent!.includes(`of ${length} bytes`),
+                length,
+            );
+        await fresh.goto(
+            savedPage(
+                folder,
+                { live: whole },
+                { layers: [{ title: "BSM", detail: "", size: 0, url: "http://bsm.test/live" }], live: true },
+            ),
+        );
         await fresh.waitForFunction(() => "send" in window);
         await send(whole.subarray(0, 100));
         await taken(100);
@@ -391,7 +555,10 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         damaged[whole.length - 16] ^= 255;
         await page.goto(savedPage(folder, { damaged }));
         await state("damaged");
-        assert.match((await page.getByRole("alert").textContent()) ?? "", /damaged: blocks? .* the rest is shown.*CorruptError/);
+        assert.match(
+            (await page.getByRole("alert").textContent()) ?? "",
+            /damaged: blocks? .* the rest is shown.*CorruptError/,
+        );
         const { share } = silhouette(await page.locator("canvas").screenshot());
         assert.ok(share > 0.02 && share < 0.6, `share ${share}`);
         const headless = Uint8Array.from(whole);

@@ -4,8 +4,25 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import test, { describe } from "node:test";
 import {
-    BoxGeometry, BufferAttribute, BufferGeometry, Color, Float16BufferAttribute, Group, InstancedBufferAttribute, InstancedBufferGeometry, InstancedMesh, InterleavedBuffer,
-    InterleavedBufferAttribute, LOD, Mesh, MeshBasicMaterial, Points, SkinnedMesh, SphereGeometry, SRGBColorSpace, Texture,
+    BoxGeometry,
+    BufferAttribute,
+    BufferGeometry,
+    Color,
+    Float16BufferAttribute,
+    Group,
+    InstancedBufferAttribute,
+    InstancedBufferGeometry,
+    InstancedMesh,
+    InterleavedBuffer,
+    InterleavedBufferAttribute,
+    LOD,
+    Mesh,
+    MeshBasicMaterial,
+    Points,
+    SkinnedMesh,
+    SphereGeometry,
+    SRGBColorSpace,
+    Texture,
 } from "three";
 import { encodeHere, EncodeError, type EncodeOptions, type Drawn, type MeshInput } from "../src/encode";
 import type { BSMGeometry } from "../src/geometry";
@@ -29,18 +46,35 @@ interface Found {
 /** What comes back of what was encoded exactly. */
 async function back(given: MeshInput | Drawn, options: EncodeOptions = { lossless: true }): Promise<Found> {
     const notes: string[] = [];
-    const { positions: p, faces, attributes } = decode(kernels, await encodeHere(given, { ...options, wasm, onNote: (note) => notes.push(note) }));
-    const ends = (end: (...numbers: number[]) => number): number[] => [0, 1, 2].map((d) => Math.fround(end(...p.filter((_, i) => i % 3 === d))));
+    const {
+        positions: p,
+        faces,
+        attributes,
+    } = decode(kernels, await encodeHere(given, { ...options, wasm, onNote: (note) => notes.push(note) }));
+    const ends = (end: (...numbers: number[]) => number): number[] =>
+        [0, 1, 2].map((d) => Math.fround(end(...p.filter((_, i) => i % 3 === d))));
     let volume = 0;
     for (let i = 0; i < faces.length; i += 3) {
         const [a, b, c] = [0, 1, 2].map((k) => p.subarray(3 * faces[i + k], 3 * faces[i + k] + 3));
-        volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+        volume +=
+            (a[0] * (b[1] * c[2] - b[2] * c[1]) +
+                a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                a[2] * (b[0] * c[1] - b[1] * c[0])) /
+            6;
     }
-    return { low: ends(Math.min), high: ends(Math.max), faces: faces.length / 3, attribute: (name) => attributes.find((each) => each.name === name), notes, volume };
+    return {
+        low: ends(Math.min),
+        high: ends(Math.max),
+        faces: faces.length / 3,
+        attribute: (name) => attributes.find((each) => each.name === name),
+        notes,
+        volume,
+    };
 }
 
 const box = (): BufferGeometry => new BoxGeometry(2, 2, 2);
-const positions = (geometry: BufferGeometry, attribute: BufferAttribute | InterleavedBufferAttribute): BufferGeometry => geometry.setAttribute("position", attribute);
+const positions = (geometry: BufferGeometry, attribute: BufferAttribute | InterleavedBufferAttribute): BufferGeometry =>
+    geometry.setAttribute("position", attribute);
 const moved = (mesh: Mesh): Mesh => (mesh.position.set(5, 0, 0), mesh.scale.set(1, 1, -2), new Group().add(mesh), mesh);
 const CUBE = [-1, -1, -1];
 
@@ -49,7 +83,12 @@ describe("kept", () => {
     const whole = (one: number): number[] => [...box().getAttribute("position").array].map((x) => one * x);
     const spaced = (): InterleavedBufferAttribute => {
         const { array } = box().getAttribute("position");
-        const buffer = new InterleavedBuffer(Int16Array.from({ length: (4 * array.length) / 3 }, (_, i) => (i % 4 ? 32767 * array[3 * (i >> 2) + (i % 4) - 1] : 7)), 4);
+        const buffer = new InterleavedBuffer(
+            Int16Array.from({ length: (4 * array.length) / 3 }, (_, i) =>
+                i % 4 ? 32767 * array[3 * (i >> 2) + (i % 4) - 1] : 7,
+            ),
+            4,
+        );
         return new InterleavedBufferAttribute(buffer, 3, 1, true);
     };
     for (const [what, geometry] of Object.entries({
@@ -60,7 +99,13 @@ describe("kept", () => {
         doubles: positions(box(), new BufferAttribute(Float64Array.from(whole(1)), 3)),
         "interleaved, normalized": positions(box(), spaced()),
         "no index": box().toNonIndexed(),
-        "four numbers": positions(box(), new BufferAttribute(Float32Array.from({ length: 96 }, (_, i) => (i % 4 < 3 ? whole(1)[3 * (i >> 2) + (i % 4)] : 9)), 4)),
+        "four numbers": positions(
+            box(),
+            new BufferAttribute(
+                Float32Array.from({ length: 96 }, (_, i) => (i % 4 < 3 ? whole(1)[3 * (i >> 2) + (i % 4)] : 9)),
+                4,
+            ),
+        ),
         "no shape of a morph": Object.assign(box(), { morphAttributes: { position: [] } }),
         "beside numbers of 64 bits": box().setAttribute("id", new BufferAttribute(new BigInt64Array(24) as never, 1)),
         "a longer attribute": box().setAttribute("uv", new BufferAttribute(new Float32Array(60), 2)),
@@ -73,8 +118,21 @@ describe("kept", () => {
 
     test("other attributes as the numbers that they stand for", async () => {
         const [geometry, count] = [box(), 24];
-        geometry.setAttribute("uv", new BufferAttribute(Uint16Array.from({ length: 2 * count }, () => 65535), 2, true));
-        geometry.setAttribute("heat", new BufferAttribute(Float32Array.from({ length: count }, (_, i) => i), 1));
+        geometry.setAttribute(
+            "uv",
+            new BufferAttribute(
+                Uint16Array.from({ length: 2 * count }, () => 65535),
+                2,
+                true,
+            ),
+        );
+        geometry.setAttribute(
+            "heat",
+            new BufferAttribute(
+                Float32Array.from({ length: count }, (_, i) => i),
+                1,
+            ),
+        );
         const { attribute } = await back(geometry);
         assert.deepEqual([attribute("uv")!.values[0], attribute("heat")!.kind], [1, "float32"]);
     });
@@ -82,11 +140,26 @@ describe("kept", () => {
     test("colors, which are linear in three.js and glTF, and sRGB in streams", async () => {
         const [bytes, color] = [Uint8Array.from({ length: 72 }, (_, i) => (37 * i) & 255), new Color()];
         const linear = Float32Array.from(bytes, (byte) => color.setRGB(byte / 255, 0, 0, SRGBColorSpace).r);
-        const colored = async (values: Float32Array | Uint8Array): Promise<Attribute> => (await back(box().setAttribute("color", new BufferAttribute(values, 3, true)), { lossless: true, keepOrder: true })).attribute("color")!;
-        const [exact, coarse, bright] = [await colored(linear), await colored(bytes), await colored(linear.map((share) => 2 * share))];
-        assert.deepEqual([exact.values, exact.kind, coarse.kind, bright.semantic], [Float64Array.from(bytes), "uint8", "uint16", "generic"]);
+        const colored = async (values: Float32Array | Uint8Array): Promise<Attribute> =>
+            (
+                await back(box().setAttribute("color", new BufferAttribute(values, 3, true)), {
+                    lossless: true,
+                    keepOrder: true,
+                })
+            ).attribute("color")!;
+        const [exact, coarse, bright] = [
+            await colored(linear),
+            await colored(bytes),
+            await colored(linear.map((share) => 2 * share)),
+        ];
+        assert.deepEqual(
+            [exact.values, exact.kind, coarse.kind, bright.semantic],
+            [Float64Array.from(bytes), "uint8", "uint16", "generic"],
+        );
         const given = [...linear, ...[...bytes, ...bytes].map((byte) => byte / 255)];
-        [exact, { ...exact, name: "COLOR_0" }, coarse].flatMap((each) => [...numbersOf(each)]).forEach((share, i) => assert.ok(Math.abs(share - given[i]) < 2e-5));
+        [exact, { ...exact, name: "COLOR_0" }, coarse]
+            .flatMap((each) => [...numbersOf(each)])
+            .forEach((share, i) => assert.ok(Math.abs(share - given[i]) < 2e-5));
     });
 
     test("the draw range, and the materials of groups", async () => {
@@ -95,7 +168,11 @@ describe("kept", () => {
         const found = await back(geometry);
         assert.equal(found.faces, 4);
         assert.deepEqual([...new Set(found.attribute("material")!.values)].sort(), [1, 2]);
-        for (const few of [[new MeshBasicMaterial()], [0, 1, 2, 3, 4, 5].map((i) => new MeshBasicMaterial({ visible: i === 3 }))]) assert.equal((await back(new Mesh(box(), few))).faces, 2);
+        for (const few of [
+            [new MeshBasicMaterial()],
+            [0, 1, 2, 3, 4, 5].map((i) => new MeshBasicMaterial({ visible: i === 3 })),
+        ])
+            assert.equal((await back(new Mesh(box(), few))).faces, 2);
     });
 
     test("where an object is, what it mirrors, its parts, and their materials", async () => {
@@ -107,15 +184,30 @@ describe("kept", () => {
         const still = Object.assign(new Mesh(box()), { matrixAutoUpdate: false });
         still.matrix.makeTranslation(9, 0, 0);
         assert.deepEqual((await back(still)).low, [8, -1, -1]);
-        const group = new Group().add(new Mesh(box(), new MeshBasicMaterial({ name: "red" })), moved(new Mesh(box(), new MeshBasicMaterial({ name: "blue" }))));
+        const group = new Group().add(
+            new Mesh(box(), new MeshBasicMaterial({ name: "red" })),
+            moved(new Mesh(box(), new MeshBasicMaterial({ name: "blue" }))),
+        );
         const both = await back(group);
         assert.deepEqual([both.low, both.high, both.faces], [[-1, -1, -2], [6, 1, 2], 24]);
-        assert.deepEqual([[...new Set(both.attribute("part")!.values)], [...new Set(both.attribute("material")!.values)]].map((each) => each.sort()), [[0, 1], [0, 1]]);
+        assert.deepEqual(
+            [[...new Set(both.attribute("part")!.values)], [...new Set(both.attribute("material")!.values)]].map(
+                (each) => each.sort(),
+            ),
+            [
+                [0, 1],
+                [0, 1],
+            ],
+        );
     });
 
     test("plain arrays, and whole numbers as positions", async () => {
         const flat = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], faces: [0, 2, 1] };
-        for (const mesh of [flat, { ...flat, positions: Int16Array.from(flat.positions) }, { ...flat, faces: Uint16Array.from(flat.faces) }]) {
+        for (const mesh of [
+            flat,
+            { ...flat, positions: Int16Array.from(flat.positions) },
+            { ...flat, faces: Uint16Array.from(flat.faces) },
+        ]) {
             const found = await back(mesh);
             assert.deepEqual([found.low, found.high, found.faces], [[0, 0, 0], [1, 1, 0], 1]);
         }
@@ -130,7 +222,8 @@ describe("refused", () => {
         geometry.morphAttributes.position = [geometry.getAttribute("position").clone() as BufferAttribute];
         return geometry;
     };
-    const instanced = (): BufferGeometry => box().setAttribute("shift", new InstancedBufferAttribute(new Float32Array(6), 3));
+    const instanced = (): BufferGeometry =>
+        box().setAttribute("shift", new InstancedBufferAttribute(new Float32Array(6), 3));
     const mesh = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], faces: [0, 1, 2] };
     const corners = { name: "uv", values: [0, 0, 1, 1], components: 2, domain: "corner" as const };
     for (const [what, [given, said, options]] of Object.entries({
@@ -151,24 +244,39 @@ describe("refused", () => {
         "metadata of no kind": [{ ...mesh, metadata: { on: true as unknown as string } }, /metadata on/],
         "bits that are no number": [mesh, /finite/, { bits: NaN }],
         "a cell that is no number": [mesh, /finite/, { cell: NaN }],
-        "a bound that is no number": [{ ...mesh, attributes: [{ name: "heat", values: [1, 2, 3], components: 1, quality: { bound: NaN } }] }, /quality/],
+        "a bound that is no number": [
+            { ...mesh, attributes: [{ name: "heat", values: [1, 2, 3], components: 1, quality: { bound: NaN } }] },
+            /quality/,
+        ],
     } as Record<string, [MeshInput | Drawn, RegExp, EncodeOptions?]>)) {
         test(what, async () => {
-            await assert.rejects(back(given, options), (error: Error) => error instanceof EncodeError && said.test(error.message) || assert.fail(`${error}`));
+            await assert.rejects(
+                back(given, options),
+                (error: Error) => (error instanceof EncodeError && said.test(error.message)) || assert.fail(`${error}`),
+            );
         });
     }
 });
 
 test("noted: points beside meshes, what is invisible, what some parts lack, wide attributes, textures", async () => {
     const wide = box().setAttribute("wide", new BufferAttribute(new Float32Array(24 * 16), 16));
-    const group = new Group().add(new Mesh(wide, new MeshBasicMaterial({ map: new Texture() })), new Mesh(box().deleteAttribute("uv")), new Points(box()), Object.assign(new Mesh(box()), { visible: false }));
+    const group = new Group().add(
+        new Mesh(wide, new MeshBasicMaterial({ map: new Texture() })),
+        new Mesh(box().deleteAttribute("uv")),
+        new Points(box()),
+        Object.assign(new Mesh(box()), { visible: false }),
+    );
     const { notes, faces } = await back(group);
     assert.equal(faces, 24);
     assert.deepEqual(notes, ["Left out: points and lines, what is invisible, uv, wide, textures."]);
 });
 
 test("black beside an image is no color, and MTL has colors of screens", async () => {
-    const metadata = new Map<string, string | number>([["material.0.Kd", "0 0 0"], ["material.0.map_Kd", 0], ["material.0.Ke", "0.5 0.5 0.5"]]);
+    const metadata = new Map<string, string | number>([
+        ["material.0.Kd", "0 0 0"],
+        ["material.0.map_Kd", 0],
+        ["material.0.Ke", "0.5 0.5 0.5"],
+    ]);
     const [{ color, emissive }] = await materialsOf({ metadata, pieces: [] } as unknown as BSMGeometry);
     assert.deepEqual([color.getHexString(), emissive.getHexString()], ["ffffff", "808080"]);
 });

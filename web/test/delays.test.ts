@@ -1,4 +1,7 @@
-/** The page, whose messages to and from threads take times drawn at random, while the reader chooses one stream after the other: the last picture is right. */
+/**
+ * The page, whose messages to and from threads take times drawn at random, while the reader chooses one stream after
+ * the other: the last picture is right.
+ */
 import assert from "node:assert/strict";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -35,7 +38,12 @@ function delay(seed: number): void {
 
 /** The picture of a stream, of a sequence its first frame, once it is there and edges are smooth. */
 async function pictureOf(page: Page, size: number): Promise<Buffer> {
-    await page.waitForFunction((size) => document.body.dataset.state === "complete" && document.querySelector("[data-part=bytes]")!.textContent!.startsWith(`${size.toLocaleString("en")} of`), size);
+    await page.waitForFunction(
+        (size) =>
+            document.body.dataset.state === "complete" &&
+            document.querySelector("[data-part=bytes]")!.textContent!.startsWith(`${size.toLocaleString("en")} of`),
+        size,
+    );
     await page.waitForTimeout(500);
     await page.evaluate(() => {
         const play = document.querySelector<HTMLButtonElement>("[name=play]")!;
@@ -50,37 +58,49 @@ async function pictureOf(page: Page, size: number): Promise<Buffer> {
     return page.screenshot();
 }
 
-test(`${ORDERS} orders of messages and streams end in the right picture`, { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 3_600_000 }, async (context) => {
-    const folder = mkdtempSync(join(tmpdir(), "bsm-delays-"));
-    const browser = await chromiumFor(context);
-    context.after(() => rmSync(folder, { recursive: true, force: true }));
-    const streams: Record<string, Uint8Array> = Object.fromEntries(GOOD.map((name) => [name, Uint8Array.from(readFileSync(join(VECTORS, `good-${name}.bsm`)))]));
-    streams.damaged = Uint8Array.from(streams.keys, (byte, i) => byte ^ Number(i === 400));
-    const address = savedPage(folder, streams);
-    const open = async (seed?: number): Promise<Page> => {
-        const page = await browser.newPage({ viewport: { width: 300, height: 300 } });
-        page.setDefaultTimeout(PATIENCE);
-        if (seed !== undefined) await page.addInitScript(delay, seed);
-        await page.goto(address);
-        await page.addStyleTag({ content: BARE });
-        return page;
-    };
-    const expected = new Map<string, Buffer>();
-    const plain = await open();
-    for (const name of GOOD) {
-        await plain.locator("[name=stream]").selectOption(name, { force: true });
-        expected.set(name, await pictureOf(plain, streams[name].length));
-    }
-    for (let seed = 1; seed <= ORDERS; seed++) {
-        const draw = drawing(seed);
-        const page = await open(seed);
-        const names = [...Array.from({ length: 1 + draw(4) }, () => Object.keys(streams)[draw(GOOD.length + 1)]), GOOD[draw(GOOD.length)]];
-        for (const name of names) {
-            await page.waitForTimeout(draw(250));
-            await page.locator("[name=stream]").selectOption(name, { force: true });
+test(
+    `${ORDERS} orders of messages and streams end in the right picture`,
+    { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 3_600_000 },
+    async (context) => {
+        const folder = mkdtempSync(join(tmpdir(), "bsm-delays-"));
+        const browser = await chromiumFor(context);
+        context.after(() => rmSync(folder, { recursive: true, force: true }));
+        const streams: Record<string, Uint8Array> = Object.fromEntries(
+            GOOD.map((name) => [name, Uint8Array.from(readFileSync(join(VECTORS, `good-${name}.bsm`)))]),
+        );
+        streams.damaged = Uint8Array.from(streams.keys, (byte, i) => byte ^ Number(i === 400));
+        const address = savedPage(folder, streams);
+        const open = async (seed?: number): Promise<Page> => {
+            const page = await browser.newPage({ viewport: { width: 300, height: 300 } });
+            page.setDefaultTimeout(PATIENCE);
+            if (seed !== undefined) await page.addInitScript(delay, seed);
+            await page.goto(address);
+            await page.addStyleTag({ content: BARE });
+            return page;
+        };
+        const expected = new Map<string, Buffer>();
+        const plain = await open();
+        for (const name of GOOD) {
+            await plain.locator("[name=stream]").selectOption(name, { force: true });
+            expected.set(name, await pictureOf(plain, streams[name].length));
         }
-        const last = names.at(-1)!;
-        assert.ok((await pictureOf(page, streams[last].length)).equals(expected.get(last)!), `order ${seed}: ${names.join(", ")}`);
-        await page.close();
-    }
-});
+        for (let seed = 1; seed <= ORDERS; seed++) {
+            const draw = drawing(seed);
+            const page = await open(seed);
+            const names = [
+                ...Array.from({ length: 1 + draw(4) }, () => Object.keys(streams)[draw(GOOD.length + 1)]),
+                GOOD[draw(GOOD.length)],
+            ];
+            for (const name of names) {
+                await page.waitForTimeout(draw(250));
+                await page.locator("[name=stream]").selectOption(name, { force: true });
+            }
+            const last = names.at(-1)!;
+            assert.ok(
+                (await pictureOf(page, streams[last].length)).equals(expected.get(last)!),
+                `order ${seed}: ${names.join(", ")}`,
+            );
+            await page.close();
+        }
+    },
+);

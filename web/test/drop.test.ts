@@ -8,7 +8,11 @@ import { CHROMIUM, chromiumFor, drop as dropped, PATIENCE, tableOf } from "./sha
 const given = process.env.BSM_DROP;
 
 describe("a mesh that is dropped", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`) }, () => {
-    const { address, mesh, pairs } = JSON.parse(given ?? "{}") as { address: string; mesh: string; pairs: [paths: string[], title: string, row: string, percent: number][] };
+    const { address, mesh, pairs } = JSON.parse(given ?? "{}") as {
+        address: string;
+        mesh: string;
+        pairs: [paths: string[], title: string, row: string, percent: number][];
+    };
 
     test("is encoded with a bar, and both are shown; another one can be canceled while it is sent and while it is encoded", async (context) => {
         const browser = await chromiumFor(context);
@@ -21,15 +25,26 @@ describe("a mesh that is dropped", { skip: !given || (!existsSync(CHROMIUM) && `
         const drop = (): Promise<void> => dropped(page, { "ball.ply": readFileSync(mesh) });
         await drop();
         await page.getByRole("progressbar").waitFor();
-        assert.ok(await page.getByText("nothing leaves it").isHidden(), "the card that asks for a mesh hides the progress");
+        assert.ok(
+            await page.getByText("nothing leaves it").isHidden(),
+            "the card that asks for a mesh hides the progress",
+        );
         await page.waitForFunction(() => Number(document.body.dataset.layers) >= 2, undefined, { timeout: PATIENCE });
         assert.equal(await page.locator("h1").textContent(), "ball.ply");
         assert.match(await page.locator("[data-part=claim]").innerText(), /^Looks the same, [\d.]+ times smaller$/);
         assert.ok(await page.getByRole("radio", { name: "Wipe" }).isChecked());
         for (const [paths, title, row, percent] of pairs) {
             await dropped(page, Object.fromEntries(paths.map((path) => [basename(path), readFileSync(path)])));
-            await page.waitForFunction((name) => document.querySelector("h1")!.textContent === name && Number(document.body.dataset.layers) >= 2, title, { timeout: PATIENCE });
-            assert.match(await page.locator("[data-part=claim]").innerText(), /^(Looks the same|Close: differences show side by side|A preview: differences show at a glance)/);
+            await page.waitForFunction(
+                (name) =>
+                    document.querySelector("h1")!.textContent === name && Number(document.body.dataset.layers) >= 2,
+                title,
+                { timeout: PATIENCE },
+            );
+            assert.match(
+                await page.locator("[data-part=claim]").innerText(),
+                /^(Looks the same|Close: differences show side by side|A preview: differences show at a glance)/,
+            );
             const found = parseFloat((await tableOf(page))[row]);
             assert.ok(Math.abs(found / percent - 1) < 0.01, `${paths}: ${row} ${found}, not ${percent}`);
         }

@@ -1,4 +1,7 @@
-/** The encoder for pages: streams that the decoder reads, errors, progress. tests/library/test_encode.py compares their bytes with those of C. */
+/**
+ * The encoder for pages: streams that the decoder reads, errors, progress. tests/library/test_encode.py compares their
+ * bytes with those of C.
+ */
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -22,17 +25,39 @@ function dressed(): ReturnType<typeof meshOf> {
     const corners = mesh.faces.length;
     const attributes: AttributeInput[] = [
         ...(mesh.attributes ?? []),
-        { name: "color", values: Uint8Array.from({ length: mesh.positions.length }, (_, i) => (7 * i) & 255), components: 3, semantic: "color" as const },
-        { name: "part", values: Int32Array.from({ length: corners / 3 }, (_, i) => i & 3), components: 1, domain: "face" as const },
-        { name: "chart", values: Float32Array.from({ length: 2 * corners }, (_, i) => (i % 64) / 64), components: 2, domain: "corner" as const, semantic: "texcoord" as const },
+        {
+            name: "color",
+            values: Uint8Array.from({ length: mesh.positions.length }, (_, i) => (7 * i) & 255),
+            components: 3,
+            semantic: "color" as const,
+        },
+        {
+            name: "part",
+            values: Int32Array.from({ length: corners / 3 }, (_, i) => i & 3),
+            components: 1,
+            domain: "face" as const,
+        },
+        {
+            name: "chart",
+            values: Float32Array.from({ length: 2 * corners }, (_, i) => (i % 64) / 64),
+            components: 2,
+            domain: "corner" as const,
+            semantic: "texcoord" as const,
+        },
     ];
-    return { ...mesh, attributes, metadata: { unit: "mm", count: 3, scale: 0.5, "image.0.data": Uint8Array.from([1, 2, 3]) } };
+    return {
+        ...mesh,
+        attributes,
+        metadata: { unit: "mm", count: 3, scale: 0.5, "image.0.data": Uint8Array.from([1, 2, 3]) },
+    };
 }
 
 /** One triangle. */
 const SINGLE = {
-    "one.ply": "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
-    "one.stl": "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid one\n",
+    "one.ply":
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+    "one.stl":
+        "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid one\n",
 };
 
 /** A page that encodes in a worker, and aborts; and how long it could not do anything else. */
@@ -64,9 +89,23 @@ describe("encoding in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         site.headers["Content-Security-Policy"] = POLICY;
         const page = await browser.newPage();
         await page.goto(site.address);
-        type Found = { bytes: number[]; parts: number[]; blocked: number; aborted: string; refused: string; again: number };
-        const found = (await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: PATIENCE })).jsonValue()) as Found;
-        assert.deepEqual(Buffer.from(found.bytes), Buffer.from(encodeWith(module, { positions: mesh.positions, faces: mesh.faces })));
+        type Found = {
+            bytes: number[];
+            parts: number[];
+            blocked: number;
+            aborted: string;
+            refused: string;
+            again: number;
+        };
+        const found = (await (
+            await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, {
+                timeout: PATIENCE,
+            })
+        ).jsonValue()) as Found;
+        assert.deepEqual(
+            Buffer.from(found.bytes),
+            Buffer.from(encodeWith(module, { positions: mesh.positions, faces: mesh.faces })),
+        );
         assert.equal(found.again, found.bytes.length);
         assert.ok(found.parts.length > 3 && found.parts.at(-1) === 1);
         assert.match(found.aborted, /^AbortError/);
@@ -86,28 +125,53 @@ describe("encoding", () => {
     test("errors say what is wrong", async () => {
         const mesh = dressed();
         assert.throws(() => encodeWith(module, mesh, { bits: 21 }), { name: "EncodeError", status: 2 });
-        assert.throws(() => encodeWith(module, { ...mesh, faces: mesh.faces.map((v) => v + 1) }), /is vertex \d+ of \d+/);
+        assert.throws(
+            () => encodeWith(module, { ...mesh, faces: mesh.faces.map((v) => v + 1) }),
+            /is vertex \d+ of \d+/,
+        );
         const far = Float64Array.from(mesh.positions, (x) => x + 1e7);
-        assert.throws(() => encodeWith(module, { ...mesh, positions: far }, { lossless: true }), { name: "EncodeError", status: 10 });
+        assert.throws(() => encodeWith(module, { ...mesh, positions: far }, { lossless: true }), {
+            name: "EncodeError",
+            status: 10,
+        });
         await assert.rejects(new BSMExporter().parseAsync({} as Mesh), /objects with meshes/);
-        await assert.rejects(encodeHere({ ...mesh, positions: mesh.positions.slice(1) }, { wasm: module }), /three numbers/);
+        await assert.rejects(
+            encodeHere({ ...mesh, positions: mesh.positions.slice(1) }, { wasm: module }),
+            /three numbers/,
+        );
     });
 
     test("progress ascends; who listens can end the work", async () => {
         const seen: number[] = [];
         encodeWith(module, dressed(), { onProgress: (part) => void seen.push(part) });
-        assert.deepEqual(seen, [...seen].sort((a, b) => a - b));
+        assert.deepEqual(
+            seen,
+            [...seen].sort((a, b) => a - b),
+        );
         assert.equal(seen.at(-1), 1);
         const stop = new Error("enough");
-        const thrown = (): Uint8Array => encodeWith(module, dressed(), { onProgress: () => { throw stop; } });
+        const thrown = (): Uint8Array =>
+            encodeWith(module, dressed(), {
+                onProgress: () => {
+                    throw stop;
+                },
+            });
         assert.throws(thrown, stop);
-        await assert.rejects(encodeHere(dressed(), { wasm: module, signal: AbortSignal.abort() }), { name: "AbortError" });
+        await assert.rejects(encodeHere(dressed(), { wasm: module, signal: AbortSignal.abort() }), {
+            name: "AbortError",
+        });
     });
 
     test("BSMExporter writes what three.js has, indexed, interleaved or not", async () => {
-        const plain = new BufferGeometry().setAttribute("position", new BufferAttribute(Float32Array.from([0, 0, 0, 1, 0, 0, 0, 1, 0]), 3));
+        const plain = new BufferGeometry().setAttribute(
+            "position",
+            new BufferAttribute(Float32Array.from([0, 0, 0, 1, 0, 0, 0, 1, 0]), 3),
+        );
         for (const geometry of [plain, new TorusKnotGeometry(1, 0.3, 60, 8)]) {
-            const bytes = await new BSMExporter().parseAsync(new Mesh(geometry), { wasm: module, qualities: { normal: "recompute" } });
+            const bytes = await new BSMExporter().parseAsync(new Mesh(geometry), {
+                wasm: module,
+                qualities: { normal: "recompute" },
+            });
             const { positions, faces } = decode(kernels, bytes);
             assert.equal(faces.length, geometry.index?.count ?? 3);
             assert.ok(positions.length > 0);
@@ -118,7 +182,8 @@ describe("encoding", () => {
         const folder = mkdtempSync(join(tmpdir(), "bsm-encode-"));
         context.after(() => rmSync(folder, { recursive: true }));
         const [source, target] = [join(folder, "two.obj"), join(folder, "two.bsm")];
-        const run = (...given: string[]): ReturnType<typeof spawnSync> => spawnSync(process.execPath, [join(WEB, "mesh.js"), ...given], { encoding: "utf8" });
+        const run = (...given: string[]): ReturnType<typeof spawnSync> =>
+            spawnSync(process.execPath, [join(WEB, "mesh.js"), ...given], { encoding: "utf8" });
         writeFileSync(source, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no one\nf 1 2 3\nf 1 3 4\no other\nf 2 3 4\n");
         execFileSync(process.execPath, [join(WEB, "mesh.js"), source, target, "lossless"]);
         const { positions, faces } = decode(kernels, new Uint8Array(readFileSync(target)));
@@ -138,20 +203,37 @@ describe("encoding", () => {
         const folder = mkdtempSync(join(tmpdir(), "bsm-frames-"));
         context.after(() => rmSync(folder, { recursive: true }));
         const target = join(folder, "all.bsm");
-        const write = (frame: number, z: number, ...faces: string[]): void => writeFileSync(join(folder, `${frame}.ply`), `ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face ${faces.length}\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 ${z}\n${faces.map((corners) => `3 ${corners}\n`).join("")}`);
-        const run = (): ReturnType<typeof spawnSync> => spawnSync(process.execPath, [join(WEB, "mesh.js"), folder, target, "10"], { encoding: "utf8" });
+        const write = (frame: number, z: number, ...faces: string[]): void =>
+            writeFileSync(
+                join(folder, `${frame}.ply`),
+                `ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face ${faces.length}\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 ${z}\n${faces.map((corners) => `3 ${corners}\n`).join("")}`,
+            );
+        const run = (): ReturnType<typeof spawnSync> =>
+            spawnSync(process.execPath, [join(WEB, "mesh.js"), folder, target, "10"], { encoding: "utf8" });
         const heights = Array.from({ length: 11 }, (_, frame) => 2 + Math.sin(frame)); // 10.ply comes last
         heights.forEach((z, frame) => write(frame, z, "0 1 2", "0 2 3", "0 3 1"));
         assert.equal(run().status, 0);
-        const found = [...eventsOf(kernels, readFileSync(target), Infinity)].flatMap((event) => (event.type === "frame" ? [Math.max(...event.positions)] : []));
+        const found = [...eventsOf(kernels, readFileSync(target), Infinity)].flatMap((event) =>
+            event.type === "frame" ? [Math.max(...event.positions)] : [],
+        );
         assert.equal(found.length, heights.length);
         found.forEach((z, frame) => assert.ok(Math.abs(z - heights[frame]) <= 3 / (2 ** 10 - 1) / 2, `frame ${frame}`));
         write(4, NaN, "0 1 2", "0 2 3", "0 3 1");
         assert.match(String(run().stderr), /finite/);
-        for (const faces of [["0 1 2", "0 3 1", "0 2 3"], ["0 1 2", "0 2 3"]]) {
+        for (const faces of [
+            ["0 1 2", "0 3 1", "0 2 3"],
+            ["0 1 2", "0 2 3"],
+        ]) {
             write(4, 2, ...faces);
             assert.match(String(run().stderr), /4\.ply: it has other faces than 0\.ply/);
         }
-        for (const [frames, words] of [[2, /encode-moving/], [4, /in each frame/]] as const) assert.throws(() => encodeWith(module, { positions: new Float32Array(18), faces: [0, 1, 2], frames }), words);
+        for (const [frames, words] of [
+            [2, /encode-moving/],
+            [4, /in each frame/],
+        ] as const)
+            assert.throws(
+                () => encodeWith(module, { positions: new Float32Array(18), faces: [0, 1, 2], frames }),
+                words,
+            );
     });
 });

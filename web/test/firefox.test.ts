@@ -71,7 +71,10 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
                 new Promise((keep, fail) => {
                     const places: number[] = [];
                     const onEvent = (event: any): void => {
-                        if (event.type === "block") event.vertices.forEach((vertex: number, i: number) => [0, 1, 2].forEach((d) => (places[3 * vertex + d] = event.positions[3 * i + d])));
+                        if (event.type === "block")
+                            event.vertices.forEach((vertex: number, i: number) =>
+                                [0, 1, 2].forEach((d) => (places[3 * vertex + d] = event.positions[3 * i + d])),
+                            );
                     };
                     const stream = pool.open({ onEvent, onEnd: () => keep(places), onError: fail }, wishes);
                     stream.receiveData(bytes.slice());
@@ -82,14 +85,21 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
             pool.dispose();
             return { positions, helped, workers };
         });
-        assert.deepEqual(found, { positions: [...decode(kernels, read("good-keys")).positions], helped: 1, workers: 2 });
+        assert.deepEqual(found, {
+            positions: [...decode(kernels, read("good-keys")).positions],
+            helped: 1,
+            workers: 2,
+        });
     });
 
     test("draws and plays, or says that this machine cannot draw", async (t) => {
         await page.goto(savedPage(folder, { sequence: read("good-sequence-learnt") }));
         await page.waitForSelector("body[data-state=complete], body[data-state=failed]", { timeout: PATIENCE });
         if (await page.evaluate(() => document.createElement("canvas").getContext("webgl2") === null)) {
-            assert.match(await page.$eval("[role=alert]", (alert) => alert.textContent ?? ""), /WebGL is not available/);
+            assert.match(
+                await page.$eval("[role=alert]", (alert) => alert.textContent ?? ""),
+                /WebGL is not available/,
+            );
             return t.skip("Firefox draws nothing here: no WebGL");
         }
         await until(() => Number(document.body.dataset.frame) > 0);

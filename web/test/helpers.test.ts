@@ -9,14 +9,23 @@ import { kernels, mended, VECTORS } from "./shared";
 const CHAINS = ["good-independent-predicted", "good-independent", "good-key-seed", "good-keys"];
 
 /** All events, and the message of the error behind them, of a stream in pieces; `among` share it. */
-function decodeShared(kernels: Kernels, data: Uint8Array, size: number, among: number, tolerant: boolean): { events: Event[]; error?: string; awaited: number } {
+function decodeShared(
+    kernels: Kernels,
+    data: Uint8Array,
+    size: number,
+    among: number,
+    tolerant: boolean,
+): { events: Event[]; error?: string; awaited: number } {
     const decoder = new Decoder(kernels, {}, { tolerant, helpers: () => among - 1 });
-    const helpers = Array.from({ length: among - 1 }, (_, k) => new Helper(kernels, { number: k + 1, among }, {}, tolerant));
+    const helpers = Array.from(
+        { length: among - 1 },
+        (_, k) => new Helper(kernels, { number: k + 1, among }, {}, tolerant),
+    );
     const all = [decoder, ...helpers];
     const events: Event[] = [];
     let awaited = 0;
     const take = (): void => {
-        for (let event; (event = decoder.nextEvent()) === NEED_BLOCK || typeof event !== "string"; ) {
+        for (let event; (event = decoder.nextEvent()) === NEED_BLOCK || typeof event !== "string";) {
             if (event !== NEED_BLOCK) events.push(event);
             else {
                 awaited++;
@@ -48,7 +57,10 @@ for (const name of CHAINS) {
         const data = readFileSync(join(VECTORS, `${name}.bsm`));
         const alone = decodeShared(kernels, data, data.length, 1, false);
         assert.equal(alone.error, undefined);
-        for (const [among, size] of [2, 3, 8].flatMap((among) => [[among, data.length], [among, 5]])) {
+        for (const [among, size] of [2, 3, 8].flatMap((among) => [
+            [among, data.length],
+            [among, 5],
+        ])) {
             const { awaited, ...together } = decodeShared(kernels, data, size, among, false);
             assert.ok(awaited > 0);
             assert.deepEqual({ ...together, awaited: 0 }, alone);
@@ -76,5 +88,8 @@ test(`${DAMAGED}, damaged, with helpers, strict and tolerant`, async () => {
     }
     // All chains, and errors that only their decoders find.
     for (let index = 0; index <= LAST; index++) assert.ok(lost.has(index), `${[...lost]}`);
-    assert.ok([...refused].some((message) => message?.includes("[byte") && message.includes(`block ${LAST}`)), `${[...refused]}`);
+    assert.ok(
+        [...refused].some((message) => message?.includes("[byte") && message.includes(`block ${LAST}`)),
+        `${[...refused]}`,
+    );
 });

@@ -13,7 +13,7 @@ const STREAMS = FOLDERS.flatMap((folder) => readdirSync(folder).map((name) => jo
 
 /** Numbers in [0, 1), the same in every run (Park and Miller, 1988). */
 function* numbers(seed: number): Generator<number, never> {
-    for (let state = seed; ; ) yield (state = (state * 48271) % 2147483647) / 2147483647;
+    for (let state = seed; ;) yield (state = (state * 48271) % 2147483647) / 2147483647;
 }
 
 test("mutated streams", { timeout: 5 * PATIENCE }, async () => {
@@ -37,7 +37,10 @@ test("every beginning of a stream is truncated", async () => {
     for (const name of ["good-refined", "good-keys"]) {
         const stream = readFileSync(join(VECTORS, `${name}.bsm`));
         for (let size = 0; size < stream.length; size++) {
-            assert.throws(() => meshOfEvents(eventsOf(kernels, stream.subarray(0, size), stream.length)), TruncatedError);
+            assert.throws(
+                () => meshOfEvents(eventsOf(kernels, stream.subarray(0, size), stream.length)),
+                TruncatedError,
+            );
         }
     }
 });

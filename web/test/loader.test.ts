@@ -22,28 +22,36 @@ function broken(name: string): Uint8Array {
     return data;
 }
 
-describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 5 * PATIENCE }, () => {
-    let browser: Browser;
-    let page: Page;
-    let site: Site;
-    const complaints: string[] = [];
+describe(
+    "the package in Chromium",
+    { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 5 * PATIENCE },
+    () => {
+        let browser: Browser;
+        let page: Page;
+        let site: Site;
+        const complaints: string[] = [];
 
-    before(async () => {
-        browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
-        site = await serveSite();
-        page = await browser.newPage({ viewport: { width: 400, height: 300 } });
-        page.on("pageerror", (error) => complaints.push(error.message));
-    });
-    after(async () => {
-        await browser?.close();
-        site?.close();
-    });
+        before(async () => {
+            browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
+            site = await serveSite();
+            page = await browser.newPage({ viewport: { width: 400, height: 300 } });
+            page.on("pageerror", (error) => complaints.push(error.message));
+        });
+        after(async () => {
+            await browser?.close();
+            site?.close();
+        });
 
-    /** What a module finds in a page with such headers. */
-    async function found(script: string, headers: Record<string, string> = { "Content-Security-Policy": POLICY }): Promise<Record<string, unknown>> {
-        for (const name of Object.keys(site.headers)) delete site.headers[name];
-        Object.assign(site.headers, headers);
-        site.extra.set("/script.js", `import { decode, loadKernels, Pool } from "bsm";
+        /** What a module finds in a page with such headers. */
+        async function found(
+            script: string,
+            headers: Record<string, string> = { "Content-Security-Policy": POLICY },
+        ): Promise<Record<string, unknown>> {
+            for (const name of Object.keys(site.headers)) delete site.headers[name];
+            Object.assign(site.headers, headers);
+            site.extra.set(
+                "/script.js",
+                `import { decode, loadKernels, Pool } from "bsm";
             import { BSMLoader, BSMSceneLoader } from "bsm/three";
             let workers = 0;
             window.Worker = class extends Worker {
@@ -57,27 +65,32 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
                 }
             };
             const bytesOf = async (name) => new Uint8Array(await (await fetch("/stream/" + name + ".bsm")).arrayBuffer());
-            try { window.found = await (async () => { ${script} })(); } catch (error) { window.found = { failed: error.stack ?? String(error) }; }`);
-        complaints.length = 0;
-        await page.goto(site.address);
-        const value = await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: PATIENCE })).jsonValue();
-        assert.deepEqual(complaints, []);
-        const outcome = value as Record<string, unknown>;
-        assert.ok(!("failed" in outcome), String(outcome.failed));
-        return outcome;
-    }
+            try { window.found = await (async () => { ${script} })(); } catch (error) { window.found = { failed: error.stack ?? String(error) }; }`,
+            );
+            complaints.length = 0;
+            await page.goto(site.address);
+            const value = await (
+                await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, {
+                    timeout: PATIENCE,
+                })
+            ).jsonValue();
+            assert.deepEqual(complaints, []);
+            const outcome = value as Record<string, unknown>;
+            assert.ok(!("failed" in outcome), String(outcome.failed));
+            return outcome;
+        }
 
-    /** Scenes of one stream: as it is, with a wrong size, and cut off. */
-    async function serveScenes(): Promise<void> {
-        const stream = readFileSync(join(VECTORS, "good-attribute-textured.bsm"));
-        const { positions, faces } = decode(kernels, stream);
-        site.extra.set("/scene.glb", sceneOf(stream, positions.length / 3, faces.length));
-        site.extra.set("/wrong.glb", sceneOf(stream, positions.length / 3 + 1, faces.length));
-        site.extra.set("/broken.glb", sceneOf(stream.subarray(0, -30), positions.length / 3, faces.length));
-    }
+        /** Scenes of one stream: as it is, with a wrong size, and cut off. */
+        async function serveScenes(): Promise<void> {
+            const stream = readFileSync(join(VECTORS, "good-attribute-textured.bsm"));
+            const { positions, faces } = decode(kernels, stream);
+            site.extra.set("/scene.glb", sceneOf(stream, positions.length / 3, faces.length));
+            site.extra.set("/wrong.glb", sceneOf(stream, positions.length / 3 + 1, faces.length));
+            site.extra.set("/broken.glb", sceneOf(stream.subarray(0, -30), positions.length / 3, faces.length));
+        }
 
-    test("fills a geometry of three.js from an address", async () => {
-        const seen = await found(`
+        test("fills a geometry of three.js from an address", async () => {
+            const seen = await found(`
             const seen = { blocks: 0, frames: 0, bytes: 0 };
             const take = (name, progress) => new Promise((keep, fail) => new BSMLoader().load("/stream/" + name + ".bsm", keep, (event) => (seen.bytes = event.loaded), fail, progress));
             const grown = { begun: [], drawn: [], radii: [], early: 0 };
@@ -100,20 +113,25 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
                 positions: [...parted.getAttribute("position").array].every((x, i) => Math.abs(x - mesh.positions[i]) < 1e-5),
                 normals: Array.from({ length: n.length / 3 }, (_, i) => Math.hypot(n[3 * i], n[3 * i + 1], n[3 * i + 2])).every((length) => Math.abs(length - 1) < 1e-4),
             };`);
-        const { begun, drawn, radii, early } = seen.grown as { begun: number[]; drawn: number[]; radii: number[]; early: number };
-        assert.equal(begun.length, 1);
-        assert.ok(drawn[0] === 0 && drawn.every((count, i) => i === 0 || count >= drawn[i - 1]), `${drawn}`);
-        assert.equal(drawn.at(-1), begun.at(-1));
-        assert.ok(radii[0] === 0 && radii[1] > 0, `${radii}`);
-        assert.equal(early, 0);
-        assert.ok(Number(seen.blocks) > 0 && Number(seen.bytes) > 0 && Number(seen.kept) > 1);
-        assert.equal(seen.frames, seen.kept);
-        assert.deepEqual([seen.drawn, seen.faces, seen.positions, seen.normals], [true, true, true, true]);
-        assert.ok(Number(seen.workers) <= 2, `${seen.workers} threads`);
-    });
+            const { begun, drawn, radii, early } = seen.grown as {
+                begun: number[];
+                drawn: number[];
+                radii: number[];
+                early: number;
+            };
+            assert.equal(begun.length, 1);
+            assert.ok(drawn[0] === 0 && drawn.every((count, i) => i === 0 || count >= drawn[i - 1]), `${drawn}`);
+            assert.equal(drawn.at(-1), begun.at(-1));
+            assert.ok(radii[0] === 0 && radii[1] > 0, `${radii}`);
+            assert.equal(early, 0);
+            assert.ok(Number(seen.blocks) > 0 && Number(seen.bytes) > 0 && Number(seen.kept) > 1);
+            assert.equal(seen.frames, seen.kept);
+            assert.deepEqual([seen.drawn, seen.faces, seen.positions, seen.normals], [true, true, true, true]);
+            assert.ok(Number(seen.workers) <= 2, `${seen.workers} threads`);
+        });
 
-    test("indexes a mesh by all that its corners have", async () => {
-        const seen = await found(`
+        test("indexes a mesh by all that its corners have", async () => {
+            const seen = await found(`
             const load = (name) => new BSMLoader().loadAsync("/stream/" + name + ".bsm");
             const kernels = await loadKernels();
             const [textured, colored] = [await load("good-attribute-uv-blocks"), await load("good-attribute-colors")];
@@ -123,14 +141,14 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const same = mesh.faces.every((vertex, i) => Math.abs(position.getX(index[i]) - mesh.positions[3 * vertex]) < 1e-5 && Math.abs(uv.getX(index[i]) - values[2 * indices[i]]) < 1e-5);
             const colors = colored.getAttribute("color");
             return { same, expected: new Set([...mesh.faces].map((vertex, i) => vertex + " " + indices[i])).size, drawn: position.count, corners: index.length, colors: colors.count === colored.getAttribute("position").count, brightest: Math.max(...colors.array) };`);
-        assert.equal(seen.same, true);
-        assert.equal(seen.drawn, seen.expected);
-        assert.ok(Number(seen.drawn) < Number(seen.corners));
-        assert.ok(seen.colors && Number(seen.brightest) > 0.1 && Number(seen.brightest) <= 1);
-    });
+            assert.equal(seen.same, true);
+            assert.equal(seen.drawn, seen.expected);
+            assert.ok(Number(seen.drawn) < Number(seen.corners));
+            assert.ok(seen.colors && Number(seen.brightest) > 0.1 && Number(seen.brightest) <= 1);
+        });
 
-    test("keeps its threads, and goes on behind bad streams", async () => {
-        const seen = await found(`
+        test("keeps its threads, and goes on behind bad streams", async () => {
+            const seen = await found(`
             const loader = new BSMLoader().setWorkerLimit(2);
             const names = ["${STREAM}", "bad-sequence-long", "good-grid", "no-such-file", "good-light"].flatMap((name) => [name, name, name]);
             const outcome = await Promise.all(names.map((name) => loader.loadAsync("/stream/" + name + ".bsm").then((geometry) => geometry.index.count > 0, (error) => error.name + ": " + error.message)));
@@ -140,22 +158,35 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const before = workers;
             for (let k = 0; k < 5; k++) await loader.parseAsync((await bytesOf("${STREAM}")).buffer);
             return { outcome, after, cut, stray, more: workers - before };`);
-        const outcome = seen.outcome as (boolean | string)[];
-        assert.deepEqual(outcome.slice(0, 3), [true, true, true]);
-        assert.ok(outcome.slice(3, 6).every((text) => /^CorruptError: .stream.bad-sequence-long.bsm: /.test(String(text))), `${outcome}`);
-        assert.deepEqual(outcome.slice(6, 9), [true, true, true]);
-        assert.ok(outcome.slice(9, 12).every((text) => /no-such-file.bsm: 404/.test(String(text))), `${outcome}`);
-        assert.deepEqual(outcome.slice(12), [true, true, true]);
-        assert.deepEqual([seen.after, seen.cut, seen.stray, seen.more], [true, "TruncatedError", "FormatError", 0]);
-    });
+            const outcome = seen.outcome as (boolean | string)[];
+            assert.deepEqual(outcome.slice(0, 3), [true, true, true]);
+            assert.ok(
+                outcome
+                    .slice(3, 6)
+                    .every((text) => /^CorruptError: .stream.bad-sequence-long.bsm: /.test(String(text))),
+                `${outcome}`,
+            );
+            assert.deepEqual(outcome.slice(6, 9), [true, true, true]);
+            assert.ok(
+                outcome.slice(9, 12).every((text) => /no-such-file.bsm: 404/.test(String(text))),
+                `${outcome}`,
+            );
+            assert.deepEqual(outcome.slice(12), [true, true, true]);
+            assert.deepEqual([seen.after, seen.cut, seen.stray, seen.more], [true, "TruncatedError", "FormatError", 0]);
+        });
 
-    for (const name of ["good-sequence-low-delay", "good-keys", "good-light-chunks"]) {
-        test(`tells once what comes before damage of ${name}`, async () => {
-            const damaged = broken(name);
-            site.extra.set("/damaged.bsm", damaged);
-            const expected: string[] = [];
-            assert.throws(() => { for (const { type } of eventsOf(kernels, damaged, damaged.length)) expected.push(type); }, { name: "CorruptError" });
-            const seen = await found(`
+        for (const name of ["good-sequence-low-delay", "good-keys", "good-light-chunks"]) {
+            test(`tells once what comes before damage of ${name}`, async () => {
+                const damaged = broken(name);
+                site.extra.set("/damaged.bsm", damaged);
+                const expected: string[] = [];
+                assert.throws(
+                    () => {
+                        for (const { type } of eventsOf(kernels, damaged, damaged.length)) expected.push(type);
+                    },
+                    { name: "CorruptError" },
+                );
+                const seen = await found(`
                 const data = new Uint8Array(await (await fetch("/damaged.bsm")).arrayBuffer());
                 const decoded = (wishes) => new Promise((keep) => {
                     const heard = [];
@@ -171,18 +202,23 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
                     stream.receiveEof();
                 });
                 return { events: await decoded({}), pictures: await decoded({ drawing: "growing" }), whole: await decoded({ drawing: "whole" }) };`);
-            const { events, pictures, whole } = seen as Record<string, { heard: string[] }>;
-            assert.deepEqual(events, { heard: expected, name: "CorruptError", worded: true, most: true });
-            assert.deepEqual({ ...pictures, heard: [] }, { ...events, heard: [] });
-            for (const { heard } of [pictures, whole]) assert.deepEqual(heard.filter((type) => type === "header" || type === "frame"), expected.filter((type) => type === "header" || type === "frame"));
-            assert.equal(pictures.heard.filter((type) => type === "begun").length, 1);
-            assert.ok(pictures.heard.includes("grown"));
-        });
-    }
+                const { events, pictures, whole } = seen as Record<string, { heard: string[] }>;
+                assert.deepEqual(events, { heard: expected, name: "CorruptError", worded: true, most: true });
+                assert.deepEqual({ ...pictures, heard: [] }, { ...events, heard: [] });
+                for (const { heard } of [pictures, whole])
+                    assert.deepEqual(
+                        heard.filter((type) => type === "header" || type === "frame"),
+                        expected.filter((type) => type === "header" || type === "frame"),
+                    );
+                assert.equal(pictures.heard.filter((type) => type === "begun").length, 1);
+                assert.ok(pictures.heard.includes("grown"));
+            });
+        }
 
-    test("keeps the frames before damage, and says then what is wrong", async () => {
-        site.extra.set("/damaged.bsm", broken("good-sequence-low-delay"));
-        const seen = await found(`
+        test("keeps the frames before damage, and says then what is wrong", async () => {
+            site.extra.set("/damaged.bsm", broken("good-sequence-low-delay"));
+            const seen = await found(
+                `
             await import("/bsm/player.js");
             const sequence = await new BSMLoader().loadSequence("/damaged.bsm");
             const shown = [];
@@ -200,12 +236,21 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             await wrong;
             const frames = player.sequence.length;
             player.remove();
-            return { shown, error, length: sequence.length, frames, loaded, groups: player.scene.children.length };`, {});
-        assert.deepEqual(seen, { shown: [1, 2, 3, 4, 5, "ended"], error: "CorruptError", length: 6, frames: 6, loaded: 1, groups: 2 });
-    });
+            return { shown, error, length: sequence.length, frames, loaded, groups: player.scene.children.length };`,
+                {},
+            );
+            assert.deepEqual(seen, {
+                shown: [1, 2, 3, 4, 5, "ended"],
+                error: "CorruptError",
+                length: 6,
+                frames: 6,
+                loaded: 1,
+                groups: 2,
+            });
+        });
 
-    test("has all threads decode again behind a stream that took several", async () => {
-        const seen = await found(`
+        test("has all threads decode again behind a stream that took several", async () => {
+            const seen = await found(`
             const data = await bytesOf("${KEYS}");
             let [busy, most] = [0, 0];
             const pool = new Pool(undefined, 3);
@@ -223,20 +268,23 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const alone = workers;
             await Promise.all([large, decoded(), decoded(), decoded(), decoded()]);
             return { alone, most };`);
-        assert.deepEqual(seen, { alone: 3, most: 3 });
-    });
+            assert.deepEqual(seen, { alone: 3, most: 3 });
+        });
 
-    test("fetches one decoder for all that a page names, the smallest that reads it", async () => {
-        for (const [build, streams] of Object.entries({ small: [STREAM, "good-light-tent"], kernels: [STREAM, "good-sequence-learnt", "good-attribute-textured"] })) {
-            const seen = await found(`
+        test("fetches one decoder for all that a page names, the smallest that reads it", async () => {
+            for (const [build, streams] of Object.entries({
+                small: [STREAM, "good-light-tent"],
+                kernels: [STREAM, "good-sequence-learnt", "good-attribute-textured"],
+            })) {
+                const seen = await found(`
                 await Promise.all(${JSON.stringify(streams)}.map((name) => new BSMLoader().loadAsync("/stream/" + name + ".bsm")));
                 return { kernels: performance.getEntriesByType("resource").flatMap(({ name }) => /\\w+(?=\\.wasm$)/.exec(name) ?? []) };`);
-            assert.deepEqual(seen, { kernels: [build] });
-        }
-    });
+                assert.deepEqual(seen, { kernels: [build] });
+            }
+        });
 
-    test("stops all streams with the threads, those without any too", async () => {
-        const seen = await found(`
+        test("stops all streams with the threads, those without any too", async () => {
+            const seen = await found(`
             const data = await bytesOf("${STREAM}");
             const problem = (load) => load.then(() => "none", ({ message }) => message);
             const loader = new BSMLoader().setDecoderPath("/bsm/");
@@ -246,13 +294,13 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             await new Promise((go) => setTimeout(go, 300));
             const before = workers;
             return { stopped, before, again: (await loader.parseAsync(data)).index.count > 0 };`);
-        const { stopped, ...others } = seen as { stopped: string[] };
-        for (const text of stopped) assert.match(text, /the decoder's threads were stopped$/);
-        assert.deepEqual(others, { before: 0, again: true });
-    });
+            const { stopped, ...others } = seen as { stopped: string[] };
+            for (const text of stopped) assert.match(text, /the decoder's threads were stopped$/);
+            assert.deepEqual(others, { before: 0, again: true });
+        });
 
-    test("stops on request", async () => {
-        const seen = await found(`
+        test("stops on request", async () => {
+            const seen = await found(`
             const data = await bytesOf("${STREAM}");
             const problem = (load) => load.then(() => "none", ({ name, message }) => name + " " + message);
             const loader = new BSMLoader();
@@ -266,14 +314,14 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const parse = loader.loadAsync("/stream/${STREAM}.bsm");
             const thrown = await problem(loader.loadAsync("/stream/${STREAM}.bsm", undefined, { onConnectivity() { throw new Error("mine"); } }));
             return { stopped: await Promise.all(loads), parses: await Promise.all(parses), faces: (await parse).index.count > 0, thrown };`);
-        assert.ok(seen.faces);
-        assert.match(seen.thrown as string, /^Error .*mine$/);
-        for (const text of seen.stopped as string[]) assert.match(text, /^AbortError \/stream\/.*.bsm: /);
-        for (const text of seen.parses as string[]) assert.match(text, /^AbortError /);
-    });
+            assert.ok(seen.faces);
+            assert.match(seen.thrown as string, /^Error .*mine$/);
+            for (const text of seen.stopped as string[]) assert.match(text, /^AbortError \/stream\/.*.bsm: /);
+            for (const text of seen.parses as string[]) assert.match(text, /^AbortError /);
+        });
 
-    test("is used as other loaders are, and finds a relative path from the base of the page", async () => {
-        const seen = await found(`
+        test("is used as other loaders are, and finds a relative path from the base of the page", async () => {
+            const seen = await found(`
             const { LoadingManager } = await import("three");
             const manager = new LoadingManager();
             const urls = [];
@@ -285,11 +333,11 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const parsed = await new Promise((keep, fail) => bytesOf("${STREAM}").then((bytes) => loader.parse(bytes, keep, fail)));
             loader.dispose();
             return { urls, loaded: await loaded, same: parsed.index.count === geometry.index.count };`);
-        assert.deepEqual(seen, { urls: [STREAM], loaded: true, same: true });
-    });
+            assert.deepEqual(seen, { urls: [STREAM], loaded: true, same: true });
+        });
 
-    test("plays a sequence", async () => {
-        const seen = await found(`
+        test("plays a sequence", async () => {
+            const seen = await found(`
             const sequence = await new BSMLoader().loadSequence("/stream/good-sequence-learnt.bsm");
             while (!sequence.complete) await new Promise((go) => setTimeout(go, 5));
             const heard = [];
@@ -308,13 +356,13 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const last = sequence.frame === sequence.length - 1 && !sequence.playing;
             const normals = sequence.geometry.getAttribute("normal");
             return { heard, shown: shown.size, length: sequence.length, still, last, unit: Math.abs(Math.hypot(normals.getX(0), normals.getY(0), normals.getZ(0)) - 1) < 1e-3 };`);
-        assert.equal(seen.shown, seen.length);
-        assert.deepEqual([seen.still, seen.last, seen.unit], [true, true, true]);
-        assert.deepEqual([...new Set(seen.heard as string[])].sort(), ["ended", "loop", "pause", "play"]);
-    });
+            assert.equal(seen.shown, seen.length);
+            assert.deepEqual([seen.still, seen.last, seen.unit], [true, true, true]);
+            assert.deepEqual([...new Set(seen.heard as string[])].sort(), ["ended", "loop", "pause", "play"]);
+        });
 
-    test("has the faces of each frame of a sequence where they change", async () => {
-        const seen = await found(`
+        test("has the faces of each frame of a sequence where they change", async () => {
+            const seen = await found(`
             const sequence = await new BSMLoader().loadSequence("/stream/good-sequence-runs.bsm");
             while (!sequence.complete) await new Promise((go) => setTimeout(go, 5));
             const { geometry } = sequence;
@@ -322,29 +370,52 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const [faces, seen] = [[0, 2, 3, 5, 9, 4, 0].map(drawn), () => [0, 5].map((frame) => (sequence.seek(frame), geometry.index.array.some(Boolean)))];
             const [hidden, shown] = [true, false].map((isHidden) => (geometry.hide(() => isHidden), seen()));
             return { length: sequence.length, faces, hidden, shown };`);
-        const [large, small, least] = [[64, 32, 32, 64], [48, 24, 24, 48], [40, 20, 20, 40]];
-        assert.deepEqual(seen, { length: 10, faces: [large, large, small, large, least, small, large], hidden: [false, false], shown: [true, true] });
-    });
+            const [large, small, least] = [
+                [64, 32, 32, 64],
+                [48, 24, 24, 48],
+                [40, 20, 20, 40],
+            ];
+            assert.deepEqual(seen, {
+                length: 10,
+                faces: [large, large, small, large, least, small, large],
+                hidden: [false, false],
+                shown: [true, true],
+            });
+        });
 
-    test("makes scenes with textures", async () => {
-        const seen = await found(`
+        test("makes scenes with textures", async () => {
+            const seen = await found(`
             const scene = await new BSMLoader().loadScene("/stream/good-attribute-textured.bsm");
             const [{ material, geometry }] = scene.children;
             return { name: material.name, size: [material.map.image.width, material.map.image.height], space: material.map.colorSpace, metalness: material.metalness, uv: geometry.hasAttribute("uv"), turned: scene.rotation.x < -1 };`);
-        assert.deepEqual(seen, { name: "halves", size: [8, 8], space: "srgb", metalness: 0, uv: true, turned: true });
-    });
+            assert.deepEqual(seen, {
+                name: "halves",
+                size: [8, 8],
+                space: "srgb",
+                metalness: 0,
+                uv: true,
+                turned: true,
+            });
+        });
 
-    test("is an extension of Babylon's loader", async () => {
-        const contents = `export { Engine } from "@babylonjs/core/Engines/engine.js";
+        test("is an extension of Babylon's loader", async () => {
+            const contents = `export { Engine } from "@babylonjs/core/Engines/engine.js";
             export { Scene } from "@babylonjs/core/scene.js";
             export { AppendSceneAsync } from "@babylonjs/core/Loading/sceneLoader.js";
             export { registerGLTFExtension } from "@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js";
             import "@babylonjs/core/Loading/loadingScreen.js";
             import "@babylonjs/loaders/glTF/2.0/glTFLoader.js";`;
-        const bundle = await build({ stdin: { contents, resolveDir: WEB }, bundle: true, format: "esm", write: false, logLevel: "error" });
-        site.extra.set("/babylon.js", bundle.outputFiles[0].contents);
-        await serveScenes();
-        const seen = await found(`
+            const bundle = await build({
+                stdin: { contents, resolveDir: WEB },
+                bundle: true,
+                format: "esm",
+                write: false,
+                logLevel: "error",
+            });
+            site.extra.set("/babylon.js", bundle.outputFiles[0].contents);
+            await serveScenes();
+            const seen = await found(
+                `
             const { Engine, Scene, AppendSceneAsync } = await import("/babylon.js");
             const { registerBSM } = await import("/bsm/babylon.js");
             registerBSM();
@@ -358,16 +429,21 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const problems = await Promise.all(["/wrong.glb", "/broken.glb"].map((url) => load(url).then(() => "none", ({ message }) => message)));
             const own = await new BSMLoader().loadAsync("/stream/good-attribute-textured.bsm");
             const same = (name, kind) => [...mesh.getVerticesData(kind)].join() === [...own.getAttribute(name).array].join();
-            return { same: [same("position", "position"), same("normal", "normal"), same("uv", "uv")], index: [...mesh.getIndices()].join() === [...own.index.array].join(), problems };`, {});
-        assert.deepEqual([seen.same, seen.index], [[true, true, true], true]);
-        assert.match(String(seen.problems), /POSITION has \d+ bytes, not \d+.*the stream ends before its END frame/);
-    });
+            return { same: [same("position", "position"), same("normal", "normal"), same("uv", "uv")], index: [...mesh.getIndices()].join() === [...own.index.array].join(), problems };`,
+                {},
+            );
+            assert.deepEqual([seen.same, seen.index], [[true, true, true], true]);
+            assert.match(
+                String(seen.problems),
+                /POSITION has \d+ bytes, not \d+.*the stream ends before its END frame/,
+            );
+        });
 
-    test("moves meshes in Babylon.js", async () => {
-        const stream = readFileSync(join(VECTORS, "good-sequence-learnt.bsm"));
-        const { positions, faces } = decode(kernels, stream);
-        site.extra.set("/moving.glb", sceneOf(stream, positions.length / 3, faces.length, true));
-        const seen = await found(`
+        test("moves meshes in Babylon.js", async () => {
+            const stream = readFileSync(join(VECTORS, "good-sequence-learnt.bsm"));
+            const { positions, faces } = decode(kernels, stream);
+            site.extra.set("/moving.glb", sceneOf(stream, positions.length / 3, faces.length, true));
+            const seen = await found(`
             const { Engine, Scene, AppendSceneAsync } = await import("/babylon.js");
             const { registerBSM } = await import("/bsm/babylon.js");
             registerBSM();
@@ -389,19 +465,19 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             mesh.dispose();
             await new Promise((go) => setTimeout(go, 20));
             return { same: same.every(Boolean), frames: same.length, moved, left: scene.onBeforeRenderObservable.observers.length };`);
-        assert.equal(seen.same, true);
-        assert.ok(Number(seen.frames) > 1);
-        assert.deepEqual([seen.moved, seen.left], [true, 0]);
-    });
+            assert.equal(seen.same, true);
+            assert.ok(Number(seen.frames) > 1);
+            assert.deepEqual([seen.moved, seen.left], [true, 0]);
+        });
 
-    test("moves meshes of glTF", async () => {
-        const stream = readFileSync(join(VECTORS, "good-sequence-learnt.bsm"));
-        const { positions, faces } = decode(kernels, stream);
-        site.extra.set("/moving.glb", sceneOf(stream, positions.length / 3, faces.length, true));
-        const name = "good-sequence-low-delay";
-        const whole = decode(kernels, readFileSync(join(VECTORS, `${name}.bsm`)));
-        site.extra.set("/damaged.glb", sceneOf(broken(name), whole.positions.length / 3, whole.faces.length, true));
-        const seen = await found(`
+        test("moves meshes of glTF", async () => {
+            const stream = readFileSync(join(VECTORS, "good-sequence-learnt.bsm"));
+            const { positions, faces } = decode(kernels, stream);
+            site.extra.set("/moving.glb", sceneOf(stream, positions.length / 3, faces.length, true));
+            const name = "good-sequence-low-delay";
+            const whole = decode(kernels, readFileSync(join(VECTORS, `${name}.bsm`)));
+            site.extra.set("/damaged.glb", sceneOf(broken(name), whole.positions.length / 3, whole.faces.length, true));
+            const seen = await found(`
             const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
             const { GLTFBSMExtension } = await import("/bsm/gltf.js");
             const load = (url) => new GLTFLoader().register((parser) => new GLTFBSMExtension(parser)).loadAsync(url);
@@ -414,13 +490,14 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const own = await new BSMLoader().loadAsync("/stream/good-sequence-learnt.bsm");
             const same = own.frames.map((frame, index) => (sequence.seek(index), [...mesh.geometry.getAttribute("position").array].join() === [...frame.positions].join()));
             return { same: same.every(Boolean), frames: same.length, sequences: gltf.userData.sequences.length, before: damaged.length };`);
-        assert.equal(seen.same, true);
-        assert.equal(seen.before, 6);
-        assert.ok(Number(seen.frames) > 1 && seen.sequences === 1);
-    });
+            assert.equal(seen.same, true);
+            assert.equal(seen.before, 6);
+            assert.ok(Number(seen.frames) > 1 && seen.sequences === 1);
+        });
 
-    test("starts a thread again that failed once", async () => {
-        const seen = await found(`
+        test("starts a thread again that failed once", async () => {
+            const seen = await found(
+                `
             const asked = [];
             globalThis.Worker = class extends Worker {
                 constructor(url, options) {
@@ -429,12 +506,15 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
                 }
             };
             const geometry = await new BSMLoader().loadAsync("/stream/${STREAM}.bsm");
-            return { asked: asked.length, vertices: geometry.getAttribute("position").count };`, {});
-        assert.ok(seen.asked === 2 && Number(seen.vertices) > 0, JSON.stringify(seen));
-    });
+            return { asked: asked.length, vertices: geometry.getAttribute("position").count };`,
+                {},
+            );
+            assert.ok(seen.asked === 2 && Number(seen.vertices) > 0, JSON.stringify(seen));
+        });
 
-    test("is an element of which a page may have a hundred", async (t) => {
-        const seen = await found(`
+        test("is an element of which a page may have a hundred", async (t) => {
+            const seen = await found(
+                `
             await import("/bsm/player.js");
             const players = Array.from({ length: 100 }, () => Object.assign(document.createElement("bsm-player"), { src: "/stream/${STREAM}.bsm" }));
             for (const player of players) player.style.cssText = "width: 60px; height: 60px; display: inline-block";
@@ -455,13 +535,16 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const turned = players[7].camera.position.toArray().join() !== before;
             const begin = performance.now();
             for (const player of players) player.remove();
-            return { wrong, turned, removed: performance.now() - begin };`, {});
-        assert.deepEqual([seen.wrong, seen.turned], [[], true]);
-        t.diagnostic(`100 players removed in ${Number(seen.removed).toFixed()} ms`);
-    });
+            return { wrong, turned, removed: performance.now() - begin };`,
+                {},
+            );
+            assert.deepEqual([seen.wrong, seen.turned], [[], true]);
+            t.diagnostic(`100 players removed in ${Number(seen.removed).toFixed()} ms`);
+        });
 
-    test("is an element that shows all of its mesh, in all frames, at any size, until another one is asked for", async () => {
-        const seen = await found(`
+        test("is an element that shows all of its mesh, in all frames, at any size, until another one is asked for", async () => {
+            const seen = await found(
+                `
             await import("/bsm/player.js");
             const { Vector3 } = await import("three");
             const inside = (player) => {
@@ -496,12 +579,15 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
                     player.remove();
                 }
             }
-            return [...new Set(shares)];`, {});
-        assert.deepEqual(seen, [1]);
-    });
+            return [...new Set(shares)];`,
+                {},
+            );
+            assert.deepEqual(seen, [1]);
+        });
 
-    test("is an element that plays", async () => {
-        const seen = await found(`
+        test("is an element that plays", async () => {
+            const seen = await found(
+                `
             await import("/bsm/player.js");
             const player = Object.assign(document.createElement("bsm-player"), { src: "/stream/good-sequence-learnt.bsm", loop: true, rate: 4 });
             player.setAttribute("autoplay", "");
@@ -528,17 +614,20 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             await still;
             const [duration, meshes] = [player.duration, player.scene.children.length];
             player.remove();
-            return { heard: [...new Set(heard)].sort(), middle, error: error.message, note, cleared: player.shadowRoot.querySelector("p").textContent, duration, meshes };`, {});
-        assert.deepEqual(seen.heard, ["ended", "error", "frame", "load", "loadeddata", "loop", "pause", "play"]);
-        const [paused, frame, length] = seen.middle as [boolean, number, number];
-        assert.deepEqual([paused, frame], [true, Math.floor(0.5 * length)]);
-        assert.match(String(seen.error), /no-such-file.bsm: 404/);
-        assert.deepEqual([seen.note, seen.cleared], [seen.error, ""]);
-        assert.deepEqual([seen.duration, seen.meshes], [0, 3]);
-    });
+            return { heard: [...new Set(heard)].sort(), middle, error: error.message, note, cleared: player.shadowRoot.querySelector("p").textContent, duration, meshes };`,
+                {},
+            );
+            assert.deepEqual(seen.heard, ["ended", "error", "frame", "load", "loadeddata", "loop", "pause", "play"]);
+            const [paused, frame, length] = seen.middle as [boolean, number, number];
+            assert.deepEqual([paused, frame], [true, Math.floor(0.5 * length)]);
+            assert.match(String(seen.error), /no-such-file.bsm: 404/);
+            assert.deepEqual([seen.note, seen.cleared], [seen.error, ""]);
+            assert.deepEqual([seen.duration, seen.meshes], [0, 3]);
+        });
 
-    test("is an element with a poster until it draws, an ErrorEvent, and keys that turn, zoom, play and pause", async () => {
-        const seen = await found(`
+        test("is an element with a poster until it draws, an ErrorEvent, and keys that turn, zoom, play and pause", async () => {
+            const seen = await found(
+                `
             await import("/bsm/player.js");
             const poster = "data:image/gif;base64,R0lGODlhAQABAIAAAAAAAP///yH5BAEAAAAALAAAAAABAAEAAAIBRAA7";
             const player = Object.assign(document.createElement("bsm-player"), { src: "/stream/good-sequence-learnt.bsm" });
@@ -567,21 +656,34 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const event = await wrong;
             posters.push(shown());
             player.remove();
-            return { posters: posters.map((src) => src === poster), keys, focus, role, label, event: event instanceof ErrorEvent && event.error instanceof Error && event.message.includes("404") };`, {});
-        assert.deepEqual(seen.posters, [true, false, true, true]);
-        const turn = [true, true, 0, true];
-        assert.deepEqual(seen.keys, { ArrowLeft: turn, ArrowRight: turn, ArrowUp: turn, ArrowDown: turn, "+": [true, true, -1, true], "-": [true, true, 1, true], " ": [true, false, 0, false], x: [false, false, 0, false], again: [true, false, 0, true] });
-        assert.deepEqual([seen.focus, seen.role, seen.event], [0, "img", true]);
-        assert.match(String(seen.label), /arrow keys/i);
-    });
+            return { posters: posters.map((src) => src === poster), keys, focus, role, label, event: event instanceof ErrorEvent && event.error instanceof Error && event.message.includes("404") };`,
+                {},
+            );
+            assert.deepEqual(seen.posters, [true, false, true, true]);
+            const turn = [true, true, 0, true];
+            assert.deepEqual(seen.keys, {
+                ArrowLeft: turn,
+                ArrowRight: turn,
+                ArrowUp: turn,
+                ArrowDown: turn,
+                "+": [true, true, -1, true],
+                "-": [true, true, 1, true],
+                " ": [true, false, 0, false],
+                x: [false, false, 0, false],
+                again: [true, false, 0, true],
+            });
+            assert.deepEqual([seen.focus, seen.role, seen.event], [0, "img", true]);
+            assert.match(String(seen.label), /arrow keys/i);
+        });
 
-    test("is an element that stops its load, and gives back what it drew, where another takes its place", async () => {
-        const asked: string[] = [];
-        const route = "**/slow-*.bsm";
-        // What never ends is over only where the page stops it.
-        page.on("requestfailed", (request) => asked.push(request.url().replace(/.*slow-/, "")));
-        await page.route(route, () => {});
-        const seen = await found(`
+        test("is an element that stops its load, and gives back what it drew, where another takes its place", async () => {
+            const asked: string[] = [];
+            const route = "**/slow-*.bsm";
+            // What never ends is over only where the page stops it.
+            page.on("requestfailed", (request) => asked.push(request.url().replace(/.*slow-/, "")));
+            await page.route(route, () => {});
+            const seen = await found(
+                `
             await import("/bsm/player.js");
             const { WebGLRenderer } = await import("three");
             const player = document.createElement("bsm-player");
@@ -606,14 +708,16 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
                 player.remove();
             }
             await new Promise((go) => setTimeout(go, 300));
-            return { disposed: disposed.sort(), rates, lost: own.isContextLost() };`, {});
-        await page.unroute(route);
-        assert.deepEqual(seen, { disposed: ["geometry", "map", "material"], rates: [1, 1, 0.5], lost: false });
-        assert.deepEqual(asked.slice(0, 2), ["a.bsm", "b.bsm"]);
-    });
+            return { disposed: disposed.sort(), rates, lost: own.isContextLost() };`,
+                {},
+            );
+            await page.unroute(route);
+            assert.deepEqual(seen, { disposed: ["geometry", "map", "material"], rates: [1, 1, 0.5], lost: false });
+            assert.deepEqual(asked.slice(0, 2), ["a.bsm", "b.bsm"]);
+        });
 
-    test("stops the load of a sequence that is disposed of", async () => {
-        const seen = await found(`
+        test("stops the load of a sequence that is disposed of", async () => {
+            const seen = await found(`
             const data = await bytesOf("good-sequence-low-delay-long");
             const { fetch } = window;
             let stopped = false;
@@ -635,33 +739,33 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             sequence.dispose();
             await new Promise((go) => setTimeout(go, 300));
             return { stopped, frames: sequence.geometry.frames.length, heard };`);
-        assert.deepEqual(seen, { stopped: true, frames: 0, heard: [] });
-    });
+            assert.deepEqual(seen, { stopped: true, frames: 0, heard: [] });
+        });
 
-    test("stops one load, and no other, at a signal of its own", async () => {
-        const seen = await found(`
+        test("stops one load, and no other, at a signal of its own", async () => {
+            const seen = await found(`
             const loader = new BSMLoader();
             const stop = new AbortController();
             const stopped = loader.loadAsync("/stream/${STREAM}.bsm", undefined, { signal: stop.signal }).then(() => "loaded", (error) => error.name);
             const other = loader.loadAsync("/stream/${STREAM}.bsm").then(() => "loaded", (error) => error.name);
             stop.abort();
             return { stopped: await stopped, other: await other };`);
-        assert.deepEqual([seen.stopped, seen.other], ["AbortError", "loaded"]);
-    });
+            assert.deepEqual([seen.stopped, seen.other], ["AbortError", "loaded"]);
+        });
 
-    test("limits the threads of the path that is set later, and no others", async () => {
-        const seen = await found(`
+        test("limits the threads of the path that is set later, and no others", async () => {
+            const seen = await found(`
             const load = (loader) => Promise.all(["${STREAM}", "good-grid", "${KEYS}"].map((name) => loader.loadAsync("/stream/" + name + ".bsm")));
             await load(new BSMLoader().setWorkerLimit(1).setDecoderPath("/bsm/"));
             const own = workers;
             await load(new BSMLoader());
             return { own, shared: workers - own };`);
-        assert.equal(seen.own, 1);
-        assert.ok(Number(seen.shared) > 1, `${seen.shared}`);
-    });
+            assert.equal(seen.own, 1);
+            assert.ok(Number(seen.shared) > 1, `${seen.shared}`);
+        });
 
-    test("names each address once, and leaves the reason of who stops as it is", async () => {
-        const seen = await found(`
+        test("names each address once, and leaves the reason of who stops as it is", async () => {
+            const seen = await found(`
             const loader = new BSMLoader();
             const stop = new AbortController();
             const reason = new TypeError("enough");
@@ -670,23 +774,30 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const stopped = await Promise.all(loads);
             const { error, place } = await loader.loadAsync("/stream/bad-sequence-long.bsm").catch((error) => ({ error: error.name + " " + error.message, place: error.place }));
             return { stopped, reason: reason.message, error, offset: place.offset > 0 };`);
-        assert.deepEqual(seen.stopped, [["/stream/a.bsm: enough", true], ["/stream/b.bsm: enough", true]]);
-        assert.match(String(seen.error), /^CorruptError .stream.bad-sequence-long.bsm: [^/]*$/);
-        assert.deepEqual([seen.reason, seen.offset], ["enough", true]);
-    });
+            assert.deepEqual(seen.stopped, [
+                ["/stream/a.bsm: enough", true],
+                ["/stream/b.bsm: enough", true],
+            ]);
+            assert.match(String(seen.error), /^CorruptError .stream.bad-sequence-long.bsm: [^/]*$/);
+            assert.deepEqual([seen.reason, seen.offset], ["enough", true]);
+        });
 
-    test("says that a page was sent where a stream or a part of the decoder was asked for", async () => {
-        for (const name of ["page.bsm", "own/small.wasm", "own/small-worker.js"]) site.extra.set(`/${name}`, "<!DOCTYPE html><html><body>Not here</body></html>");
-        const seen = await found(`
+        test("says that a page was sent where a stream or a part of the decoder was asked for", async () => {
+            for (const name of ["page.bsm", "own/small.wasm", "own/small-worker.js"])
+                site.extra.set(`/${name}`, "<!DOCTYPE html><html><body>Not here</body></html>");
+            const seen = await found(`
             const problem = (loader, url) => loader.loadAsync(url).then(() => "none", ({ message }) => message);
             return { stream: await problem(new BSMLoader(), "/page.bsm"), kernels: await problem(new BSMLoader().setDecoderPath("/own/"), "/stream/${STREAM}.bsm") };`);
-        assert.equal(seen.stream, "/page.bsm: the server sent an HTML page; is the address right?");
-        assert.match(String(seen.kernels), /^.stream.good-labels.bsm: http:.*own.small.wasm: the server sent an HTML page; is the address right.$/);
-    });
+            assert.equal(seen.stream, "/page.bsm: the server sent an HTML page; is the address right?");
+            assert.match(
+                String(seen.kernels),
+                /^.stream.good-labels.bsm: http:.*own.small.wasm: the server sent an HTML page; is the address right.$/,
+            );
+        });
 
-    test("is a plug-in of GLTFLoader", async () => {
-        await serveScenes();
-        const seen = await found(`
+        test("is a plug-in of GLTFLoader", async () => {
+            await serveScenes();
+            const seen = await found(`
             const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
             const { GLTFBSMExtension } = await import("/bsm/gltf.js");
             const load = (url) => new GLTFLoader().register((parser) => new GLTFBSMExtension(parser)).loadAsync(url);
@@ -695,15 +806,19 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const same = (name) => [...geometry.getAttribute(name).array].join() === [...own.getAttribute(name).array].join();
             const problems = await Promise.all(["/wrong.glb", "/broken.glb"].map((url) => load(url).then(() => "none", (error) => error.name + " " + error.message)));
             return { same: ["position", "normal", "uv"].map(same), index: [...geometry.index.array].join() === [...own.index.array].join(), problems };`);
-        assert.deepEqual([seen.same, seen.index], [[true, true, true], true]);
-        const [wrong, broken] = seen.problems as string[];
-        assert.match(wrong, /bufferView 1: POSITION has \d+ bytes, not \d+/);
-        assert.match(broken, /TruncatedError/);
-    });
+            assert.deepEqual([seen.same, seen.index], [[true, true, true], true]);
+            const [wrong, broken] = seen.problems as string[];
+            assert.match(wrong, /bufferView 1: POSITION has \d+ bytes, not \d+/);
+            assert.match(broken, /TruncatedError/);
+        });
 
-    for (const [place, headers] of [["free", {}], ["locked", { "Content-Security-Policy": "worker-src 'none'" }]] as [string, Record<string, string>][]) {
-        test(`decodes with helpers where threads are ${place === "free" ? "allowed" : "forbidden"}`, async () => {
-            const seen = await found(`
+        for (const [place, headers] of [
+            ["free", {}],
+            ["locked", { "Content-Security-Policy": "worker-src 'none'" }],
+        ] as [string, Record<string, string>][]) {
+            test(`decodes with helpers where threads are ${place === "free" ? "allowed" : "forbidden"}`, async () => {
+                const seen = await found(
+                    `
                 const kernels = await loadKernels();
                 const data = await bytesOf("good-keys");
                 const alone = decode(kernels, data);
@@ -720,16 +835,20 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
                     stream.receiveData(data.slice(0, -20));
                     stream.receiveEof();
                 });
-                return { same: positions.every((x, i) => x === alone.positions[i]), helped: window.helped ?? 0, problem };`, headers);
-            assert.deepEqual([seen.same, seen.problem], [true, "TruncatedError"]);
-            // The last stream is begun again by the decoder of everything, which asks once more.
-            if (place === "free") assert.equal(seen.helped, 3);
-        });
-    }
-});
+                return { same: positions.every((x, i) => x === alone.positions[i]), helped: window.helped ?? 0, problem };`,
+                    headers,
+                );
+                assert.deepEqual([seen.same, seen.problem], [true, "TruncatedError"]);
+                // The last stream is begun again by the decoder of everything, which asks once more.
+                if (place === "free") assert.equal(seen.helped, 3);
+            });
+        }
+    },
+);
 
 test("a surface faces the mean of its normals, and a closed one nowhere", () => {
-    const normals = (...part: number[]): BufferAttribute => new SphereGeometry(1, 40, 30, ...part).getAttribute("normal") as BufferAttribute;
+    const normals = (...part: number[]): BufferAttribute =>
+        new SphereGeometry(1, 40, 30, ...part).getAttribute("normal") as BufferAttribute;
     assert.ok(frontOf(normals()).length() < 0.05);
     const front = frontOf(normals(0, Math.PI)); // the half of z > 0
     assert.ok(front.z > 0.35 && Math.hypot(front.x, front.y) < 0.05, `${front.toArray()}`);

@@ -23,6 +23,9 @@ test("time that runs backwards holds still", () => {
 
 for (const rate of [60, 30, 20, 120]) {
     test(`a clock that trembles skips none of ${rate} frames a second`, () => {
-        assert.deepEqual(shown(rate), Array.from({ length: 120 }, (_, k) => Math.floor((rate * k) / 60 + 0.01)));
+        assert.deepEqual(
+            shown(rate),
+            Array.from({ length: 120 }, (_, k) => Math.floor((rate * k) / 60 + 0.01)),
+        );
     });
 }

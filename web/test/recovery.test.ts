@@ -19,10 +19,10 @@ async function tolerantEvents(data: Uint8Array, size: number): Promise<{ events:
     try {
         for (let at = 0; at < data.length; at += size) {
             decoder.receiveData(data.subarray(at, at + size));
-            for (let event; typeof (event = decoder.nextEvent()) !== "string"; ) events.push(event);
+            for (let event; typeof (event = decoder.nextEvent()) !== "string";) events.push(event);
         }
         decoder.receiveEof();
-        for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) events.push(event as Event);
+        for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM;) events.push(event as Event);
     } catch (error) {
         assert.ok(error instanceof BsmError, `${error}`);
         return { events, error: error.name };
@@ -36,26 +36,41 @@ function essence(event: Event): unknown[] {
     if (event.type === "block") return ["block", event.index, event.vertices.length];
     if (event.type === "refinement") return ["refinement", event.vertices.length];
     if (event.type === "frame") return ["frame", event.index];
-    if (event.type === "loss") return ["loss", event.block ?? null, event.frames?.first ?? 0, event.frames?.count ?? 0, event.error.name];
-    if (event.type === "end") return ["end", [...event.missing].sort((a, b) => a - b), [...event.degraded].sort((a, b) => a - b)];
+    if (event.type === "loss")
+        return ["loss", event.block ?? null, event.frames?.first ?? 0, event.frames?.count ?? 0, event.error.name];
+    if (event.type === "end")
+        return ["end", [...event.missing].sort((a, b) => a - b), [...event.degraded].sort((a, b) => a - b)];
     return [event.type];
 }
 
-test("damaged streams, as Python decodes them", { skip: !FOLDER && "nobody has put damaged streams anywhere" }, async () => {
-    const names = readdirSync(FOLDER!).filter((name) => name.endsWith(".bsm"));
-    assert.ok(names.length > 0);
-    for (const name of names) {
-        const expected = JSON.parse(readFileSync(join(FOLDER!, name.replace(".bsm", ".json")), "utf8"));
-        const data = readFileSync(join(FOLDER!, name));
-        for (const size of [data.length, 7]) {
-            const { events, error } = await tolerantEvents(data, size);
-            // Python gives no metadata, no blocks of the first frame of a sequence, and attributes in pieces.
-            const sequence = events.some((event) => event.type === "header" && event.header.gopFrames > 0);
-            const compared = events.filter((event) => event.type !== "attribute" && event.type !== "metadata" && (!sequence || event.type !== "block"));
-            assert.deepEqual({ events: compared.map(essence), error: error ?? null }, expected, `${name} in pieces of ${size}`);
+test(
+    "damaged streams, as Python decodes them",
+    { skip: !FOLDER && "nobody has put damaged streams anywhere" },
+    async () => {
+        const names = readdirSync(FOLDER!).filter((name) => name.endsWith(".bsm"));
+        assert.ok(names.length > 0);
+        for (const name of names) {
+            const expected = JSON.parse(readFileSync(join(FOLDER!, name.replace(".bsm", ".json")), "utf8"));
+            const data = readFileSync(join(FOLDER!, name));
+            for (const size of [data.length, 7]) {
+                const { events, error } = await tolerantEvents(data, size);
+                // Python gives no metadata, no blocks of the first frame of a sequence, and attributes in pieces.
+                const sequence = events.some((event) => event.type === "header" && event.header.gopFrames > 0);
+                const compared = events.filter(
+                    (event) =>
+                        event.type !== "attribute" &&
+                        event.type !== "metadata" &&
+                        (!sequence || event.type !== "block"),
+                );
+                assert.deepEqual(
+                    { events: compared.map(essence), error: error ?? null },
+                    expected,
+                    `${name} in pieces of ${size}`,
+                );
+            }
         }
-    }
-});
+    },
+);
 
 test("blocks of other chains than the damaged one are as they were", async () => {
     const whole = readFileSync(join(VECTORS, "good-keys.bsm"));
@@ -66,7 +81,8 @@ test("blocks of other chains than the damaged one are as they were", async () =>
     const found = (await tolerantEvents(damaged, whole.length)).events;
     const losses = found.flatMap((event) => (event.type === "loss" ? [event] : []));
     assert.ok(losses.length > 0);
-    for (const event of found) if (event.type === "block") assert.deepEqual(event.positions.length, blocks[event.index].positions.length);
+    for (const event of found)
+        if (event.type === "block") assert.deepEqual(event.positions.length, blocks[event.index].positions.length);
     const end = found.at(-1)!;
     assert.ok(end.type === "end" && end.missing.length + end.degraded.length > 0);
 });
@@ -74,7 +90,7 @@ test("blocks of other chains than the damaged one are as they were", async () =>
 /** The frames of a stream behind its preamble, of each its type and its bytes. */
 function framesOf(stream: Uint8Array): { type: number; bytes: Uint8Array }[] {
     const frames = [];
-    for (let at: number = PREAMBLE.length; at < stream.length; ) {
+    for (let at: number = PREAMBLE.length; at < stream.length;) {
         const { type, end } = frameOf(parseVarint(stream, at, stream.length)!);
         frames.push({ type, bytes: stream.subarray(at, end) });
         at = end;
@@ -86,7 +102,9 @@ test("a block that follows a lost one is not read, and levels from the first on 
     const frames = framesOf(readFileSync(join(VECTORS, "good-refined.bsm")));
     const [HEADER, CONNECTIVITY, BLOCK, REFINEMENT] = [1, 3, 6, 13];
     const [first, last] = frames.filter(({ type }) => type === BLOCK);
-    const [header, connectivity, refinement] = [HEADER, CONNECTIVITY, REFINEMENT].map((kind) => frames.find(({ type }) => type === kind)!);
+    const [header, connectivity, refinement] = [HEADER, CONNECTIVITY, REFINEMENT].map((kind) =>
+        frames.find(({ type }) => type === kind)!,
+    );
     const damage = { bytes: new Uint8Array(9).fill(255) };
     const parts = [{ bytes: Uint8Array.from(PREAMBLE) }, header, connectivity, first, damage, last, refinement];
     const data = Buffer.concat(parts.map(({ bytes }) => bytes));

@@ -35,7 +35,7 @@ export class Lines {
 
     /** Deliver until it is over, or nothing is left and no promise brings more for a while. */
     async run(isOver = (): boolean => false): Promise<void> {
-        for (let quiet = 0; quiet < 8 && !isOver(); ) {
+        for (let quiet = 0; quiet < 8 && !isOver();) {
             await new Promise(setImmediate);
             const waiting = this.lines.filter(({ length }) => length > 0);
             quiet = waiting.length > 0 ? 0 : quiet + 1;
@@ -60,7 +60,9 @@ class End {
         const { other } = this;
         if (this.closed || !other) return;
         const isPort = "help" in message || "start" in message;
-        const copy: unknown = isPort ? message : structuredClone(message, { transfer: moved.filter((one) => one instanceof ArrayBuffer) });
+        const copy: unknown = isPort
+            ? message
+            : structuredClone(message, { transfer: moved.filter((one) => one instanceof ArrayBuffer) });
         this.send(() => {
             if (!other.closed) other.hear(copy);
         });
@@ -90,12 +92,18 @@ class End {
 }
 
 const KERNELS: Record<Build, Promise<WebAssembly.Module>> = Object.fromEntries(
-    Object.entries({ whole: "kernels", small: "small", moving: "moving", quick: "quick" }).map(([build, name]) => [build, WebAssembly.compile(readFileSync(join(WEB, `built/${name}.wasm`)))]),
+    Object.entries({ whole: "kernels", small: "small", moving: "moving", quick: "quick" }).map(([build, name]) => [
+        build,
+        WebAssembly.compile(readFileSync(join(WEB, `built/${name}.wasm`))),
+    ]),
 ) as never;
 await Promise.all(Object.values(KERNELS)); // nothing may come of itself
 
 /** Have everything that a pool takes from its machine come from lines; returns what puts it back. */
-export function staged(lines: Lines, files: Map<string, Uint8Array> = new Map()): { source: Source; restore: () => void } {
+export function staged(
+    lines: Lines,
+    files: Map<string, Uint8Array> = new Map(),
+): { source: Source; restore: () => void } {
     const pair = (): [End, End] => {
         const [a, b] = [new End(lines.open()), new End(lines.open())];
         [a.other, b.other] = [b, a];
@@ -117,14 +125,25 @@ export function staged(lines: Lines, files: Map<string, Uint8Array> = new Map())
             new Promise((keep) => {
                 const [from, to] = (/(\d+)-(\d+)/.exec(headers.Range ?? "") ?? []).slice(1).map(Number);
                 const bytes = files.get(url)!;
-                const found = from === undefined ? new Response(Uint8Array.from(bytes)) : new Response(Uint8Array.from(bytes.subarray(from, to + 1)), { status: 206 });
+                const found =
+                    from === undefined
+                        ? new Response(Uint8Array.from(bytes))
+                        : new Response(Uint8Array.from(bytes.subarray(from, to + 1)), { status: 206 });
                 served(() => keep(found));
             }),
-        crypto: { subtle: { digest: async (_: string, bytes: ArrayBuffer) => Uint8Array.from(createHash("sha256").update(new Uint8Array(bytes)).digest()).buffer } },
+        crypto: {
+            subtle: {
+                digest: async (_: string, bytes: ArrayBuffer) =>
+                    Uint8Array.from(createHash("sha256").update(new Uint8Array(bytes)).digest()).buffer,
+            },
+        },
     };
-    const before = Object.keys(changed).map((name) => [name, Object.getOwnPropertyDescriptor(globalThis, name)] as const);
+    const before = Object.keys(changed).map(
+        (name) => [name, Object.getOwnPropertyDescriptor(globalThis, name)] as const,
+    );
     const { now } = performance;
-    for (const [name, value] of Object.entries(changed)) Object.defineProperty(globalThis, name, { value, configurable: true, writable: true });
+    for (const [name, value] of Object.entries(changed))
+        Object.defineProperty(globalThis, name, { value, configurable: true, writable: true });
     performance.now = () => lines.now;
     const source: Source = {
         worker: (build) => {
@@ -138,7 +157,8 @@ export function staged(lines: Lines, files: Map<string, Uint8Array> = new Map())
     };
     const restore = (): void => {
         performance.now = now;
-        for (const [name, old] of before) old ? Object.defineProperty(globalThis, name, old) : delete (globalThis as Record<string, unknown>)[name];
+        for (const [name, old] of before)
+            old ? Object.defineProperty(globalThis, name, old) : delete (globalThis as Record<string, unknown>)[name];
     };
     return { source, restore };
 }

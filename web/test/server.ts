@@ -5,12 +5,22 @@ import type { AddressInfo } from "node:net";
 import { extname, join, normalize } from "node:path";
 import { VECTORS, WEB } from "./shared";
 
-const TYPES: Record<string, string> = { ".js": "text/javascript", ".html": "text/html", ".wasm": "application/wasm", ".glb": "model/gltf-binary" };
+const TYPES: Record<string, string> = {
+    ".js": "text/javascript",
+    ".html": "text/html",
+    ".wasm": "application/wasm",
+    ".glb": "model/gltf-binary",
+};
 /** What three.js is called, and nothing but files of one's own: no eval, no blob, no script in the page but the map. */
-const MAP = '{"imports":{"three":"/three/build/three.module.js","three/addons/":"/three/examples/jsm/","bsm":"/bsm/main.js","bsm/three":"/bsm/three.js","@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js":"/babylon.js"}}';
+const MAP =
+    '{"imports":{"three":"/three/build/three.module.js","three/addons/":"/three/examples/jsm/","bsm":"/bsm/main.js","bsm/three":"/bsm/three.js","@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js":"/babylon.js"}}';
 const MAP_HASH = "sha256-" + (await import("node:crypto")).createHash("sha256").update(MAP).digest("base64");
 export const POLICY = `default-src 'none'; connect-src 'self'; script-src 'self' 'wasm-unsafe-eval' '${MAP_HASH}'; worker-src 'self'`;
-const FOLDERS: Record<string, string> = { bsm: join(WEB, "built"), three: join(WEB, "node_modules/three"), stream: VECTORS };
+const FOLDERS: Record<string, string> = {
+    bsm: join(WEB, "built"),
+    three: join(WEB, "node_modules/three"),
+    stream: VECTORS,
+};
 
 export interface Site {
     address: string;
@@ -29,12 +39,22 @@ export async function serveSite(): Promise<Site> {
         const [, folder, ...rest] = path.split("/");
         try {
             const page = `<!doctype html><script type="importmap">${MAP}</script><body></body><script type="module" src="/script.js"></script>`;
-            const content = path === "/" ? page : extra.get(path) ?? readFileSync(join(FOLDERS[folder], ...rest));
-            response.writeHead(200, { "Content-Type": path === "/" ? "text/html" : TYPES[extname(path)] ?? "application/octet-stream", ...headers }).end(content);
+            const content = path === "/" ? page : (extra.get(path) ?? readFileSync(join(FOLDERS[folder], ...rest)));
+            response
+                .writeHead(200, {
+                    "Content-Type": path === "/" ? "text/html" : (TYPES[extname(path)] ?? "application/octet-stream"),
+                    ...headers,
+                })
+                .end(content);
         } catch {
             response.writeHead(404).end();
         }
     });
     await new Promise<void>((ready) => server.listen(0, "127.0.0.1", ready));
-    return { address: `http://127.0.0.1:${(server.address() as AddressInfo).port}/`, extra, headers, close: () => void server.close() };
+    return {
+        address: `http://127.0.0.1:${(server.address() as AddressInfo).port}/`,
+        extra,
+        headers,
+        close: () => void server.close(),
+    };
 }

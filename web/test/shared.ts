@@ -7,20 +7,40 @@ import { inflateSync } from "node:zlib";
 import { chromium, type Browser, type Page } from "playwright-core";
 import { crc16, crc32 } from "../src/checksums";
 import { parseVarint } from "../src/varint";
-import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh, type Wishes } from "../src/index";
+import {
+    decode,
+    Decoder,
+    END_OF_STREAM,
+    Kernels,
+    NEED_DATA,
+    type Attribute,
+    type Event,
+    type Limits,
+    type Mesh,
+    type Wishes,
+} from "../src/index";
 
 export const WEB = process.cwd();
 const SPEC = join(WEB, "../spec/vectors");
 export const VECTORS = join(SPEC, "1.0");
 /** Of all versions. */
-export const FOLDERS = readdirSync(SPEC).filter((name) => name.startsWith("1.")).map((name) => join(SPEC, name));
+export const FOLDERS = readdirSync(SPEC)
+    .filter((name) => name.startsWith("1."))
+    .map((name) => join(SPEC, name));
 export const VIEWER = join(WEB, "../src/bsm/viewer");
 
 export const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
 export const FIREFOX = process.env.FIREFOX ?? "/usr/bin/firefox-esr";
 export const FLAGS = [
-    "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-    "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
 ];
 
 /** Milliseconds that a test waits for a page: a slow machine that does other things as well draws by software. */
@@ -35,7 +55,11 @@ export async function chromiumFor(context: TestContext, ...flags: string[]): Pro
 
 /** A build of less than all, as the decoder that tests of the sources take. */
 export async function lesserDecode(build: "small" | "quick" | "moving"): Promise<(data: Uint8Array) => Mesh> {
-    const lesser = (await import(pathToFileURL(join(WEB, `built/${build}.js`)).href)) as { decode: typeof decode; Decoder: typeof Decoder; Kernels: typeof Kernels };
+    const lesser = (await import(pathToFileURL(join(WEB, `built/${build}.js`)).href)) as {
+        decode: typeof decode;
+        Decoder: typeof Decoder;
+        Kernels: typeof Kernels;
+    };
     const kernels = new lesser.Kernels(await WebAssembly.compile(readFileSync(join(WEB, `built/${build}.wasm`))));
     if (build === "moving") return (data) => meshOfEvents(eventsOf(kernels, data, data.length, {}, {}, lesser.Decoder));
     return (data) => lesser.decode(kernels, data);
@@ -45,14 +69,21 @@ export async function lesserDecode(build: "small" | "quick" | "moving"): Promise
 export const kernels = new Kernels(await WebAssembly.compile(readFileSync(join(WEB, "built/kernels.wasm"))));
 
 /** All events of a stream that comes in pieces of `size` bytes; the error is thrown behind them. */
-export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limits: Partial<Limits> = {}, wishes: Wishes = {}, Type = Decoder): Generator<Event> {
+export function* eventsOf(
+    kernels: Kernels,
+    data: Uint8Array,
+    size: number,
+    limits: Partial<Limits> = {},
+    wishes: Wishes = {},
+    Type = Decoder,
+): Generator<Event> {
     const decoder = new Type(kernels, limits, wishes);
     for (let at = 0; at < data.length || at === 0; at += Math.max(size, 1)) {
         decoder.receiveData(data.subarray(at, at + size));
-        for (let event; (event = decoder.nextEvent()) !== NEED_DATA; ) yield event as Event;
+        for (let event; (event = decoder.nextEvent()) !== NEED_DATA;) yield event as Event;
     }
     decoder.receiveEof();
-    for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) yield event as Event;
+    for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM;) yield event as Event;
     decoder.release(); // so that the next test finds what this one leaves in memory
 }
 
@@ -68,7 +99,9 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
         if (event.type === "connectivity") {
             faces = Int32Array.from([...faces, ...event.faces]); // of all runs
             positions = new Float64Array(3 * event.vertices).fill(NaN);
-            event.loose.vertices.forEach((v, i) => positions.set(event.loose.positions.subarray(3 * i, 3 * i + 3), 3 * v));
+            event.loose.vertices.forEach((v, i) =>
+                positions.set(event.loose.positions.subarray(3 * i, 3 * i + 3), 3 * v),
+            );
         }
         if (event.type === "attribute") attributes.push(event);
         if (event.type === "end" && event.positions) positions = event.positions;
@@ -76,14 +109,19 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
             frames.push(event.positions);
             moved.push(...event.attributes);
         }
-        if (event.type === "block" || event.type === "refinement") event.vertices.forEach((v, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * v));
+        if (event.type === "block" || event.type === "refinement")
+            event.vertices.forEach((v, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * v));
     }
     // Of an attribute that moves, the values in all frames of the last run, one after the other.
     attributes = attributes.map((one) => {
         const own = moved.filter(({ name }) => name === one.name);
         return own.length ? { ...one, values: Float64Array.from(own.flatMap(({ values }) => [...values])) } : one;
     });
-    return { positions: frames.length ? Float64Array.from(frames.flatMap((frame) => [...frame])) : positions, faces, attributes };
+    return {
+        positions: frames.length ? Float64Array.from(frames.flatMap((frame) => [...frame])) : positions,
+        faces,
+        attributes,
+    };
 }
 
 /** The page with streams in it, as `bsm view --save` writes it. */
@@ -92,13 +130,24 @@ export function savedPage(folder: string, streams: Record<string, Uint8Array>, m
     const slot = '<script type="application/json" id="bsm-streams">';
     const path = join(folder, "page.html");
     const page = readFileSync(join(VIEWER, "page.html"), "utf8");
-    writeFileSync(path, page.replace(`${slot}[]`, () => slot + JSON.stringify(list)).replace("<!-- script -->", viewerScript));
+    writeFileSync(
+        path,
+        page.replace(`${slot}[]`, () => slot + JSON.stringify(list)).replace("<!-- script -->", viewerScript),
+    );
     return pathToFileURL(path).href;
 }
 
 /** What the page knows of a stream that stands alone. */
-export function contentOf(name: string, bytes: Uint8Array): { name: string; main: number; facts: object; layers: object[] } {
-    return { name, main: 0, facts: {}, layers: [{ title: "BSM", detail: "", size: bytes.length, data: base64(bytes) }] };
+export function contentOf(
+    name: string,
+    bytes: Uint8Array,
+): { name: string; main: number; facts: object; layers: object[] } {
+    return {
+        name,
+        main: 0,
+        facts: {},
+        layers: [{ title: "BSM", detail: "", size: bytes.length, data: base64(bytes) }],
+    };
 }
 
 /** The page's module with kernels in it. */
@@ -109,16 +158,31 @@ export function viewerScript(): string {
 
 /** Drop files on a page. */
 export function drop(page: Page, files: Record<string, Uint8Array>): Promise<void> {
-    return page.evaluate((files) => {
-        const transfer = new DataTransfer();
-        for (const [name, data] of files) transfer.items.add(new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name));
-        document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
-    }, Object.entries(files).map(([name, bytes]) => [name, base64(bytes)] as const));
+    return page.evaluate(
+        (files) => {
+            const transfer = new DataTransfer();
+            for (const [name, data] of files)
+                transfer.items.add(new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name));
+            document.body.dispatchEvent(
+                new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }),
+            );
+        },
+        Object.entries(files).map(([name, bytes]) => [name, base64(bytes)] as const),
+    );
 }
 
 /** The rows of the table on a page, by their names. */
 export function tableOf(page: Page): Promise<Record<string, string>> {
-    return page.locator("[data-part=facts]").evaluate((list) => Object.fromEntries([...list.querySelectorAll("dt")].map((name) => [name.textContent!, name.nextElementSibling!.textContent!])));
+    return page
+        .locator("[data-part=facts]")
+        .evaluate((list) =>
+            Object.fromEntries(
+                [...list.querySelectorAll("dt")].map((name) => [
+                    name.textContent!,
+                    name.nextElementSibling!.textContent!,
+                ]),
+            ),
+        );
 }
 
 export function base64(bytes: Uint8Array): string {
@@ -128,7 +192,7 @@ export function base64(bytes: Uint8Array): string {
 /** The stream with the right checksum in every frame, so that damage reaches what is behind it. */
 export function mended(stream: Uint8Array): Uint8Array {
     const view = new DataView(stream.buffer, stream.byteOffset, stream.byteLength);
-    for (let at = 5; at < stream.length; ) {
+    for (let at = 5; at < stream.length;) {
         let tag;
         try {
             tag = parseVarint(stream, at, stream.length);
@@ -149,11 +213,14 @@ export function mended(stream: Uint8Array): Uint8Array {
 }
 
 /** Rows of an 8-bit PNG, and how wide its pixels are. */
-export function* rowsOf(png: Buffer): Generator<{ row: Uint8Array; channels: number; y: number; width: number; height: number }> {
+export function* rowsOf(
+    png: Buffer,
+): Generator<{ row: Uint8Array; channels: number; y: number; width: number; height: number }> {
     const [width, height, channels] = [png.readUInt32BE(16), png.readUInt32BE(20), png[25] === 6 ? 4 : 3];
     const parts: Buffer[] = [];
     for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at)) {
-        if (png.toString("latin1", at + 4, at + 8) === "IDAT") parts.push(png.subarray(at + 8, at + 8 + png.readUInt32BE(at)));
+        if (png.toString("latin1", at + 4, at + 8) === "IDAT")
+            parts.push(png.subarray(at + 8, at + 8 + png.readUInt32BE(at)));
     }
     const rows = inflateSync(Buffer.concat(parts));
     const stride = width * channels;
@@ -179,7 +246,8 @@ export function silhouette(png: Buffer): { share: number; x: number; y: number }
         corner ??= row.slice(0, 3);
         size = [width, height];
         for (let x = 0; x < width; x++) {
-            if ([0, 1, 2].some((d) => Math.abs(row[x * channels + d] - corner![d]) > 8)) [count, sumX, sumY] = [count + 1, sumX + x, sumY + y];
+            if ([0, 1, 2].some((d) => Math.abs(row[x * channels + d] - corner![d]) > 8))
+                [count, sumX, sumY] = [count + 1, sumX + x, sumY + y];
         }
     }
     const [width, height] = size;

@@ -6,13 +6,16 @@ import test from "node:test";
 import { brotliCompressSync, gzipSync } from "node:zlib";
 import { VIEWER, WEB } from "./shared";
 
-/** Bytes in brotli, at most, of the files that a page fetches to decode streams of a kind, to encode, and for the page itself. */
+/**
+ * Bytes in brotli, at most, of the files that a page fetches to decode streams of a kind, to encode, and for the page
+ * itself.
+ */
 const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [18900, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
     "static meshes": [85700, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
-    "sequences": [77800, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
-    "everything": [122400, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
-    "encoding": [80000, ["encode-worker.js", "encoding.js", "encode.js", "encode.wasm"]],
+    sequences: [77800, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
+    everything: [122400, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
+    encoding: [80000, ["encode-worker.js", "encoding.js", "encode.js", "encode.wasm"]],
     "the page": [8800, ["three.js", "pool.js"]],
 };
 
@@ -25,6 +28,8 @@ for (const [what, [most, files]] of Object.entries(LOADS)) {
 }
 
 test("the page of tiles is at most 271500 bytes as `bsm view` sends it", () => {
-    const sizes = ["viewer.js", "small.wasm"].map((name) => gzipSync(readFileSync(join(VIEWER, name)), { level: 9 }).length);
+    const sizes = ["viewer.js", "small.wasm"].map(
+        (name) => gzipSync(readFileSync(join(VIEWER, name)), { level: 9 }).length,
+    );
     assert.ok(sizes[0] + sizes[1] <= 271_500, `viewer.js ${sizes[0]}, small.wasm ${sizes[1]}`);
 });

@@ -1,4 +1,6 @@
-/** A mesh in tiles in headless Chromium: by our page, and by 3d-tiles-renderer; coarse first, fine where one is near. */
+/**
+ * A mesh in tiles in headless Chromium: by our page, and by 3d-tiles-renderer; coarse first, fine where one is near.
+ */
 import assert from "node:assert/strict";
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -56,7 +58,8 @@ renderer.setAnimationLoop(() => {
 /** The mean of all pixels. */
 function brightnessOf(png: Buffer): number {
     let [sum, count] = [0, 0];
-    for (const { row, channels } of rowsOf(png)) for (let i = 0; i < row.length; i += channels) [sum, count] = [sum + row[i], count + 1];
+    for (const { row, channels } of rowsOf(png))
+        for (let i = 0; i < row.length; i += channels) [sum, count] = [sum + row[i], count + 1];
     return sum / count;
 }
 
@@ -84,12 +87,23 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
         const page = await opened();
         const asked: (string | undefined)[] = [];
         const [events, kernels]: string[][] = [[], []];
-        page.on("request", (request) => request.url().endsWith(".wasm") && kernels.push(request.url().replace(address, "")));
-        page.on("request", (request) => request.url().endsWith(".tiles") && events.push("asked") && asked.push(request.headers().range));
+        page.on(
+            "request",
+            (request) => request.url().endsWith(".wasm") && kernels.push(request.url().replace(address, "")),
+        );
+        page.on(
+            "request",
+            (request) =>
+                request.url().endsWith(".tiles") && events.push("asked") && asked.push(request.headers().range),
+        );
         page.on("requestfinished", (request) => request.url().endsWith(".tiles") && events.push("came"));
         await page.addInitScript(() => {
             const seen: number[] = ((globalThis as unknown as { seen: number[] }).seen = []);
-            new MutationObserver(() => seen.push(Number(document.body?.dataset.faces ?? 0))).observe(document, { attributes: true, subtree: true, attributeFilter: ["data-faces"] });
+            new MutationObserver(() => seen.push(Number(document.body?.dataset.faces ?? 0))).observe(document, {
+                attributes: true,
+                subtree: true,
+                attributeFilter: ["data-faces"],
+            });
         });
         await page.goto(address);
         await page.waitForSelector("body[data-state=complete]", { timeout: PATIENCE });
@@ -99,7 +113,10 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
         const far = await page.locator("canvas").screenshot();
         // A busy machine may draw no frame before more has come.
         assert.deepEqual(events.slice(0, 2), ["asked", "came"], "the coarsest comes first, and alone");
-        assert.ok(seen[0] >= coarsest && seen.every((faces, i) => i === 0 || faces >= seen[i - 1]), "never less is seen");
+        assert.ok(
+            seen[0] >= coarsest && seen.every((faces, i) => i === 0 || faces >= seen[i - 1]),
+            "never less is seen",
+        );
         assert.ok(asked.length > 2 && asked.every((range) => range?.startsWith("bytes=")), "by ranges");
         assert.deepEqual(kernels, ["small.wasm"], "no more of the decoder than tiles need");
         const { share } = silhouette(far);
@@ -115,36 +132,56 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
         const before = Number(await page.locator("body").getAttribute("data-faces"));
         await page.locator("canvas").focus();
         for (let k = 0; k < 12; k++) await page.keyboard.press("+");
-        await page.waitForFunction((before) => document.body.dataset.state === "complete" && Number(document.body.dataset.faces) > before, before, { timeout: PATIENCE });
+        await page.waitForFunction(
+            (before) => document.body.dataset.state === "complete" && Number(document.body.dataset.faces) > before,
+            before,
+            { timeout: PATIENCE },
+        );
         assert.ok(Number(await page.locator("body").getAttribute("data-faces")) <= faces);
         assert.ok(silhouette(await page.locator("canvas").screenshot()).share > share);
         for (let k = 0; k < 60; k++) await page.keyboard.press("-");
-        await page.waitForFunction((before) => Number(document.body.dataset.faces) < before, before, { timeout: PATIENCE });
+        await page.waitForFunction((before) => Number(document.body.dataset.faces) < before, before, {
+            timeout: PATIENCE,
+        });
         assert.deepEqual(complaints, []);
     });
 
-    for (const content of ["plain", "coded"]) test(`3d-tiles-renderer shows the ${content} tileset, coarse from afar and fine from near`, async (context) => {
-        const site = await serveSite();
-        context.after(() => site.close());
-        const options = { stdin: { contents: SCRIPT, resolveDir: WEB }, bundle: true, external: ["/bsm/*"], write: false as const, format: "esm" as const, logLevel: "error" as const };
-        site.extra.set("/script.js", (await build(options)).outputFiles[0].text);
-        site.extra.set("/scan/tileset.json", readFileSync(join(folder, content, "tileset.json"), "utf8"));
-        for (const name of readdirSync(join(folder, content, "glb"))) site.extra.set(`/scan/glb/${name}`, readFileSync(join(folder, content, "glb", name)));
-        assert.equal(readFileSync(join(folder, content, "glb", "r.glb")).includes("EXT_bsm_compression"), content === "coded");
-        const page = await opened();
-        await page.goto(site.address);
-        const tileState = async (over: number): Promise<{ loaded: string[]; faces: number }> => {
-            await page.waitForFunction(`tileState().quiet > 5 && tileState().faces > ${over}`, undefined, { timeout: PATIENCE });
-            return (await page.evaluate("tileState()")) as { loaded: string[]; faces: number };
-        };
-        const far = await tileState(0);
-        assert.equal(far.faces, coarsest);
-        assert.deepEqual(far.loaded, ["glb/r.glb"]);
-        await page.evaluate("from(2.5)");
-        const near = await tileState(2 * coarsest); // loads may begin frames after the camera moved
-        assert.ok(near.faces <= faces, `${near.faces} faces`);
-        const { share, x, y } = silhouette(await page.locator("canvas").screenshot());
-        assert.ok(share > 0.1 && Math.abs(x - 0.5) < 0.1 && Math.abs(y - 0.5) < 0.15, `${share} ${x} ${y}`);
-        assert.deepEqual(complaints, []);
-    });
+    for (const content of ["plain", "coded"])
+        test(`3d-tiles-renderer shows the ${content} tileset, coarse from afar and fine from near`, async (context) => {
+            const site = await serveSite();
+            context.after(() => site.close());
+            const options = {
+                stdin: { contents: SCRIPT, resolveDir: WEB },
+                bundle: true,
+                external: ["/bsm/*"],
+                write: false as const,
+                format: "esm" as const,
+                logLevel: "error" as const,
+            };
+            site.extra.set("/script.js", (await build(options)).outputFiles[0].text);
+            site.extra.set("/scan/tileset.json", readFileSync(join(folder, content, "tileset.json"), "utf8"));
+            for (const name of readdirSync(join(folder, content, "glb")))
+                site.extra.set(`/scan/glb/${name}`, readFileSync(join(folder, content, "glb", name)));
+            assert.equal(
+                readFileSync(join(folder, content, "glb", "r.glb")).includes("EXT_bsm_compression"),
+                content === "coded",
+            );
+            const page = await opened();
+            await page.goto(site.address);
+            const tileState = async (over: number): Promise<{ loaded: string[]; faces: number }> => {
+                await page.waitForFunction(`tileState().quiet > 5 && tileState().faces > ${over}`, undefined, {
+                    timeout: PATIENCE,
+                });
+                return (await page.evaluate("tileState()")) as { loaded: string[]; faces: number };
+            };
+            const far = await tileState(0);
+            assert.equal(far.faces, coarsest);
+            assert.deepEqual(far.loaded, ["glb/r.glb"]);
+            await page.evaluate("from(2.5)");
+            const near = await tileState(2 * coarsest); // loads may begin frames after the camera moved
+            assert.ok(near.faces <= faces, `${near.faces} faces`);
+            const { share, x, y } = silhouette(await page.locator("canvas").screenshot());
+            assert.ok(share > 0.1 && Math.abs(x - 0.5) < 0.1 && Math.abs(y - 0.5) < 0.15, `${share} ${x} ${y}`);
+            assert.deepEqual(complaints, []);
+        });
 });

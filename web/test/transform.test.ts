@@ -18,11 +18,14 @@ import { kernels, VECTORS, WEB } from "./shared";
 
 describe("glTF-Transform", async () => {
     // The built module finds its kernels beside itself.
-    const { EXTBSMCompression, loadSceneDecoder, loadSceneEncoder } = (await import(pathToFileURL(join(WEB, "built/gltf-transform.js")).href)) as typeof Transform;
+    const { EXTBSMCompression, loadSceneDecoder, loadSceneEncoder } = (await import(
+        pathToFileURL(join(WEB, "built/gltf-transform.js")).href
+    )) as typeof Transform;
     const decoder = await loadSceneDecoder();
     const stream = new Uint8Array(readFileSync(join(VECTORS, "good-attribute-uv-plain.bsm")));
     const shape = decoder(stream);
-    const io = (): WebIO => new WebIO().registerExtensions([EXTBSMCompression]).registerDependencies({ "bsm.decoder": decoder });
+    const io = (): WebIO =>
+        new WebIO().registerExtensions([EXTBSMCompression]).registerDependencies({ "bsm.decoder": decoder });
     const [vertices, corners] = [shape.positions.length / 3, shape.index.length];
 
     test("reads what streams hold, and writes it plain", async () => {
@@ -62,47 +65,91 @@ describe("glTF-Transform", async () => {
             decoded.push(made(given));
             return decoded.at(-1)!;
         };
-        const reader = (made: SceneDecoder): WebIO => new WebIO().registerExtensions([EXTBSMCompression]).registerDependencies({ "bsm.decoder": counting(made) });
+        const reader = (made: SceneDecoder): WebIO =>
+            new WebIO().registerExtensions([EXTBSMCompression]).registerDependencies({ "bsm.decoder": counting(made) });
         const document = await reader(decoder).readBinary(repeated(300));
         assert.equal(decoded.length, 1);
-        assert.deepEqual([...document.getRoot().listMeshes()[0].listPrimitives()[0].getAttribute("POSITION")!.getArray()!], [...shape.positions]);
-        const vast = (given: Uint8Array): Shape => ({ ...decoder(given), normals: { byteLength: 2 ** 30 } as Float32Array });
+        assert.deepEqual(
+            [...document.getRoot().listMeshes()[0].listPrimitives()[0].getAttribute("POSITION")!.getArray()!],
+            [...shape.positions],
+        );
+        const vast = (given: Uint8Array): Shape => ({
+            ...decoder(given),
+            normals: { byteLength: 2 ** 30 } as Float32Array,
+        });
         await assert.rejects(reader(vast).readBinary(repeated(1)), /become more than 1073741824 bytes/);
     });
 
     test("ends all decodings of a scene whose streams or frames become too much", async () => {
         const closed: string[] = [];
-        const decoding = (name: string) => ({ close: () => void closed.push(name), receiveData: () => undefined, receiveEof: () => undefined });
+        const decoding = (name: string) => ({
+            close: () => void closed.push(name),
+            receiveData: () => undefined,
+            receiveEof: () => undefined,
+        });
         const views = new CodedViews<Shape>();
         const half = { ...shape, index: { byteLength: 2 ** 29 } as Uint32Array };
         const heard: ((picture: Picture) => void)[] = [];
         const begin = (name: string): Promise<unknown> =>
-            views.decode({ open: ({ onPicture }: Listener) => (heard.push(onPicture!), decoding(name)) } as unknown as Pool, new Uint8Array(), name, () => {}, () => {}).catch(String);
+            views
+                .decode(
+                    { open: ({ onPicture }: Listener) => (heard.push(onPicture!), decoding(name)) } as unknown as Pool,
+                    new Uint8Array(),
+                    name,
+                    () => {},
+                    () => {},
+                )
+                .catch(String);
         void begin("a");
         heard[0]({ type: "whole", shape: half, run: 0 });
         void begin("b");
         assert.deepEqual(closed, []);
-        const frame = { type: "frame", index: 0, positions: { byteLength: 2 ** 29 } as Float32Array, normals: new Int16Array(), attributes: [] } as const;
+        const frame = {
+            type: "frame",
+            index: 0,
+            positions: { byteLength: 2 ** 29 } as Float32Array,
+            normals: new Int16Array(),
+            attributes: [],
+        } as const;
         assert.throws(() => heard[1]({ ...frame, attributes: [] }), /become more than/); // which the pool passes on
         assert.deepEqual(closed, ["a", "b"]);
         assert.match(String(await begin("c")), /become more than/);
         assert.deepEqual(closed.slice(2).sort(), ["a", "b", "c"]);
     });
 
-    /** A document of a knot with normals, texture coordinates, a number of each vertex, and another primitive of its lower half. */
+    /**
+     * A document of a knot with normals, texture coordinates, a number of each vertex, and another primitive of its
+     * lower half.
+     */
     function knotted(): Document {
         const [document, knot] = [new Document(), new TorusKnotGeometry(1, 0.3, 120, 12)];
         const buffer = document.createBuffer();
-        const accessor = (type: "VEC3" | "VEC2" | "SCALAR", array: ArrayLike<number>, Kind: typeof Float32Array | typeof Uint16Array | typeof Uint8Array) => document.createAccessor().setType(type).setArray(Kind.from(array)).setBuffer(buffer);
+        const accessor = (
+            type: "VEC3" | "VEC2" | "SCALAR",
+            array: ArrayLike<number>,
+            Kind: typeof Float32Array | typeof Uint16Array | typeof Uint8Array,
+        ) => document.createAccessor().setType(type).setArray(Kind.from(array)).setBuffer(buffer);
         const { position, normal, uv } = knot.attributes;
         const places = accessor("VEC3", position.array, Float32Array);
         const mesh = document.createMesh();
-        for (const [first, end] of [[0, knot.index!.count], [0, knot.index!.count / 2]]) {
+        for (const [first, end] of [
+            [0, knot.index!.count],
+            [0, knot.index!.count / 2],
+        ]) {
             const indices = accessor("SCALAR", knot.index!.array.slice(first, end), Uint16Array);
             mesh.addPrimitive(document.createPrimitive().setIndices(indices).setAttribute("POSITION", places));
         }
-        mesh.listPrimitives()[0].setAttribute("NORMAL", accessor("VEC3", normal.array, Float32Array)).setAttribute("TEXCOORD_0", accessor("VEC2", uv.array, Float32Array))
-            .setAttribute("_PART", accessor("SCALAR", Uint8Array.from({ length: position.count }, (_, i) => i & 3), Uint8Array));
+        mesh.listPrimitives()[0]
+            .setAttribute("NORMAL", accessor("VEC3", normal.array, Float32Array))
+            .setAttribute("TEXCOORD_0", accessor("VEC2", uv.array, Float32Array))
+            .setAttribute(
+                "_PART",
+                accessor(
+                    "SCALAR",
+                    Uint8Array.from({ length: position.count }, (_, i) => i & 3),
+                    Uint8Array,
+                ),
+            );
         document.createScene().addChild(document.createNode().setMesh(mesh));
         return document;
     }
@@ -111,40 +158,60 @@ describe("glTF-Transform", async () => {
     function apart(a: Primitive, b: Primitive): number {
         const sorted = (primitive: Primitive): number[][] => {
             const [index, places] = [primitive.getIndices()!.getArray()!, primitive.getAttribute("POSITION")!];
-            return [...index].map((vertex) => places.getElement(vertex, [] as number[])).sort((p, q) => Math.round(64 * (p[0] - q[0])) || Math.round(64 * (p[1] - q[1])) || p[2] - q[2]);
+            return [...index]
+                .map((vertex) => places.getElement(vertex, [] as number[]))
+                .sort((p, q) => Math.round(64 * (p[0] - q[0])) || Math.round(64 * (p[1] - q[1])) || p[2] - q[2]);
         };
         const [given, found] = [sorted(a), sorted(b)];
         assert.equal(found.length, given.length);
-        const sum = (points: number[][]): number[] => [0, 1, 2].map((d) => points.reduce((total, point) => total + point[d], 0) / points.length);
+        const sum = (points: number[][]): number[] =>
+            [0, 1, 2].map((d) => points.reduce((total, point) => total + point[d], 0) / points.length);
         const [from, to] = [sum(given), sum(found)];
         return Math.hypot(...from.map((value, d) => value - to[d]));
     }
 
-    test("writes streams, which are read again", { skip: !loadSceneEncoder && "built/ is of older sources" }, async () => {
-        const encoder = await loadSceneEncoder();
-        const [given, plain] = [knotted(), await new WebIO().writeBinary(knotted())];
-        given.createExtension(EXTBSMCompression);
-        const line = given.createPrimitive().setMode(1).setAttribute("POSITION", given.getRoot().listMeshes()[0].listPrimitives()[0].getAttribute("POSITION"));
-        given.getRoot().listMeshes()[0].addPrimitive(line);
-        const packed = await io().registerDependencies({ "bsm.encoder": encoder }).writeBinary(given);
-        const { issues } = (await validateBytes(packed)) as { issues: { messages: { severity: number }[] } };
-        assert.deepEqual(issues.messages.filter(({ severity }) => severity === 0), []);
-        const found = await io().readBinary(packed);
-        const [[whole, half, kept], [all, lower]] = [found, given].map((document) => document.getRoot().listMeshes()[0].listPrimitives());
-        assert.ok(apart(all, whole) < 1e-4 && apart(lower, half) < 1e-4);
-        assert.deepEqual(kept.getAttribute("POSITION")?.getArray(), line.getAttribute("POSITION")?.getArray());
-        assert.deepEqual(whole.listSemantics().sort(), all.listSemantics().sort());
-        assert.deepEqual(new Set(whole.getAttribute("_PART")!.getArray()), new Set([0, 1, 2, 3]));
-        given.getRoot().listMeshes()[0].removePrimitive(line);
-        line.dispose();
-        const smaller = await io().registerDependencies({ "bsm.encoder": encoder }).writeBinary(given);
-        assert.ok(smaller.length < plain.length / 4, `${smaller.length} of ${plain.length}`);
-        await assert.rejects(io().writeBinary(given), /bsm\.encoder/);
-    });
+    test(
+        "writes streams, which are read again",
+        { skip: !loadSceneEncoder && "built/ is of older sources" },
+        async () => {
+            const encoder = await loadSceneEncoder();
+            const [given, plain] = [knotted(), await new WebIO().writeBinary(knotted())];
+            given.createExtension(EXTBSMCompression);
+            const line = given
+                .createPrimitive()
+                .setMode(1)
+                .setAttribute("POSITION", given.getRoot().listMeshes()[0].listPrimitives()[0].getAttribute("POSITION"));
+            given.getRoot().listMeshes()[0].addPrimitive(line);
+            const packed = await io().registerDependencies({ "bsm.encoder": encoder }).writeBinary(given);
+            const { issues } = (await validateBytes(packed)) as { issues: { messages: { severity: number }[] } };
+            assert.deepEqual(
+                issues.messages.filter(({ severity }) => severity === 0),
+                [],
+            );
+            const found = await io().readBinary(packed);
+            const [[whole, half, kept], [all, lower]] = [found, given].map((document) =>
+                document.getRoot().listMeshes()[0].listPrimitives(),
+            );
+            assert.ok(apart(all, whole) < 1e-4 && apart(lower, half) < 1e-4);
+            assert.deepEqual(kept.getAttribute("POSITION")?.getArray(), line.getAttribute("POSITION")?.getArray());
+            assert.deepEqual(whole.listSemantics().sort(), all.listSemantics().sort());
+            assert.deepEqual(new Set(whole.getAttribute("_PART")!.getArray()), new Set([0, 1, 2, 3]));
+            given.getRoot().listMeshes()[0].removePrimitive(line);
+            line.dispose();
+            const smaller = await io().registerDependencies({ "bsm.encoder": encoder }).writeBinary(given);
+            assert.ok(smaller.length < plain.length / 4, `${smaller.length} of ${plain.length}`);
+            await assert.rejects(io().writeBinary(given), /bsm\.encoder/);
+        },
+    );
 
     test("says what is wrong", async () => {
         await assert.rejects(io().readBinary(sceneOf(stream, vertices + 1, corners)), /POSITION has \d+ bytes/);
-        await assert.rejects(io().readBinary(sceneOf(stream.subarray(0, -30), vertices, corners)), { name: "TruncatedError" });
-        await assert.rejects(new WebIO().registerExtensions([EXTBSMCompression]).readBinary(sceneOf(stream, vertices, corners)), /bsm\.decoder/);
+        await assert.rejects(io().readBinary(sceneOf(stream.subarray(0, -30), vertices, corners)), {
+            name: "TruncatedError",
+        });
+        await assert.rejects(
+            new WebIO().registerExtensions([EXTBSMCompression]).readBinary(sceneOf(stream, vertices, corners)),
+            /bsm\.decoder/,
+        );
     });
 });

@@ -20,7 +20,10 @@ const vectors = FOLDERS.flatMap((folder) => {
 const WAYS: [string, (kernels: Kernels, data: Uint8Array) => Mesh][] = [
     ["whole", decode],
     ["in events", (kernels, data) => meshOfEvents(eventsOf(kernels, data, data.length))],
-    ["as a whole, in events", (kernels, data) => meshOfEvents(eventsOf(kernels, data, data.length, {}, { whole: true }))],
+    [
+        "as a whole, in events",
+        (kernels, data) => meshOfEvents(eventsOf(kernels, data, data.length, {}, { whole: true })),
+    ],
     ["byte by byte", (kernels, data) => meshOfEvents(eventsOf(kernels, data, 1))],
 ];
 
@@ -28,7 +31,12 @@ for (const [vector, way, take] of vectors.flatMap((vector) => WAYS.map((one) => 
     test(`${vector.name} ${way}`, async () => {
         const data = readFileSync(join(vector.folder, `${vector.name}.bsm`));
         if (vector.error) assert.throws(() => take(kernels, data), { name: errorName(vector.error) });
-        else compare(take(kernels, data), readNpz(readFileSync(join(vector.folder, `${vector.name}.npz`))), way !== "whole");
+        else
+            compare(
+                take(kernels, data),
+                readNpz(readFileSync(join(vector.folder, `${vector.name}.npz`))),
+                way !== "whole",
+            );
     });
 }
 
@@ -72,7 +80,8 @@ test("the quick build decodes meshes on light grids to the same, and says that i
         const begin = eventsOf(full, data, data.length).next().value as Event;
         assert.ok(begin.type === "header");
         const { light } = begin.header;
-        if (isLarge(begin.header) || light !== 1 || /splits|ordered|congruence/.test(name)) assert.throws(() => take(data), { name: "UnsupportedError" }, name);
+        if (isLarge(begin.header) || light !== 1 || /splits|ordered|congruence/.test(name))
+            assert.throws(() => take(data), { name: "UnsupportedError" }, name);
         else assert.deepEqual(take(data), decode(full, data), name);
         lights += light === 1 ? 1 : 0;
     }
@@ -98,7 +107,9 @@ function compare(mesh: Mesh, expected: Record<string, NumpyArray>, all: boolean)
 /** Arrays of attributes are called by number, semantic, domain and name; indices of corners by the number. */
 function compareAttributes(attributes: Attribute[], expected: Record<string, NumpyArray>, all: boolean): void {
     const names = Object.keys(expected).filter((name) => name.startsWith("attribute "));
-    const byTitle = new Map(attributes.map((attribute) => [`${attribute.semantic} ${attribute.domain} ${attribute.name}`, attribute]));
+    const byTitle = new Map(
+        attributes.map((attribute) => [`${attribute.semantic} ${attribute.domain} ${attribute.name}`, attribute]),
+    );
     assert.equal(attributes.length, names.length);
     for (const name of names) {
         const [, number, title] = /^attribute (\d+) (.*)$/s.exec(name)!;
@@ -107,7 +118,12 @@ function compareAttributes(attributes: Attribute[], expected: Record<string, Num
         const { values: given, shape } = expected[name];
         const values = shape.length > 2 && !all ? given.subarray(0, given.length / shape[0]) : given;
         assert.equal(found.values.length, values.length);
-        found.values.forEach((value, i) => assert.ok(Math.abs(value - Number(values[i])) <= 1e-6 * Math.max(Math.abs(Number(values[i])), 1), `${title} ${i}: ${value}, not ${values[i]}`));
+        found.values.forEach((value, i) =>
+            assert.ok(
+                Math.abs(value - Number(values[i])) <= 1e-6 * Math.max(Math.abs(Number(values[i])), 1),
+                `${title} ${i}: ${value}, not ${values[i]}`,
+            ),
+        );
         const indices = expected[`indices ${number}`];
         assert.deepEqual(found.indices, indices?.values);
     }

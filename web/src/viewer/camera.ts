@@ -31,7 +31,10 @@ export class Camera extends PerspectiveCamera {
     private part = [1, 1];
     readonly controls: OrbitControls;
 
-    constructor(canvas: HTMLCanvasElement, private readonly redraw: () => void) {
+    constructor(
+        canvas: HTMLCanvasElement,
+        private readonly redraw: () => void,
+    ) {
         super(30, 1, 0.01, 100);
         this.controls = new OrbitControls(this, canvas);
         this.controls.enableDamping = true;
@@ -62,7 +65,10 @@ export class Camera extends PerspectiveCamera {
         return (this.size[1] * devicePixelRatio) / (2 * Math.tan(this.fov / 2 / MathUtils.RAD2DEG));
     }
 
-    /** Show points, which a matrix puts around the origin, from the side of their front, if they have one, in that area where they are largest. */
+    /**
+     * Show points, which a matrix puts around the origin, from the side of their front, if they have one, in that area
+     * where they are largest.
+     */
     aim(points: Points, matrix: Matrix4, front: Vector3, areas: Area[]): void {
         const begin = VIEW.clone();
         if (Math.hypot(front.x, front.z) > OPEN) begin.theta += Math.atan2(front.x, front.z);
@@ -70,7 +76,9 @@ export class Camera extends PerspectiveCamera {
         this.position.setFromSpherical(begin);
         this.controls.update();
         const [width, height] = this.part;
-        const towards = matrix.clone().premultiply(new Matrix4().makeRotationFromQuaternion(this.quaternion.clone().invert()));
+        const towards = matrix
+            .clone()
+            .premultiply(new Matrix4().makeRotationFromQuaternion(this.quaternion.clone().invert()));
         const pixel = (FILLED * Math.tan(this.fov / 2 / MathUtils.RAD2DEG)) / height;
         const distances = areas.map(() => 0.1);
         points((point) => {

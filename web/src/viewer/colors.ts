@@ -19,28 +19,49 @@ const STEPS = Array.from({ length: 256 }, (_, i) => {
 
 /** Of distances over a diagonal, a round number (1, 2 or 5 times a power of ten) that few exceed. */
 export function topOf(off: ArrayLike<number>, diagonal: number): number {
-    const known = Float64Array.from(off).filter((far) => far >= 0).sort();
+    const known = Float64Array.from(off)
+        .filter((far) => far >= 0)
+        .sort();
     const far = known[Math.floor(0.995 * (known.length - 1))] / diagonal || 1e-9;
     const power = 10 ** Math.floor(Math.log10(far));
     return power * [1, 2, 5, 10].find((step) => step * power >= far)!;
 }
 
 /** The attribute of a scheme at each drawn vertex: its number, or the length of its numbers; and the range. */
-export function fieldOf(geometry: BSMGeometry | undefined, scheme: Scheme): { values: Float32Array; low: number; high: number } | undefined {
+export function fieldOf(
+    geometry: BSMGeometry | undefined,
+    scheme: Scheme,
+): { values: Float32Array; low: number; high: number } | undefined {
     const attribute = scheme.startsWith("of ") ? geometry?.attributes[scheme.slice(3)] : undefined;
     if (!attribute) return undefined;
     const numbers = Array.from({ length: attribute.itemSize }, (_, d) => d);
-    const values = Float32Array.from({ length: attribute.count }, (_, i) => (numbers.length > 1 ? Math.hypot(...numbers.map((d) => attribute.getComponent(i, d))) : attribute.getX(i)));
-    return { values, low: values.reduce((a, b) => Math.min(a, b), Infinity), high: values.reduce((a, b) => Math.max(a, b), -Infinity) };
+    const values = Float32Array.from({ length: attribute.count }, (_, i) =>
+        numbers.length > 1 ? Math.hypot(...numbers.map((d) => attribute.getComponent(i, d))) : attribute.getX(i),
+    );
+    return {
+        values,
+        low: values.reduce((a, b) => Math.min(a, b), Infinity),
+        high: values.reduce((a, b) => Math.max(a, b), -Infinity),
+    };
 }
 
-/** Colors of all drawn vertices, shape (n, 3), the range of a field being that of another mesh; undefined where a mesh has nothing of the kind. */
-export function colorsOf(geometry: BSMGeometry, scheme: Scheme, off?: Float32Array, top = 1, { low, high } = { low: 0, high: 1 }): Float32Array | undefined {
+/**
+ * Colors of all drawn vertices, shape (n, 3), the range of a field being that of another mesh; undefined where a mesh
+ * has nothing of the kind.
+ */
+export function colorsOf(
+    geometry: BSMGeometry,
+    scheme: Scheme,
+    off?: Float32Array,
+    top = 1,
+    { low, high } = { low: 0, high: 1 },
+): Float32Array | undefined {
     const { header, origin, parted } = geometry;
     const field = fieldOf(geometry, scheme)?.values;
     if ((scheme !== "blocks" && scheme !== "error" && !field) || !header) return undefined;
     const last = Math.max((header.blocks || geometry.blocks) - 1, 1);
-    const share = (i: number, vertex = parted?.[i] ?? i): number => (field ? (field[i] - low) / (high - low) : scheme === "error" ? off![vertex] / top : origin[vertex] / last);
+    const share = (i: number, vertex = parted?.[i] ?? i): number =>
+        field ? (field[i] - low) / (high - low) : scheme === "error" ? off![vertex] / top : origin[vertex] / last;
     const drawn = geometry.getAttribute("position").count;
     const count = scheme === "error" ? (off?.length ?? 0) : field ? drawn : origin.length;
     if (count === 0 || (parted ?? { length: count }).length !== drawn) return undefined; // of a later run

@@ -30,7 +30,10 @@ export class Comparison {
     private hidden: Parameters<BSMGeometry["hide"]>[0] = () => false;
     private readonly scheme: HTMLSelectElement;
 
-    constructor(private readonly form: Form, private readonly stage: Stage) {
+    constructor(
+        private readonly form: Form,
+        private readonly stage: Stage,
+    ) {
         this.scheme = form.control("color");
         form.part("scale").querySelector("div")!.style.background = RAMP;
         form.on("mode", "change", () => this.compare());
@@ -87,7 +90,8 @@ export class Comparison {
         await this.showMaterials(main);
         for (const [i, layer] of layers.entries()) {
             const off = layer.off && new Float32Array((await bytesOf(layer.off)).buffer);
-            const geometry = i === main ? undefined : layer.pictures ? new BSMGeometry() : await wholeOf(pool, await bytesOf(layer));
+            const geometry =
+                i === main ? undefined : layer.pictures ? new BSMGeometry() : await wholeOf(pool, await bytesOf(layer));
             for (const picture of layer.pictures ?? []) geometry?.accept(picture);
             if (!mine()) return;
             offs[i] = off;
@@ -118,19 +122,29 @@ export class Comparison {
 
     /** Have all sequences show a frame. */
     seek(frame: number): void {
-        for (const geometry of this.geometries) if (geometry?.frames.length) geometry.showFrame(Math.min(frame, geometry.frames.length - 1));
+        for (const geometry of this.geometries)
+            if (geometry?.frames.length) geometry.showFrame(Math.min(frame, geometry.frames.length - 1));
     }
 
     /** Compare a stream with its original, unless Python has measured them. */
     private async measure(mine: () => boolean): Promise<void> {
-        const { content: { facts, main }, geometries: { 0: original, [main]: stream }, offs } = this;
+        const {
+            content: { facts, main },
+            geometries: { 0: original, [main]: stream },
+            offs,
+        } = this;
         if (main === 0 || facts.diagonal !== undefined || !original || !stream) return;
         const found = await distancesOf(stream, original, mine);
         if (!found) return;
         const { off, errors, mean } = found;
         facts.diagonal = original.boundingBox!.getSize(new Vector3()).length() || 1;
         const [most, ...more] = [Math.max(...errors), ...errors].map((far) => far / facts.diagonal!);
-        Object.assign(facts, { farthest: most, errors: stream.frames.length > 0 ? more : [], apart: mean && mean / facts.diagonal, before: [original.header!.vertices, original.header!.faces] });
+        Object.assign(facts, {
+            farthest: most,
+            errors: stream.frames.length > 0 ? more : [],
+            apart: mean && mean / facts.diagonal,
+            before: [original.header!.vertices, original.header!.faces],
+        });
         offs[main] = off.length > 0 ? off : undefined;
         this.top = undefined;
         this.allow("error", off.length > 0);
@@ -142,7 +156,9 @@ export class Comparison {
         const { geometries, scheme } = this;
         const geometry = geometries[index]!;
         const { attributes, metadata, color } = geometry;
-        const fields = Object.keys(attributes).flatMap((name) => (/^(position|normal|(uv|color)\d*)$/.test(name) ? [] : new Option(name, `of ${name}`)));
+        const fields = Object.keys(attributes).flatMap((name) =>
+            /^(position|normal|(uv|color)\d*)$/.test(name) ? [] : new Option(name, `of ${name}`),
+        );
         if (index === this.content.main) this.form.part("fields").replaceChildren(...fields);
         const named = [...metadata.keys()].some((key) => key.startsWith("material."));
         if (named) {
@@ -175,7 +191,9 @@ export class Comparison {
         const [split, seam, { clientWidth }] = [stage.mode === "split", stage.seam, form.root];
         const [left, right] = ["left", "right"].map((part) => form.part(part).offsetWidth + EDGE);
         const begin = Math.max(seam - 14, left);
-        const places = split ? [seam / 2, (seam + clientWidth) / 2] : [begin, Math.max(begin + EDGE, Math.min(seam + 14, clientWidth - right))];
+        const places = split
+            ? [seam / 2, (seam + clientWidth) / 2]
+            : [begin, Math.max(begin + EDGE, Math.min(seam + 14, clientWidth - right))];
         ["left", "right"].forEach((part, side) => {
             form.part(part).style.left = `${places[side]}px`;
             form.part(part).style.setProperty("--shift", split ? "-50%" : side === 0 ? "-100%" : "0%");
@@ -199,20 +217,33 @@ export class Comparison {
         geometries.forEach((geometry, i) => {
             if (!geometry || (i === content.main && !this.shown)) return;
             const vertices = geometry.header?.vertices ?? 0; // of each frame
-            const off = offs[i]?.subarray(...(geometry.frames.length > 1 ? [geometry.shown * vertices, (geometry.shown + 1) * vertices] : []));
+            const off = offs[i]?.subarray(
+                ...(geometry.frames.length > 1 ? [geometry.shown * vertices, (geometry.shown + 1) * vertices] : []),
+            );
             const colors = colorsOf(geometry, scheme, off, top, field);
-            stage.color(i, own ? geometry.color : colors && new BufferAttribute(colors, 3), own && this.withMaterials.has(i));
+            stage.color(
+                i,
+                own ? geometry.color : colors && new BufferAttribute(colors, 3),
+                own && this.withMaterials.has(i),
+            );
         });
         form.part("scale").hidden = !LEGENDS[scheme] && !field;
-        form.say("legend", `${LEGENDS[scheme] ?? scheme.slice(3)}${scheme === "error" && content.facts.apart !== undefined ? "'s surface" : ""}`);
+        form.say(
+            "legend",
+            `${LEGENDS[scheme] ?? scheme.slice(3)}${scheme === "error" && content.facts.apart !== undefined ? "'s surface" : ""}`,
+        );
         const unit = geometries[content.main]?.metadata.get("unit");
         const tick = (share: number): HTMLElement => {
             const far = `${Number((share * top).toPrecision(2))} ${typeof unit === "string" ? unit : ""}`;
             return element("li", percent((share * top) / diagonal), element("small", far));
         };
-        const words = field ? [field.low, (field.low + field.high) / 2, field.high].map((value) => `${Number(value.toPrecision(3))}`) : ["first", "last"];
+        const words = field
+            ? [field.low, (field.low + field.high) / 2, field.high].map((value) => `${Number(value.toPrecision(3))}`)
+            : ["first", "last"];
         const ticks = scheme === "error" ? [0, 0.5, 1].map(tick) : words.map((text) => element("li", text));
-        form.part("scale").querySelector("ol")!.replaceChildren(...ticks);
+        form.part("scale")
+            .querySelector("ol")!
+            .replaceChildren(...ticks);
     }
 
     /** Show the chosen mesh, or the original on the left and the chosen mesh on the right. */

@@ -1,4 +1,6 @@
-/** How far a mesh is from its original: vertex by vertex where the faces agree, and from its surface where they do not. */
+/**
+ * How far a mesh is from its original: vertex by vertex where the faces agree, and from its surface where they do not.
+ */
 import { Box3, Triangle, Vector3 } from "three";
 import type { BSMGeometry } from "../geometry";
 
@@ -6,7 +8,9 @@ const [LEAF, MOST] = [4, 2 ** 23]; // faces of a leaf; faces of a mesh, and vert
 const SLICE = 12; // milliseconds of work, after which the page may answer
 const CELLS = 1024; // along an axis
 /** The bits of a number, with room for those of two others between them. */
-const SPREAD = Float64Array.from({ length: CELLS }, (_, cell) => [...cell.toString(2)].reduce((sum, bit) => 8 * sum + Number(bit), 0));
+const SPREAD = Float64Array.from({ length: CELLS }, (_, cell) =>
+    [...cell.toString(2)].reduce((sum, bit) => 8 * sum + Number(bit), 0),
+);
 
 export interface Distances {
     /** Of each vertex in each frame; empty where there are too many, or the faces change. */
@@ -26,15 +30,21 @@ interface Body {
 
 /** A frame of a stream, without faces that damage has left corners of undecoded. */
 function bodyOf({ frames, index, parted, attributes: { position } }: BSMGeometry, frame: number): Body {
-    const { positions, shape } = frames[frame] ?? { positions: position.array, shape: { index: index!.array, vertices: parted } };
-    const isThere = (i: number): boolean => [0, 1, 2].every((c) => positions[3 * shape.index[i - (i % 3) + c]] < Infinity);
+    const { positions, shape } = frames[frame] ?? {
+        positions: position.array,
+        shape: { index: index!.array, vertices: parted },
+    };
+    const isThere = (i: number): boolean =>
+        [0, 1, 2].every((c) => positions[3 * shape.index[i - (i % 3) + c]] < Infinity);
     const whole = positions.every((value) => value < Infinity) ? shape.index : shape.index.filter((_, i) => isThere(i));
     const faces = Uint32Array.from(whole, (drawn) => shape.vertices?.[drawn] ?? drawn);
     const count = faces.reduce((most, vertex) => Math.max(most, vertex + 1), 0);
     if (count === 0) throw new Error("There are no triangles to compare.");
     if (faces.length > 3 * MOST) throw new Error(`There are more than ${MOST} triangles; use bsm compare.`);
     const [points, seen] = [new Float32Array(3 * count), new Uint8Array(count)];
-    whole.forEach((drawn, i) => (points.set(positions.subarray(3 * drawn, 3 * drawn + 3), 3 * faces[i]), (seen[faces[i]] = 1)));
+    whole.forEach(
+        (drawn, i) => (points.set(positions.subarray(3 * drawn, 3 * drawn + 3), 3 * faces[i]), (seen[faces[i]] = 1)),
+    );
     return { points, faces, used: Uint32Array.from(seen.keys()).filter((vertex) => seen[vertex]) };
 }
 
@@ -47,11 +57,20 @@ class Tree {
     private readonly triangle = new Triangle();
     private readonly place = new Vector3();
 
-    constructor(private readonly points: Float32Array, private readonly faces: Uint32Array) {
+    constructor(
+        private readonly points: Float32Array,
+        private readonly faces: Uint32Array,
+    ) {
         const [whole, count] = [new Box3().setFromArray(points), faces.length / 3];
         const size = whole.getSize(new Vector3()).clampScalar(Number.MIN_VALUE, Infinity);
         const along = Float64Array.from({ length: count }, (_, face) => {
-            const cell = this.at(face).getMidpoint(this.place).sub(whole.min).divide(size).multiplyScalar(CELLS).floor().clampScalar(0, CELLS - 1);
+            const cell = this.at(face)
+                .getMidpoint(this.place)
+                .sub(whole.min)
+                .divide(size)
+                .multiplyScalar(CELLS)
+                .floor()
+                .clampScalar(0, CELLS - 1);
             return (SPREAD[cell.x] + 2 * SPREAD[cell.y] + 4 * SPREAD[cell.z]) * MOST + face;
         });
         this.order = along.sort().map((key) => key % MOST);
@@ -79,13 +98,22 @@ class Tree {
             const [left, leaf] = [2 * node + 1, node - (boxes.length - 1) / 2];
             if (boxes[node].distanceToPoint(point) >= best) continue;
             if (leaf >= 0) order.subarray(LEAF * leaf, LEAF * (leaf + 1)).forEach(measure);
-            else nodes.push(...(boxes[left].distanceToPoint(point) < boxes[left + 1].distanceToPoint(point) ? [left + 1, left] : [left, left + 1]));
+            else
+                nodes.push(
+                    ...(boxes[left].distanceToPoint(point) < boxes[left + 1].distanceToPoint(point)
+                        ? [left + 1, left]
+                        : [left, left + 1]),
+                );
         }
         return best;
     }
 
     private at(face: number): Triangle {
-        const { triangle: { a, b, c }, points, faces } = this;
+        const {
+            triangle: { a, b, c },
+            points,
+            faces,
+        } = this;
         [a, b, c].forEach((corner, i) => corner.fromArray(points, 3 * faces[3 * face + i]));
         return this.triangle;
     }
@@ -102,7 +130,10 @@ function* matched(now: Body, then: Body): Generator<void, ArrayLike<number> | un
     if (now.faces.length !== then.faces.length || now.used.length !== then.used.length) return undefined;
     const [point, same] = [new Vector3(), Uint32Array.from({ length: now.points.length / 3 }, (_, vertex) => vertex)];
     if (now.faces.every((vertex, i) => vertex === then.faces[i])) return same;
-    const tree = new Tree(then.points, Uint32Array.from({ length: 3 * then.used.length }, (_, i) => then.used[Math.floor(i / 3)])); // of points
+    const tree = new Tree(
+        then.points,
+        Uint32Array.from({ length: 3 * then.used.length }, (_, i) => then.used[Math.floor(i / 3)]),
+    ); // of points
     for (const vertex of now.used) {
         tree.distance(point.fromArray(now.points, 3 * vertex));
         same[vertex] = then.used[tree.face];
@@ -110,12 +141,19 @@ function* matched(now: Body, then: Body): Generator<void, ArrayLike<number> | un
     }
     const known = new Set(written(then.faces));
     const isOnto = new Set(now.used.map((vertex) => same[vertex])).size === now.used.length;
-    return isOnto && written(now.faces.map((vertex) => same[vertex])).every((face) => known.has(face)) ? same : undefined;
+    return isOnto && written(now.faces.map((vertex) => same[vertex])).every((face) => known.has(face))
+        ? same
+        : undefined;
 }
 
 function* measured(stream: BSMGeometry, original: BSMGeometry): Generator<void, Distances> {
     const [{ length: count }, { length: before }, vertices] = [stream.frames, original.frames, stream.header!.vertices];
-    if (count !== before) throw new Error(count * before > 0 ? `It has ${count} frames, and its original has ${before}.` : "One is a sequence, the other one is not.");
+    if (count !== before)
+        throw new Error(
+            count * before > 0
+                ? `It has ${count} frames, and its original has ${before}.`
+                : "One is a sequence, the other one is not.",
+        );
     const isOne = vertices * count <= MOST && stream.frames.every(({ shape }) => shape === stream.frames[0].shape);
     const off = new Float32Array(isOne ? vertices * Math.max(count, 1) : 0).fill(NaN);
     const [errors, point, other] = [[] as number[], new Vector3(), new Vector3()];
@@ -124,7 +162,13 @@ function* measured(stream: BSMGeometry, original: BSMGeometry): Generator<void, 
     for (let frame = 0; frame < Math.max(count, 1); frame++) {
         const last = [now?.faces, then?.faces];
         [now, then] = [bodyOf(stream, frame), bodyOf(original, frame)];
-        if (![now, then].every(({ faces }, i) => last[i]?.length === faces.length && faces.every((vertex, k) => vertex === last[i]![k]))) same = yield* matched(now, then);
+        if (
+            ![now, then].every(
+                ({ faces }, i) =>
+                    last[i]?.length === faces.length && faces.every((vertex, k) => vertex === last[i]![k]),
+            )
+        )
+            same = yield* matched(now, then);
         const [tree, back] = same ? [] : [new Tree(then.points, then.faces), new Tree(now.points, now.faces)];
         let most = 0;
         for (const vertex of now.used) {
@@ -145,9 +189,13 @@ function* measured(stream: BSMGeometry, original: BSMGeometry): Generator<void, 
 }
 
 /** Measure as long as `mine` holds, with pauses for the page. */
-export async function distancesOf(stream: BSMGeometry, original: BSMGeometry, mine: () => boolean): Promise<Distances | undefined> {
+export async function distancesOf(
+    stream: BSMGeometry,
+    original: BSMGeometry,
+    mine: () => boolean,
+): Promise<Distances | undefined> {
     const work = measured(stream, original);
-    for (let begin = performance.now(); ; ) {
+    for (let begin = performance.now(); ;) {
         const step = work.next();
         if (step.done) return step.value;
         if (performance.now() - begin < SLICE) continue;

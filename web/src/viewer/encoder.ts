@@ -19,7 +19,8 @@ export type Status = { stage: string; share: number } | { error: string } | { co
 function firstsOf(positions: Reading["mesh"]["positions"], size: number): Int32Array {
     const found = new Map<string, number[]>();
     const isSame = (a: number, b: number): boolean => {
-        for (let i = 0; i < positions.length; i += size) for (let d = 0; d < 3; d++) if (positions[i + a + d] !== positions[i + b + d]) return false;
+        for (let i = 0; i < positions.length; i += size)
+            for (let d = 0; d < 3; d++) if (positions[i + a + d] !== positions[i + b + d]) return false;
         return true;
     };
     return Int32Array.from({ length: size / 3 }, (_, vertex) => {
@@ -32,61 +33,130 @@ function firstsOf(positions: Reading["mesh"]["positions"], size: number): Int32A
 }
 
 /** A mesh or sequence as it is drawn, and what of it can change hands. */
-function drawn({ positions, faces, frames = 0, attributes = [], metadata = {} }: Reading["mesh"]): { pictures: Picture[]; moved: Transferable[] } {
+function drawn({ positions, faces, frames = 0, attributes = [], metadata = {} }: Reading["mesh"]): {
+    pictures: Picture[];
+    moved: Transferable[];
+} {
     const [pictures, moved]: [Picture[], Transferable[]] = [[], []];
     const drawing = new Drawing(false, {}, (picture, buffers = []) => (pictures.push(picture), moved.push(...buffers)));
     const size = positions.length / Math.max(frames, 1);
     const [firsts, none] = [firstsOf(positions, size), new Int32Array(0)];
     drawing.accept({ type: "header", header: { vertices: new Set(firsts).size, faces: faces.length / 3 } as Header });
     drawing.accept({ type: "metadata", entries: new Map(Object.entries(metadata)) });
-    drawing.accept({ type: "connectivity", faces: Int32Array.from(faces, (vertex) => firsts[vertex]), vertices: size / 3, loose: { vertices: none, positions: new Float64Array(0) } });
+    drawing.accept({
+        type: "connectivity",
+        faces: Int32Array.from(faces, (vertex) => firsts[vertex]),
+        vertices: size / 3,
+        loose: { vertices: none, positions: new Float64Array(0) },
+    });
     for (const { name, values, components, domain = "vertex", semantic = "generic" } of attributes) {
         const [ofVertex, kind] = [domain === "vertex", kindOf(values) ?? "float32"];
-        drawing.accept({ type: "attribute", name, semantic, components, kind, domain: ofVertex ? "corner" : domain, values: Float64Array.from(values), indices: ofVertex ? Int32Array.from(faces) : undefined });
+        drawing.accept({
+            type: "attribute",
+            name,
+            semantic,
+            components,
+            kind,
+            domain: ofVertex ? "corner" : domain,
+            values: Float64Array.from(values),
+            indices: ofVertex ? Int32Array.from(faces) : undefined,
+        });
     }
-    for (let index = 0; index < frames; index++) drawing.accept({ type: "frame", index, positions: Float64Array.from(positions.subarray(index * size, (index + 1) * size)), attributes: [] });
-    drawing.accept({ type: "end", missing: none, degraded: none, positions: frames > 0 ? undefined : Float64Array.from(positions) });
+    for (let index = 0; index < frames; index++)
+        drawing.accept({
+            type: "frame",
+            index,
+            positions: Float64Array.from(positions.subarray(index * size, (index + 1) * size)),
+            attributes: [],
+        });
+    drawing.accept({
+        type: "end",
+        missing: none,
+        degraded: none,
+        positions: frames > 0 ? undefined : Float64Array.from(positions),
+    });
     return { pictures, moved };
 }
 
 /** Encode to the bit or, where single precision is coarser and of sequences that are compared, on the finest grid. */
-async function exact({ frames }: Reading["mesh"], encode: (options: EncodeOptions) => Promise<Uint8Array>, compares: boolean): Promise<Uint8Array> {
+async function exact(
+    { frames }: Reading["mesh"],
+    encode: (options: EncodeOptions) => Promise<Uint8Array>,
+    compares: boolean,
+): Promise<Uint8Array> {
     if (frames && compares) return encode({ bits: FINEST.moving });
-    return encode({ lossless: true }).catch((error) => (error instanceof EncodeError && error.status === 10 ? encode({ bits: FINEST.still }) : Promise.reject(error)));
+    return encode({ lossless: true }).catch((error) =>
+        error instanceof EncodeError && error.status === 10 ? encode({ bits: FINEST.still }) : Promise.reject(error),
+    );
 }
 
 async function work({ files, preset }: Job, report: (report: Status, moved?: Transferable[]) => void): Promise<void> {
     const [begin, all] = [performance.now(), shownAmong(files) as File[]];
-    if (all.length === 0) throw new Error("There is no PLY, OBJ, STL, GLB or glTF file, and no PC2 or MDD file with its mesh.");
+    if (all.length === 0)
+        throw new Error("There is no PLY, OBJ, STL, GLB or glTF file, and no PC2 or MDD file with its mesh.");
     const [isPair, transfer, notes, used] = [all.length === 2, [] as Transferable[], [] as string[], new Set<string>()];
     const layerOf = async (file: File): Promise<{ name: string; layers: Layer[]; less: boolean }> => {
         const own = file.name.replace(/^.*\//, "");
         const name = all.length > 2 ? own.replace(/[\W_]*\d*\.\w+$/, "") || "sequence" : own;
         const kind = { title: suffixOf(file).toUpperCase(), detail: isPair ? name : preset };
         used.add(file.name);
-        if (kind.title === "BSM") return { name, less: false, layers: [{ ...kind, size: file.size, bytes: new Uint8Array(await file.arrayBuffer()) }] };
+        if (kind.title === "BSM")
+            return {
+                name,
+                less: false,
+                layers: [{ ...kind, size: file.size, bytes: new Uint8Array(await file.arrayBuffer()) }],
+            };
         report({ stage: "reading", share: 0 });
-        const { mesh, ...rest } = await (all.length > 2 ? readFrames(all, undefined, (share) => report({ stage: "reading", share })) : readOne(file, files));
-        const encode = (options: EncodeOptions): Promise<Uint8Array> => encodeHere(mesh, { ...options, onProgress: (share) => report({ stage: "encoding", share }) });
-        const bytes = isPair && file === all[0] ? undefined : await (isPair || preset === "lossless" ? exact(mesh, encode, isPair) : encode({ bits: parseInt(preset) }));
+        const { mesh, ...rest } = await (all.length > 2
+            ? readFrames(all, undefined, (share) => report({ stage: "reading", share }))
+            : readOne(file, files));
+        const encode = (options: EncodeOptions): Promise<Uint8Array> =>
+            encodeHere(mesh, { ...options, onProgress: (share) => report({ stage: "encoding", share }) });
+        const bytes =
+            isPair && file === all[0]
+                ? undefined
+                : await (isPair || preset === "lossless"
+                      ? exact(mesh, encode, isPair)
+                      : encode({ bits: parseInt(preset) }));
         const { pictures, moved } = drawn(mesh);
         transfer.push(...moved);
         rest.used.forEach((each) => used.add(each));
         notes.push(...rest.notes.map((note) => (isPair ? `${name}: ${note}` : note)));
         const size = files.reduce((sum, each) => sum + (rest.used.includes(each.name) ? each.size : 0), 0);
         const original = { title: "Original", detail: "", size, pictures };
-        return { name, less: rest.less, layers: isPair ? [{ ...kind, size, bytes, pictures }] : [original, { title: "BSM", detail: preset, size: bytes!.length, bytes }] };
+        return {
+            name,
+            less: rest.less,
+            layers: isPair
+                ? [{ ...kind, size, bytes, pictures }]
+                : [original, { title: "BSM", detail: preset, size: bytes!.length, bytes }],
+        };
     };
     const shown = [];
     for (const file of all.slice(0, isPair ? 2 : 1)) shown.push(await layerOf(file));
     const layers = shown.flatMap((each) => each.layers);
     if (isPair) layers[0].title = "Original";
     const seconds = isPair ? undefined : (performance.now() - begin) / 1000;
-    const [less, unused] = [shown.some((each) => each.less), files.filter(({ name }) => !used.has(name)).map(({ name }) => name)];
-    report({ content: { name: shown.at(-1)!.name, main: layers.length - 1, layers, facts: { notes, less, seconds, used: [...used], unused } } }, transfer);
+    const [less, unused] = [
+        shown.some((each) => each.less),
+        files.filter(({ name }) => !used.has(name)).map(({ name }) => name),
+    ];
+    report(
+        {
+            content: {
+                name: shown.at(-1)!.name,
+                main: layers.length - 1,
+                layers,
+                facts: { notes, less, seconds, used: [...used], unused },
+            },
+        },
+        transfer,
+    );
 }
 
 self.onmessage = ({ data }: MessageEvent<Job>): void => {
     const report = (report: Status, moved: Transferable[] = []): void => self.postMessage(report, { transfer: moved });
-    work(data, report).catch((error: unknown) => report({ error: error instanceof Error ? error.message : String(error) }));
+    work(data, report).catch((error: unknown) =>
+        report({ error: error instanceof Error ? error.message : String(error) }),
+    );
 };

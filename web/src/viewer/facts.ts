@@ -29,7 +29,10 @@ export interface Content {
         /** Frames of a sequence whose looks were measured; `look` is the worst one. */
         drawn?: number;
         farthest?: number;
-        /** Of two surfaces with other faces: their mean distance; `farthest` is the largest one then, not that of vertices. */
+        /**
+         * Of two surfaces with other faces: their mean distance; `farthest` is the largest one then, not that of
+         * vertices.
+         */
         apart?: number;
         /** Vertices and faces of the original. */
         before?: [number, number];
@@ -37,7 +40,12 @@ export interface Content {
         errors?: number[];
         angle?: number;
         /** Errors of attributes by name; null: one is missing. */
-        attributes?: Record<string, Partial<Record<"max_error" | "mean_error" | "range" | "max_angle_deg" | "mean_angle_deg", number | null>> | null>;
+        attributes?: Record<
+            string,
+            Partial<
+                Record<"max_error" | "mean_error" | "range" | "max_angle_deg" | "mean_angle_deg", number | null>
+            > | null
+        >;
         seconds?: number;
         diagonal?: number;
         draco?: { bytes: number; bits: number } | null;
@@ -98,40 +106,83 @@ export type Tone = "good" | "fair" | "poor" | "";
 
 /** What was measured, in words, of looks only where they were; figures are in the rows below. */
 function verdictOf({ look, farthest, diagonal = 1 }: Content["facts"], unit: unknown): [words: string, tone: Tone] {
-    if (look !== undefined) return look <= 1 ? ["Looks the same", "good"] : look <= CLOSE ? ["Close: differences show side by side", "fair"] : ["A preview: differences show at a glance", "poor"];
+    if (look !== undefined)
+        return look <= 1
+            ? ["Looks the same", "good"]
+            : look <= CLOSE
+              ? ["Close: differences show side by side", "fair"]
+              : ["A preview: differences show at a glance", "poor"];
     if (!farthest) return farthest === 0 ? ["No difference was measured", "good"] : ["", ""];
-    const far = typeof unit === "string" ? `${Number((farthest * diagonal).toPrecision(2))}\u00a0${unit}` : `${percent(farthest)} of the diagonal`;
+    const far =
+        typeof unit === "string"
+            ? `${Number((farthest * diagonal).toPrecision(2))}\u00a0${unit}`
+            : `${percent(farthest)} of the diagonal`;
     return farthest <= PIXEL ? [`Close: differences up to ${far}`, "good"] : [`Differences up to ${far}`, "poor"];
 }
 
-/** Sizes of the given file and the stream, what is claimed of them, and the rows below; sizes are compared only if all of the file is in the stream. */
-export function factsOf({ layers, main, facts }: Content, length: number, { carried, frames: { length: frames }, header, metadata }: BSMGeometry, took?: number): { plain?: number; size: number; claim: string; tone: Tone; rows: Row[] } {
+/**
+ * Sizes of the given file and the stream, what is claimed of them, and the rows below; sizes are compared only if all
+ * of the file is in the stream.
+ */
+export function factsOf(
+    { layers, main, facts }: Content,
+    length: number,
+    { carried, frames: { length: frames }, header, metadata }: BSMGeometry,
+    took?: number,
+): { plain?: number; size: number; claim: string; tone: Tone; rows: Row[] } {
     const size = layers[main].size || length;
     const [vertices, faces] = [header?.vertices ?? 0, header?.faces ?? 0];
     const plain = main > 0 && !facts.less ? layers[0].size : undefined;
     const ratio = (plain ?? 0) / Math.max(size, 1);
     const { look, drawn, farthest, apart, before, angle, seconds, promised = {}, draco, notes = [] } = facts;
     const { used = [], missing, unused } = facts;
-    const rows: Row[] = [...(used.length > 1 || unused?.length ? filesOf("Files used", used) : []), ...filesOf("Files missing", missing), ...filesOf("Files not used", unused), ...notes.map((note): Row => ["Note", note])];
-    if (look !== undefined) rows.push(["Look distance", look.toFixed(2), `${promised.look ? `promised ${promised.look}; ` : ""}${drawn ? `worst of ${drawn} frames drawn; ` : ""}at 1, both look the same`]);
-    if (farthest !== undefined) rows.push([apart === undefined ? "Largest vertex error" : "Largest surface distance", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
+    const rows: Row[] = [
+        ...(used.length > 1 || unused?.length ? filesOf("Files used", used) : []),
+        ...filesOf("Files missing", missing),
+        ...filesOf("Files not used", unused),
+        ...notes.map((note): Row => ["Note", note]),
+    ];
+    if (look !== undefined)
+        rows.push([
+            "Look distance",
+            look.toFixed(2),
+            (promised.look ? `promised ${promised.look}; ` : "") +
+                (drawn ? `worst of ${drawn} frames drawn; ` : "") +
+                "at 1, both look the same",
+        ]);
+    if (farthest !== undefined)
+        rows.push([
+            apart === undefined ? "Largest vertex error" : "Largest surface distance",
+            percent(farthest),
+            `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`,
+        ]);
     if (apart !== undefined) rows.push(["Mean surface distance", percent(apart), "the faces differ"]);
     if (angle !== undefined) rows.push(["Mean normal error", `${angle.toFixed(2)}°`]);
-    if (draco) rows.push(["Draco at the same look", sized(draco.bytes), `${draco.bits} bits, ${times(draco.bytes / size)} times as much`]);
+    if (draco)
+        rows.push([
+            "Draco at the same look",
+            sized(draco.bytes),
+            `${draco.bits} bits, ${times(draco.bytes / size)} times as much`,
+        ]);
     if (seconds !== undefined) rows.push(["Encoded in", spent(SECOND * seconds)]);
     if (took !== undefined) rows.push(["Decoded and drawn in", spent(took)]);
     if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
-    if (before && before[1] !== faces) rows.push(["Original", `${counted(before[0])} vertices`, `${counted(before[1])} triangles`]);
+    if (before && before[1] !== faces)
+        rows.push(["Original", `${counted(before[0])} vertices`, `${counted(before[1])} triangles`]);
     for (const [name, errors] of Object.entries(facts.attributes ?? {})) {
         const { max_angle_deg: turned, mean_angle_deg: mean = 0, max_error: most = 0, range = 0 } = errors ?? {};
-        const far: [string, string] = turned != null ? [`up to ${short(turned)}°`, `${short(mean!)}° on average`] : [`up to ${short(most!)}`, `of ${short(range!)}`];
+        const far: [string, string] =
+            turned != null
+                ? [`up to ${short(turned)}°`, `${short(mean!)}° on average`]
+                : [`up to ${short(most!)}`, `of ${short(range!)}`];
         rows.push(errors ? [`Error of ${name}`, ...far] : [`Error of ${name}`, "missing"]);
     }
     const others = carried.filter(({ name }) => !facts.attributes?.[name]);
     if (others.length > 0) rows.push(["Attributes", others.map(({ name }) => name).join(", ")]);
     if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);
     const [words, tone] = verdictOf(facts, metadata.get("unit"));
-    const left = facts.less ? `${(notes.find((note) => /left out/i.test(note)) ?? "Left out: parts of the file").split(/\.( |$)/)[0].replace(/^.*?left out/i, "Left out")}. ` : "";
+    const note = notes.find((each) => /left out/i.test(each)) ?? "Left out: parts of the file";
+    const left = facts.less ? `${note.split(/\.( |$)/)[0].replace(/^.*?left out/i, "Left out")}. ` : "";
     const smaller = size > 0 && ratio > 1 && /good|fair/.test(tone) ? `, ${times(ratio)} times smaller` : "";
     return { plain, size, claim: `${left}${words}${smaller}`, tone: left && tone === "good" ? "fair" : tone, rows };
 }

@@ -11,7 +11,8 @@ export class Form {
     }
 
     on(name: string, type: string, act: (control: HTMLInputElement) => void): void {
-        for (const control of this.root.querySelectorAll<HTMLInputElement>(`[name=${name}]`)) control.addEventListener(type, () => act(control));
+        for (const control of this.root.querySelectorAll<HTMLInputElement>(`[name=${name}]`))
+            control.addEventListener(type, () => act(control));
     }
 
     say(part: string, text: string): void {

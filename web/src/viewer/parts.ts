@@ -6,7 +6,11 @@ import { counted, element } from "./facts";
 import type { Form } from "./form";
 
 /** List the parts of a mesh; `hide` gets which pieces are not drawn, whenever others are. */
-export function listParts(form: Form, { metadata, pieces }: BSMGeometry, hide: (hidden: (piece: Piece) => boolean) => void): void {
+export function listParts(
+    form: Form,
+    { metadata, pieces }: BSMGeometry,
+    hide: (hidden: (piece: Piece) => boolean) => void,
+): void {
     const kind = pieces.some(({ part }) => part > 0) ? "part" : "material";
     const faces = new Map<number, number>();
     for (const piece of pieces) faces.set(piece[kind], (faces.get(piece[kind]) ?? 0) + piece.count / 3);
@@ -19,7 +23,13 @@ export function listParts(form: Form, { metadata, pieces }: BSMGeometry, hide: (
             for (const row of rows) row.box.checked = isAlone || row.box === box;
             show();
         };
-        const label = element("label", "", box, new Text(nameOf(metadata, kind, number)), element("small", `${counted(count)} triangles`));
+        const label = element(
+            "label",
+            "",
+            box,
+            new Text(nameOf(metadata, kind, number)),
+            element("small", `${counted(count)} triangles`),
+        );
         return { number, box, line: element("li", "", label, only) };
     });
     const show = (): void => {
@@ -27,5 +37,7 @@ export function listParts(form: Form, { metadata, pieces }: BSMGeometry, hide: (
         hide((piece) => hidden.has(piece[kind]));
     };
     form.part("parts").hidden = rows.length < 2;
-    form.part("parts").querySelector("ul")!.replaceChildren(...rows.map(({ line }) => line));
+    form.part("parts")
+        .querySelector("ul")!
+        .replaceChildren(...rows.map(({ line }) => line));
 }

@@ -1,7 +1,22 @@
 /** Light and meshes on a canvas: one alone, two behind a wipe, or two side by side. */
 import {
-    type BufferAttribute, type BufferGeometry, type DataTexture, DirectionalLight, DoubleSide, Group, type Material, MathUtils, Mesh, MeshBasicMaterial,
-    MeshStandardMaterial, NeutralToneMapping, PlaneGeometry, PMREMGenerator, Scene, Vector3, WebGLRenderer,
+    type BufferAttribute,
+    type BufferGeometry,
+    type DataTexture,
+    DirectionalLight,
+    DoubleSide,
+    Group,
+    type Material,
+    MathUtils,
+    Mesh,
+    MeshBasicMaterial,
+    MeshStandardMaterial,
+    NeutralToneMapping,
+    PlaneGeometry,
+    PMREMGenerator,
+    Scene,
+    Vector3,
+    WebGLRenderer,
 } from "three";
 import { Camera, frontOf } from "./camera";
 import { GROUND, shadowOf, studio } from "./light";
@@ -69,8 +84,16 @@ export class Stage {
     private readonly scene = new Scene();
     private readonly fast = isFast();
     private readonly key = new DirectionalLight(WHITE, 1.5);
-    private readonly ground = new Mesh(new PlaneGeometry(GROUND, GROUND), new MeshBasicMaterial({ color: 0, transparent: true, depthWrite: false, toneMapped: false }));
-    private readonly wires = new MeshBasicMaterial({ wireframe: true, color: 0x101418, transparent: true, opacity: 0.35 });
+    private readonly ground = new Mesh(
+        new PlaneGeometry(GROUND, GROUND),
+        new MeshBasicMaterial({ color: 0, transparent: true, depthWrite: false, toneMapped: false }),
+    );
+    private readonly wires = new MeshBasicMaterial({
+        wireframe: true,
+        color: 0x101418,
+        transparent: true,
+        opacity: 0.35,
+    });
     /** What turns the axis that a mesh calls up to the top. */
     private readonly turned = new Group();
     private readonly drawn = [new Figure(), new Figure(), new Figure()];
@@ -90,7 +113,8 @@ export class Stage {
         this.camera = new Camera(canvas, () => this.redraw());
         const { texture, probe } = studio();
         // A program that draws would need seconds for reflections. What was drawn for them is lost with the context.
-        const reflect = (): void => void (this.scene.environment = new PMREMGenerator(this.renderer).fromEquirectangular(texture).texture);
+        const reflect = (): void =>
+            void (this.scene.environment = new PMREMGenerator(this.renderer).fromEquirectangular(texture).texture);
         if (this.fast) reflect();
         else this.scene.add(probe);
         canvas.addEventListener("webglcontextrestored", () => {
@@ -108,7 +132,10 @@ export class Stage {
     show(index: number, ...geometries: BufferGeometry[]): void {
         const shown = this.drawn[index];
         shown.put(geometries);
-        this.whiten(shown.clay, geometries.some((geometry) => geometry.hasAttribute("color")));
+        this.whiten(
+            shown.clay,
+            geometries.some((geometry) => geometry.hasAttribute("color")),
+        );
         this.shade(this.shading);
     }
 
@@ -130,16 +157,24 @@ export class Stage {
         const total = samples.reduce((sum, { length }) => sum + length / 3, 0);
         const over = (act: (point: Vector3) => void, most: number): void => {
             const step = 3 * Math.ceil(total / most);
-            for (const array of samples) for (let i = 0; i < array.length; i += step) if (array[i] === array[i]) act(point.fromArray(array, i));
+            for (const array of samples)
+                for (let i = 0; i < array.length; i += step) if (array[i] === array[i]) act(point.fromArray(array, i));
         };
         over(() => (low.min(point), high.max(point)), BOUNDED);
         if (!(low.x <= high.x)) return;
-        if (!camera.touched) this.place(low.clone().add(high).divideScalar(2).toArray(), low.distanceTo(high) || 1, turn);
+        if (!camera.touched)
+            this.place(low.clone().add(high).divideScalar(2).toArray(), low.distanceTo(high) || 1, turn);
         let depth = Infinity;
         over(() => (depth = Math.min(depth, point.applyMatrix4(turned.matrixWorld).y)), BOUNDED);
         [this.depth, this.ground.position.y] = [depth, depth];
         const [matrix, front] = [turned.matrixWorld.clone(), frontOf(normals).applyEuler(turned.rotation)];
-        this.aim = () => camera.aim((act) => over(act, AIMED), matrix, front, freeAreas(this.canvas.closest<HTMLElement>(".bsm")!, this.mode === "split" ? 2 : 1));
+        this.aim = () =>
+            camera.aim(
+                (act) => over(act, AIMED),
+                matrix,
+                front,
+                freeAreas(this.canvas.closest<HTMLElement>(".bsm")!, this.mode === "split" ? 2 : 1),
+            );
         if (!camera.touched) this.aim();
     }
 
@@ -152,7 +187,12 @@ export class Stage {
     shadow(...geometries: BufferGeometry[]): void {
         const { ground, turned } = this;
         if (this.depth === Infinity) return;
-        ground.material.alphaMap = shadowOf(geometries, turned.matrixWorld, ground.position.y, (ground.material.alphaMap as DataTexture | null) ?? undefined);
+        ground.material.alphaMap = shadowOf(
+            geometries,
+            turned.matrixWorld,
+            ground.position.y,
+            (ground.material.alphaMap as DataTexture | null) ?? undefined,
+        );
         ground.material.needsUpdate ||= !ground.visible;
         ground.visible = true;
         this.redraw();
@@ -202,7 +242,8 @@ export class Stage {
     color(index: number, colors?: BufferAttribute, withOwn = false): void {
         const { meshes, clay, own } = this.drawn[index];
         for (const mesh of meshes) {
-            mesh.material = mesh.geometry.userData.material ?? (withOwn && own.length > 0 ? (own.length > 1 ? own : own[0]) : clay);
+            mesh.material =
+                mesh.geometry.userData.material ?? (withOwn && own.length > 0 ? (own.length > 1 ? own : own[0]) : clay);
             if (colors) mesh.geometry.setAttribute("color", colors);
         }
         this.whiten(clay, colors !== undefined);
@@ -234,7 +275,8 @@ export class Stage {
         this.camera.controls.update();
         const now = performance.now();
         if (this.stale) this.renew(1, now);
-        else if (!this.fast && now - this.moved > QUIET && this.renderer.getPixelRatio() === devicePixelRatio) this.renew(SMOOTH, this.moved);
+        else if (!this.fast && now - this.moved > QUIET && this.renderer.getPixelRatio() === devicePixelRatio)
+            this.renew(SMOOTH, this.moved);
     }
 
     dispose(): void {
@@ -261,7 +303,10 @@ export class Stage {
         if (this.mode === "one") return this.render(sides[1]);
         const { seam } = this;
         renderer.setScissorTest(true);
-        for (const [side, from, to] of [[0, 0, seam], [1, seam, width]]) {
+        for (const [side, from, to] of [
+            [0, 0, seam],
+            [1, seam, width],
+        ]) {
             renderer.setScissor(from, 0, to - from, height);
             if (this.mode === "split") renderer.setViewport(from, 0, to - from, height);
             this.render(sides[side]);
@@ -291,7 +336,8 @@ export class Stage {
     fit(): void {
         const { clientWidth, clientHeight } = this.canvas.parentElement!;
         const { camera, renderer } = this;
-        if (clientWidth !== camera.size[0] || clientHeight !== camera.size[1]) renderer.setSize(clientWidth, clientHeight, false);
+        if (clientWidth !== camera.size[0] || clientHeight !== camera.size[1])
+            renderer.setSize(clientWidth, clientHeight, false);
         camera.fit(clientWidth, clientHeight, this.mode === "split" ? 2 : 1);
         if (!camera.touched) this.aim();
         this.draw();

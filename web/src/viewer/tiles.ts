@@ -1,4 +1,7 @@
-/** Tiles of a mesh of any size: coarse ones first, then those that are worth most where one looks, by ranges; memory has a bound. */
+/**
+ * Tiles of a mesh of any size: coarse ones first, then those that are worth most where one looks, by ranges; memory has
+ * a bound.
+ */
 import { Vector3 } from "three";
 import { BSMGeometry } from "../geometry";
 import { materialsOf } from "../materials";
@@ -38,21 +41,30 @@ class Tile {
     asked = false;
     tried = false;
 
-    constructor(readonly entry: TileEntry, readonly url: string, { cell, origin }: Manifest) {
-        const [low, high] = [entry.low, entry.high].map((place) => new Vector3(...place.map((at, d) => at * cell + origin[d])));
+    constructor(
+        readonly entry: TileEntry,
+        readonly url: string,
+        { cell, origin }: Manifest,
+    ) {
+        const [low, high] = [entry.low, entry.high].map(
+            (place) => new Vector3(...place.map((at, d) => at * cell + origin[d])),
+        );
         this.center = low.clone().add(high).divideScalar(2);
         this.radius = low.distanceTo(high) / 2;
     }
 
     /** Drop the geometry of this one and of those below, but of some. */
     keep(some: Set<Tile>): void {
-        if (!some.has(this) && this.geometry) [this.geometry, this.asked] = [this.geometry.dispose() as undefined, false];
+        if (!some.has(this) && this.geometry)
+            [this.geometry, this.asked] = [this.geometry.dispose() as undefined, false];
         this.below.forEach((tile) => tile.keep(some));
     }
 
     /** The error in pixels, seen from a place, if a unit at distance 1 has `pixels` pixels. */
     off(eye: Vector3, pixels: number): number {
-        return this.below.length === 0 ? 0 : (pixels * this.entry.error) / Math.max(eye.distanceTo(this.center) - this.radius, 1e-3 * this.radius);
+        return this.below.length === 0
+            ? 0
+            : (pixels * this.entry.error) / Math.max(eye.distanceTo(this.center) - this.radius, 1e-3 * this.radius);
     }
 }
 
@@ -61,7 +73,9 @@ async function ranged(url: string, offset: number, size: number, sum: string): P
     const response = await fetch(url, { headers: { Range: `bytes=${offset}-${offset + size - 1}` } });
     if (response.status !== 206) throw new Error(`${url}: ${response.status} ${response.statusText}`);
     const bytes = new Uint8Array(await response.arrayBuffer());
-    const found = Array.from(new Uint8Array(await crypto.subtle.digest("SHA-256", bytes)), (byte) => byte.toString(16).padStart(2, "0"));
+    const found = Array.from(new Uint8Array(await crypto.subtle.digest("SHA-256", bytes)), (byte) =>
+        byte.toString(16).padStart(2, "0"),
+    );
     if (found.join("") !== sum) throw new Error(`${url}: bytes from ${offset} on are not what was written`);
     return bytes;
 }
@@ -69,7 +83,10 @@ async function ranged(url: string, offset: number, size: number, sum: string): P
 export function wholeOf(pool: Pool, bytes: Uint8Array): Promise<BSMGeometry> {
     return new Promise((resolve, fail) => {
         const geometry = new BSMGeometry();
-        const stream = pool.open({ onPicture: (picture) => geometry.accept(picture), onEnd: () => resolve(geometry), onError: fail }, { drawing: "whole" });
+        const stream = pool.open(
+            { onPicture: (picture) => geometry.accept(picture), onEnd: () => resolve(geometry), onError: fail },
+            { drawing: "whole" },
+        );
         stream.receiveData(bytes);
         stream.receiveEof();
     });
@@ -104,12 +121,22 @@ export class TileSet {
             for (const entry of JSON.parse(text) as TileEntry[]) nodes.set(entry.name, new Tile(entry, at, manifest));
         }
         for (const [name, tile] of nodes) nodes.get(name.slice(0, -1))?.below.push(tile);
-        return new TileSet(manifest, [...nodes].flatMap(([name, tile]) => (nodes.has(name.slice(0, -1)) ? [] : [tile])), pool, changed);
+        return new TileSet(
+            manifest,
+            [...nodes].flatMap(([name, tile]) => (nodes.has(name.slice(0, -1)) ? [] : [tile])),
+            pool,
+            changed,
+        );
     }
 
     get extent(): { center: number[]; diagonal: number } {
-        const center = this.tops.reduce((sum, { center }) => sum.add(center), new Vector3()).divideScalar(this.tops.length);
-        return { center: center.toArray(), diagonal: 2 * Math.max(...this.tops.map((top) => top.center.distanceTo(center) + top.radius)) };
+        const center = this.tops
+            .reduce((sum, { center }) => sum.add(center), new Vector3())
+            .divideScalar(this.tops.length);
+        return {
+            center: center.toArray(),
+            diagonal: 2 * Math.max(...this.tops.map((top) => top.center.distanceTo(center) + top.radius)),
+        };
     }
 
     /** Choose what is to be seen from a place: what is most pixels off gives way to what it is made of. */
@@ -118,7 +145,10 @@ export class TileSet {
         let faces = this.tops.reduce((sum, { entry }) => sum + entry.faces, 0);
         const order: Tile[] = [...this.tops];
         for (;;) {
-            const worst = [...chosen].reduce<[number, Tile?]>((most, tile) => (tile.off(eye, pixels) > most[0] ? [tile.off(eye, pixels), tile] : most), [FINE, undefined])[1];
+            const worst = [...chosen].reduce<[number, Tile?]>(
+                (most, tile) => (tile.off(eye, pixels) > most[0] ? [tile.off(eye, pixels), tile] : most),
+                [FINE, undefined],
+            )[1];
             if (!worst) break;
             const more = worst.below.reduce((sum, { entry }) => sum + entry.faces, -worst.entry.faces);
             if (faces + more > BUDGET) break;
@@ -157,7 +187,8 @@ export class TileSet {
     private load(): void {
         for (const tile of this.wanted) {
             // The first picture has the link for itself.
-            if (this.closed || this.loading >= (this.tops.every(({ tried }) => tried) ? AT_ONCE : this.tops.length)) return;
+            if (this.closed || this.loading >= (this.tops.every(({ tried }) => tried) ? AT_ONCE : this.tops.length))
+                return;
             if (tile.asked) continue;
             tile.asked = true;
             this.loading++;

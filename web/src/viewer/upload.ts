@@ -4,7 +4,12 @@ import type { Form } from "./form";
 import { bytesOf } from "./inlined";
 
 /** Encode a file, or compare two; `report` is called with each stage and the share done. */
-export type Encode = (files: File[], preset: string, report: (stage: string, share: number) => void, signal: AbortSignal) => Promise<Content>;
+export type Encode = (
+    files: File[],
+    preset: string,
+    report: (stage: string, share: number) => void,
+    signal: AbortSignal,
+) => Promise<Content>;
 
 export const isStream = ({ name }: File): boolean => /\.bsm$/i.test(name);
 export const bytesIn = async (file: File): Promise<Uint8Array> => new Uint8Array(await file.arrayBuffer());
@@ -13,13 +18,24 @@ export const bytesIn = async (file: File): Promise<Uint8Array> => new Uint8Array
 export function contentOf(files: File[], streams: Uint8Array[], facts: Content["facts"]): Content {
     const main = files.length - 1;
     const title = (name: string, i: number): string => (i < main ? "Original" : /[^.]*$/.exec(name)![0].toUpperCase());
-    return { name: files[main].name, main, facts, layers: files.map(({ name, size }, i) => ({ title: title(name, i), detail: main > 0 ? name : "", size, bytes: streams[i] })) };
+    return {
+        name: files[main].name,
+        main,
+        facts,
+        layers: files.map(({ name, size }, i) => ({
+            title: title(name, i),
+            detail: main > 0 ? name : "",
+            size,
+            bytes: streams[i],
+        })),
+    };
 }
 
 const paths = new WeakMap<File, string>();
 /** The place of a file in the folder that was dropped. */
 export const pathOf = (file: File): string => paths.get(file) ?? file.name;
-const namesOf = (files: File[]): string => (files.length > 3 ? `${files.length} files` : files.map(({ name }) => name).join(" and "));
+const namesOf = (files: File[]): string =>
+    files.length > 3 ? `${files.length} files` : files.map(({ name }) => name).join(" and ");
 
 /** The files of folders and of all in these. */
 async function filesIn(entries: FileSystemEntry[]): Promise<File[]> {
@@ -31,7 +47,11 @@ async function filesIn(entries: FileSystemEntry[]): Promise<File[]> {
         }
         const reader = (entry as FileSystemDirectoryEntry).createReader();
         const inside: FileSystemEntry[] = [];
-        for (let some; (some = await new Promise<FileSystemEntry[]>((keep, fail) => reader.readEntries(keep, fail))).length > 0; ) inside.push(...some);
+        for (
+            let some;
+            (some = await new Promise<FileSystemEntry[]>((keep, fail) => reader.readEntries(keep, fail))).length > 0;
+        )
+            inside.push(...some);
         return filesIn(inside);
     });
     return (await Promise.all(found)).flat();
@@ -53,13 +73,18 @@ export class Upload {
             event.preventDefault();
             drop.hidden = false;
         });
-        root.addEventListener("dragleave", (event) => (drop.hidden = !event.relatedTarget || !root.contains(event.relatedTarget as Node)));
+        root.addEventListener(
+            "dragleave",
+            (event) => (drop.hidden = !event.relatedTarget || !root.contains(event.relatedTarget as Node)),
+        );
         root.addEventListener("drop", (event) => {
             event.preventDefault();
             drop.hidden = true;
             const entries = [...(event.dataTransfer?.items ?? [])].flatMap((item) => item.webkitGetAsEntry() ?? []);
             const given = [...(event.dataTransfer?.files ?? [])];
-            void (entries.some(({ isDirectory }) => isDirectory) ? filesIn(entries) : Promise.resolve(given)).then((files) => (files.length > 0 ? this.take(files) : undefined));
+            void (entries.some(({ isDirectory }) => isDirectory) ? filesIn(entries) : Promise.resolve(given)).then(
+                (files) => (files.length > 0 ? this.take(files) : undefined),
+            );
         });
     }
 
@@ -74,14 +99,18 @@ export class Upload {
         const names = namesOf(files);
         form.say("problem", "");
         try {
-            if (files.length > 2 && (!this.encode || files.every(isStream))) throw new Error("Open one file, or two to compare them.");
+            if (files.length > 2 && (!this.encode || files.every(isStream)))
+                throw new Error("Open one file, or two to compare them.");
             if (files.length === 2 && isStream(files[0]) && !isStream(files[1])) files.reverse(); // a mesh is the original of a stream
             const isHere = files.every(isStream) && (files.length === 1 || !this.encode);
-            const content = isHere ? contentOf(files, await Promise.all(files.map(bytesIn)), {}) : await this.encoded(files, signal);
+            const content = isHere
+                ? contentOf(files, await Promise.all(files.map(bytesIn)), {})
+                : await this.encoded(files, signal);
             const bytes = await bytesOf(content.layers[content.main]);
             if (!signal.aborted) this.show(content, bytes);
         } catch (error) {
-            if (!signal.aborted) form.say("problem", `${names} cannot be shown. ${error instanceof Error ? error.message : error}`);
+            if (!signal.aborted)
+                form.say("problem", `${names} cannot be shown. ${error instanceof Error ? error.message : error}`);
         } finally {
             if (this.working.signal === signal) {
                 form.part("work").hidden = true;
@@ -92,7 +121,11 @@ export class Upload {
 
     private encoded(files: File[], signal: AbortSignal): Promise<Content> {
         const { form } = this;
-        if (!this.encode) throw new Error(`This page opens only .bsm files. To view this mesh, run: bsm view ${files[1]?.name ?? files[0].name}${files[1] ? ` --original ${files[0].name}` : ""}`);
+        if (!this.encode)
+            throw new Error(
+                `This page opens only .bsm files. To view this mesh, run: bsm view ${files[1]?.name ?? files[0].name}` +
+                    (files[1] ? ` --original ${files[0].name}` : ""),
+            );
         [form.part("invite").hidden, form.part("work").hidden] = [true, false];
         const bar = form.root.querySelector("progress")!;
         const report = (stage: string, share: number): void => {

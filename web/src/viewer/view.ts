@@ -115,7 +115,11 @@ export class View {
         streams.selectedIndex = index;
         form.part("name").hidden = index >= 0 && streams.length > 1;
         form.say("name", content.name);
-        form.say("embed", `<script type="module">import "bsm-decoder/player";</script>\n<bsm-player src="${encodeURI(content.name.replace(/\.\w+$/, ""))}.bsm" autoplay loop></bsm-player>`);
+        form.say(
+            "embed",
+            `<script type="module">import "bsm-decoder/player";</script>\n` +
+                `<bsm-player src="${encodeURI(content.name.replace(/\.\w+$/, ""))}.bsm" autoplay loop></bsm-player>`,
+        );
         form.part("invite").hidden = true;
         form.part("arrival").hidden = form.part("colors").hidden = content.tiles !== undefined;
         form.control("keep").hidden = content.facts.seconds === undefined; // there is a file of it already
@@ -166,16 +170,25 @@ export class View {
         form.on("again", "click", () => this.restart());
         form.on("embed", "click", () => void navigator.clipboard?.writeText(form.part("embed").textContent!));
         form.on("theme", "click", () => {
-            const isDark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+            const isDark = root.dataset.theme
+                ? root.dataset.theme === "dark"
+                : matchMedia("(prefers-color-scheme: dark)").matches;
             root.dataset.theme = isDark ? "light" : "dark";
         });
         for (const part of ["panel", "keys"]) form.on(part, "click", () => form.unfold(part));
-        form.on("full", "click", () => void (document.fullscreenElement ? document.exitFullscreen() : root.requestFullscreen()));
-        form.on("picture", "click", () => pictureOf(stage, meshes.captions).toBlob((blob) => blob && this.save(blob, "png")));
+        form.on(
+            "full",
+            "click",
+            () => void (document.fullscreenElement ? document.exitFullscreen() : root.requestFullscreen()),
+        );
+        form.on("picture", "click", () =>
+            pictureOf(stage, meshes.captions).toBlob((blob) => blob && this.save(blob, "png")),
+        );
         form.on("keep", "click", () => this.save(new Blob([this.arrival.bytes as BlobPart]), "bsm"));
         root.querySelector("form")!.addEventListener("submit", (event) => event.preventDefault());
         listenToKeys(form, stage, meshes);
-        if (matchMedia("(min-width: 45rem) and (min-height: 30rem)").matches) form.part("more").setAttribute("open", "");
+        if (matchMedia("(min-width: 45rem) and (min-height: 30rem)").matches)
+            form.part("more").setAttribute("open", "");
     }
 
     private save(blob: Blob, suffix: string): void {
@@ -188,7 +201,10 @@ export class View {
     /** Look for the tiles that are to be seen, when the camera has moved or some have come. */
     private walk(tiles: TileSet): void {
         const { form, root, stage } = this;
-        const { eye, camera: { pixels } } = stage;
+        const {
+            eye,
+            camera: { pixels },
+        } = stage;
         const looked = [...eye, pixels].join();
         if (looked === this.looked) return;
         const first = this.looked === undefined;
@@ -202,7 +218,10 @@ export class View {
         form.say("figures", `${sized(shards.reduce((sum, { size }) => sum + size, 0))} in ${levels.length} levels`);
         form.say("claim", `${sized(tiles.got)} fetched for this view`);
         const tilesShown = `${counted(faces)} triangles in ${shown.length} tile${shown.length === 1 ? "" : "s"}`;
-        this.listRows([["Shown", tilesShown], ["Fetched", `${counted(tiles.there)} tiles`]]);
+        this.listRows([
+            ["Shown", tilesShown],
+            ["Fetched", `${counted(tiles.there)} tiles`],
+        ]);
         form.say("problem", tiles.problem);
         root.dataset.tiles = String(shown.length);
         root.dataset.faces = String(faces);
@@ -283,10 +302,16 @@ export class View {
         this.losses.push(loss);
         const blocks = this.losses.flatMap(({ block }) => (block === undefined ? [] : [block]));
         const frames = this.losses.reduce((sum, { frames }) => sum + (frames?.count ?? 0), 0);
-        const lost = [blocks.length > 0 ? `block${blocks.length > 1 ? "s" : ""} ${blocks.join(", ")}` : "", frames > 0 ? `${frames} frames` : ""];
+        const lost = [
+            blocks.length > 0 ? `block${blocks.length > 1 ? "s" : ""} ${blocks.join(", ")}` : "",
+            frames > 0 ? `${frames} frames` : "",
+        ];
         const { name, message } = errorLike(this.losses[0].error);
         const what = lost.filter(Boolean).join(" and ") || "some bytes";
-        this.form.say("problem", `This stream is damaged: ${what} cannot be decoded, the rest is shown. First, ${name}: ${message}`);
+        this.form.say(
+            "problem",
+            `This stream is damaged: ${what} cannot be decoded, the rest is shown. First, ${name}: ${message}`,
+        );
     }
 
     private drawn(): void {
@@ -302,7 +327,11 @@ export class View {
         this.fill();
         if (geometry.getIndex()) stage.shadow(geometry);
         this.headline();
-        const complain = (error: unknown): void => this.form.say("problem", `The original cannot be compared. ${error instanceof Error ? error.message : error}`);
+        const complain = (error: unknown): void =>
+            this.form.say(
+                "problem",
+                `The original cannot be compared. ${error instanceof Error ? error.message : error}`,
+            );
         void (meshes.accompanied ? meshes.showMaterials() : this.accompany()).catch(complain);
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
     }
@@ -312,7 +341,10 @@ export class View {
         const { geometry, stage } = this;
         const { frames } = geometry;
         this.fitted = Math.max(frames.length, 1);
-        const samples = frames.length > 0 ? frames.map(({ positions }) => positions) : [geometry.getAttribute("position")?.array ?? []];
+        const samples =
+            frames.length > 0
+                ? frames.map(({ positions }) => positions)
+                : [geometry.getAttribute("position")?.array ?? []];
         stage.fill(samples, turnOf(geometry.metadata), geometry.getAttribute("normal") as BufferAttribute);
     }
 
@@ -355,6 +387,10 @@ export class View {
     private listRows(rows: Row[]): void {
         const small = (more?: string): HTMLElement[] => (more ? [element("small", ` ${more}`)] : []);
         this.form.part("more").hidden = rows.length === 0;
-        this.form.part("facts").replaceChildren(...rows.flatMap(([name, value, more]) => [element("dt", name), element("dd", value, ...small(more))]));
+        this.form
+            .part("facts")
+            .replaceChildren(
+                ...rows.flatMap(([name, value, more]) => [element("dt", name), element("dd", value, ...small(more))]),
+            );
     }
 }

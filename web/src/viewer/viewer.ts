@@ -21,7 +21,7 @@ interface Model {
 async function* piecesOf({ body }: Response): AsyncGenerator<Uint8Array> {
     const reader = body!.getReader();
     try {
-        for (let piece; !(piece = await reader.read()).done; ) yield piece.value;
+        for (let piece; !(piece = await reader.read()).done;) yield piece.value;
     } finally {
         reader.cancel().catch(() => {}); // what was aborted has been thrown already
     }
@@ -30,14 +30,26 @@ async function* piecesOf({ body }: Response): AsyncGenerator<Uint8Array> {
 /** Have the server encode a file; it stops when nobody listens. */
 const encode: Encode = async (files, preset, report, signal) => {
     const body = new Blob(files);
-    if (body.size > MOST_BYTES) throw new Error(`More than ${MOST_BYTES >> 20} MiB; use bsm encode, bsm tile, or bsm view --original.`);
-    const query = new URLSearchParams([["preset", preset], ...files.flatMap((file) => [["name", pathOf(file)], ["size", `${file.size}`]])]);
+    if (body.size > MOST_BYTES)
+        throw new Error(`More than ${MOST_BYTES >> 20} MiB; use bsm encode, bsm tile, or bsm view --original.`);
+    const query = new URLSearchParams([
+        ["preset", preset],
+        ...files.flatMap((file) => [
+            ["name", pathOf(file)],
+            ["size", `${file.size}`],
+        ]),
+    ]);
     const decoder = new TextDecoder();
     let text = "";
     for await (const piece of piecesOf(await fetched(`upload?${query}`, { method: "POST", body, signal }))) {
         text += decoder.decode(piece, { stream: true });
         for (let end; (end = text.indexOf("\n")) >= 0; text = text.slice(end + 1)) {
-            const { stage, share, error, entry } = JSON.parse(text.slice(0, end)) as { stage: string; share: number; error?: string; entry?: Content };
+            const { stage, share, error, entry } = JSON.parse(text.slice(0, end)) as {
+                stage: string;
+                share: number;
+                error?: string;
+                entry?: Content;
+            };
             if (error) throw new Error(error);
             if (entry) return entry;
             report(stage, share);
@@ -52,7 +64,12 @@ function inThread(job: Job, report: (stage: string, share: number) => void, sign
     return new Promise<Content>((resolve, fail) => {
         signal.addEventListener("abort", () => fail(signal.reason), { once: true });
         worker.onerror = ({ message }) => fail(new Error(message || "The encoder cannot be loaded."));
-        worker.onmessage = ({ data }: MessageEvent<Status>) => ("error" in data ? fail(new Error(data.error)) : "stage" in data ? report(data.stage, data.share) : resolve(data.content));
+        worker.onmessage = ({ data }: MessageEvent<Status>) =>
+            "error" in data
+                ? fail(new Error(data.error))
+                : "stage" in data
+                  ? report(data.stage, data.share)
+                  : resolve(data.content);
         worker.postMessage(job);
     }).finally(() => worker.terminate());
 }
@@ -66,7 +83,13 @@ const encodeHere: Encode = async (files, preset, report, signal) => {
 async function fillPage(list: HTMLElement): Promise<void> {
     const contents = JSON.parse(list.textContent!) as Content[];
     const pool = new Pool(inlined);
-    const view = new View(document.body, pool, LICENSES, encoder ? encodeHere : served ? encode : undefined, encoder ? BITS : undefined);
+    const view = new View(
+        document.body,
+        pool,
+        LICENSES,
+        encoder ? encodeHere : served ? encode : undefined,
+        encoder ? BITS : undefined,
+    );
     const open = async (index: number): Promise<void> => {
         const mine = view.turn();
         const content = contents[index];
@@ -75,7 +98,8 @@ async function fillPage(list: HTMLElement): Promise<void> {
             if (!mine()) return;
             if (content.tiles !== undefined) return await view.openTiles(content, index);
             const { url } = content.layers[content.main];
-            const pieces = url === undefined ? [await bytesOf(content.layers[content.main])] : piecesOf(await fetched(url));
+            const pieces =
+                url === undefined ? [await bytesOf(content.layers[content.main])] : piecesOf(await fetched(url));
             if (mine()) view.open(content, index);
             for await (const piece of pieces) {
                 if (!mine()) return;
@@ -83,10 +107,14 @@ async function fillPage(list: HTMLElement): Promise<void> {
             }
             if (mine()) view.finish();
         } catch (error) {
-            if (mine()) view.fail(`${content.name} could not be fetched. ${error instanceof Error ? error.message : error}`);
+            if (mine())
+                view.fail(`${content.name} could not be fetched. ${error instanceof Error ? error.message : error}`);
         }
     };
-    view.offer(contents.map(({ name }) => name), open);
+    view.offer(
+        contents.map(({ name }) => name),
+        open,
+    );
     if (contents.length > 0) await open(0);
 }
 
