@@ -9,16 +9,16 @@ from pathlib import Path
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.commands.flags import add_encode_flags, add_inputs, adder, asked, keywords_of, refuse_two_on_one_pipe
-from bsm.files.images import ImageRule, shared_images
+from bsm.files.images import ImageRule
 from bsm.files.mesh import format_of_name
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name, look_like_frames
 from bsm.files.output import refuse_collisions
 from bsm.files.pipes import is_url
 from bsm.files.sequence import SEQUENCE_FORMATS, SEQUENCES_READ
-from bsm.files.table import GLTF, MESH_FORMATS, WRITTEN_FORMATS
+from bsm.files.table import GLTF, MESH_FORMATS, MESH_SUFFIXES, WRITTEN_FORMATS
 from bsm.ground.console import Console
-from bsm.jobs.encode import EncodeJob, encode_one
+from bsm.jobs.encode import EncodeJob, encode_one, shared_images
 from bsm.jobs.plan import plan, plan_trees
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Job
@@ -57,10 +57,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
             raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
         metadata[name] = value
     more = {"output": "", "metadata": metadata, "options": options, "threads": threads, "members": members}
-    if args.recursive and args.images is None and (shared := shared_images(Path(job.input) for job in jobs)):
-        more["shared"] = shared
-        once = f"{counted(images=len(shared))} of several meshes: once in the folder images"
-        console.note(f"{once}, to which the streams link; --images keep stores them in each")
     if args.images == "link" and any(job.output == "-" or is_url(job.output) for job in jobs):
         raise OptionError("--images link writes files beside streams; it takes neither a pipe nor a URL")
     if args.images not in (None, "keep", "none", "link"):
@@ -69,6 +65,12 @@ def run(args: argparse.Namespace, console: Console) -> int:
             raise OptionError("--images lets Pillow read images; leave it out with --untrusted")
     more["format"] = "npy" if args.piped_frames else args.format
     job = asked(EncodeJob, args, **more)
+    others = (path for folder in args.inputs for path in Path(folder).rglob("*") if args.recursive)
+    if args.images is None and any(path.suffix.lower() not in MESH_SUFFIXES and path.is_file() for path in others):
+        job = replace(job, shared=shared_images(many, job, console, jobs))
+    if job.shared:
+        once = f"{counted(images=len(job.shared))} of several meshes: once in the folder images"
+        console.note(f"{once}, to which the streams link; --images keep stores them in each")
     return run_jobs(many, job, console, encode_one, jobs)
 
 

@@ -2,9 +2,6 @@
 
 import io
 import re
-from collections import Counter
-from collections.abc import Iterable
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path, PurePath
@@ -18,8 +15,6 @@ _PNG_OR_JPEG = re.compile(rb"\A\x89PNG.{12}(.{4})(.{4})|\xff[\xc0-\xc2]\0[\x0b\x
 _WEBP = re.compile(rb"RIFF.{4}WEBP(?:VP8X.{8}(...)(...)|VP8 .{7}\x9d\x01\x2a(..)(..)|VP8L.{4}/(.{4}))", re.DOTALL)
 _MOST_PIXELS = 1 << 26  # of an image that is written anew
 _LINK = re.compile(r"(?:\.\./)*images/([0-9a-f]{32})\.\w{1,5}")
-_NAMED = re.compile(rb"[^\s\"'<>]+\.(?:png|jpe?g|webp|bmp|tga|tiff?)\b", re.IGNORECASE)
-_HEAD = 1 << 16  # bytes of a mesh that are searched for the names of images
 
 
 @dataclass(frozen=True)
@@ -103,21 +98,9 @@ def is_link(name: str) -> bool:
     return re.fullmatch(r"image\.\d+\.link", name) is not None
 
 
-def shared_images(paths: Iterable[Path]) -> tuple[str, ...]:
-    """Return digests of the image files that several meshes name, themselves or in their materials."""
-    users, digests = Counter[str](), dict[Path, str]()
-    for path in paths:
-        with suppress(OSError):  # reading the mesh will tell
-            with path.open("rb") as file:
-                text = file.read(_HEAD)
-            for name in re.findall(rb"mtllib[ \t]+(.+)", text):
-                library = path.parent / name.decode(errors="replace").strip()
-                text += library.read_bytes() if library.is_file() else b""
-            images = {(path.parent / name.decode(errors="replace")).resolve() for name in _NAMED.findall(text)}
-            found = {name for name in images if name in digests or name.is_file()}
-            digests |= {name: _digest(name.read_bytes()) for name in found - digests.keys()}
-            users.update({digests[name] for name in found})
-    return tuple(sorted(digest for digest, count in users.items() if count > 1))
+def digests_in(metadata: Metadata) -> set[str]:
+    """Return the digests of the images that a mesh has, by which files of linked images are called."""
+    return {_digest(data) for _, data in images_in(metadata).values() if data}
 
 
 def with_links(metadata: Metadata, way: str, chosen: tuple[str, ...]) -> tuple[Metadata, dict[str, bytes]]:

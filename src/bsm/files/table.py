@@ -80,6 +80,7 @@ _FOREIGN = {
 }  # fmt: skip
 """Files of other kinds, by their first bytes."""
 GLTF = ("glb", "gltf")
+WITH_IMAGES_BESIDE = (*(kind for kind, row in FORMATS.items() if row.beside), "gltf", "dae")
 MESH_FORMATS = tuple(kind for kind, row in FORMATS.items() if row.own and row.reader)  # read and written by ourselves
 WRITTEN_FORMATS = tuple(sorted(kind for kind, row in FORMATS.items() if row.writer))
 MESH_SUFFIXES = tuple(f".{kind}" for kind, row in FORMATS.items() if row.reader and kind not in USD_FORMATS)

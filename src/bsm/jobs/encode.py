@@ -4,7 +4,8 @@ import math
 import os
 import re
 import time
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from itertools import count
@@ -20,17 +21,20 @@ from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.encoding.options import encode_options, sequence_options
 from bsm.encoding.simplification import Chosen, encode_source
 from bsm.files.formats.metadata import images_in
-from bsm.files.images import ImageRule, is_link, largest_side, with_links, with_smaller_images
+from bsm.files.formats.polygons import MeshFile
+from bsm.files.images import ImageRule, digests_in, is_link, largest_side, with_links, with_smaller_images
 from bsm.files.libraries import PROVENANCE, with_metadata, with_texels
 from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence
+from bsm.files.table import WITH_IMAGES_BESIDE
 from bsm.ground.console import Console, Progress, finite
 from bsm.ground.lengths import asked_unit, in_own_unit
 from bsm.jobs.report import digest_of
-from bsm.jobs.task import Facts, Task, came_to
+from bsm.jobs.run import Batch, run_many
+from bsm.jobs.task import Facts, Job, Task, came_to
 
 READ = 0.08  # of the time of a mesh
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
@@ -59,6 +63,25 @@ class EncodeJob(Task):
     images: str | None = None
 
 
+def shared_images(run: Batch, asked: EncodeJob, console: Console, jobs: Sequence[Job]) -> tuple[str, ...]:
+    """Return the digests of the images that several meshes have in files beside them; reads these meshes first."""
+    kinds = [asked.format or Path(job.input).suffix[1:].lower() for job in jobs]
+    naming = [Job(job.input) for job, kind in zip(jobs, kinds) if kind in WITH_IMAGES_BESIDE]
+    with console.progress("finding images of several meshes"):
+        done = run_many(replace(run, report=None, resume=False), asked, console, _digests_one, naming)
+    users = Counter(digest for facts in done for digest in facts.get("images", ()))
+    return tuple(sorted(digest for digest, count in users.items() if count > 1))
+
+
+def _digests_one(job: EncodeJob, console: Console) -> Facts:
+    return {"images": sorted(digests_in(_read(job).mesh.metadata))}
+
+
+def _read(job: EncodeJob) -> MeshFile:
+    limits = Limits.service() if job.untrusted else DEFAULT_LIMITS
+    return read_mesh(job.input, job.format, limits, isolated=job.untrusted or None)
+
+
 def encode_one(job: EncodeJob, console: Console) -> Facts:
     for path in filter(None, (job.output, job.permutation)):
         refuse_to_overwrite(path, job.may_replace(path))
@@ -75,13 +98,13 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     for name, given in (("animation", job.animation), ("mesh", job.cache_mesh)):
         if given is not None:
             raise OptionError(f"--{name} is for sequences; this is a single mesh")
-    return _encode_mesh(job, console, limits)
+    return _encode_mesh(job, console)
 
 
-def _encode_mesh(job: EncodeJob, console: Console, limits: Limits) -> Facts:
+def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     chosen = encode_options(**job.options, threads=job.threads)
     with console.progress("reading", until=READ):
-        source = read_mesh(job.input, job.format, limits, isolated=job.untrusted or None)
+        source = _read(job)
     if source.dropped and job.options.get("preset") == "lossless" and not job.force:
         lost = ", ".join(source.dropped)
         raise HarmError(f"lossless would lose contents that no stream holds: {lost}; --force leaves them out")
