@@ -5,6 +5,7 @@
 #include <nanobind/ndarray.h>
 
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 extern "C" {
@@ -63,20 +64,35 @@ template <typename Struct, typename... Arrays> struct TupleCaster {
 // A kernel runs without the interpreter's lock.
 using Unlocked = nb::call_guard<nb::gil_scoped_release>;
 
-// A kernel whose MISUSED is an exception.
+inline constexpr const char *DO_NOT_FIT = "arrays or numbers that do not fit together, given to a kernel";
+
+// A kernel that checks its arrays itself: MISUSED is an exception.
 template <auto kernel> struct Checked;
-template <typename... Arguments, int64_t (*kernel)(Arguments...)> struct Checked<kernel> {
-    static int64_t call(Arguments... arguments) {
-        int64_t result = kernel(arguments...);
-        if (result == MISUSED) throw nb::value_error("arrays or numbers that do not fit together, given to a kernel");
-        return result;
+template <typename Result, typename... Arguments, Result (*kernel)(Arguments...)> struct Checked<kernel> {
+    static Result call(Arguments... arguments) {
+        if constexpr (std::is_same_v<Result, int64_t>) {
+            int64_t result = kernel(arguments...);
+            if (result == MISUSED) throw nb::value_error(DO_NOT_FIT);
+            return result;
+        } else
+            return kernel(arguments...);
     }
 };
-template <auto kernel> constexpr auto checked = &Checked<kernel>::call;
 
-// Bind a kernel of room `m`, with its name and arguments as in C.
-#define KERNEL(name) m.def(#name, &name, Unlocked());
-#define CHECKED(name) m.def(#name, checked<name>, Unlocked());
+// A kernel whose arrays, or whose indices, a guard with the same arguments checks first.
+template <auto kernel, auto guard> struct Guarded;
+template <typename Result, typename... Arguments, Result (*kernel)(Arguments...), bool (*guard)(Arguments...)>
+struct Guarded<kernel, guard> {
+    static Result call(Arguments... arguments) {
+        if (!guard(arguments...)) throw nb::value_error(DO_NOT_FIT);
+        return Checked<kernel>::call(arguments...);
+    }
+};
+
+// Bind a kernel of room `m`, with its name and arguments as in C: one that looks at its arrays itself, or one that a
+// guard of the same name looks for.
+#define CHECKED(name) m.def(#name, &Checked<&name>::call, Unlocked());
+#define GUARDED(name) m.def(#name, &Guarded<&name, &guards::name>::call, Unlocked());
 
 #define BSM_CASTER(Array, type, dimensions)                                                                            \
     template <> struct nb::detail::type_caster<Array> : nb::detail::ArrayCaster<Array, type, dimensions> {};

@@ -1,5 +1,6 @@
 // The kernels of `codec` as functions of Python: by their names in C.
 #include "bitstream/kernel.hpp"
+#include "codec/guards.hpp"
 
 extern "C" {
 #include "codec/basis/basis.h"
@@ -19,18 +20,18 @@ BSM_STRUCT(Creases, ConstInts2, ConstInts2, ConstBytes, ConstDoubles, ConstInts,
 using namespace nb::literals;
 
 void bind_codec(nb::module_ &m) {
-    KERNEL(vertex_faces) KERNEL(normals_apart) KERNEL(geometric_laplacian) KERNEL(build_tree)
-    KERNEL(nearest_distances) CHECKED(shown_normals) CHECKED(draw_shaded) CHECKED(paint_colors) CHECKED(paint_checker)
-    CHECKED(averaged) CHECKED(contrast) KERNEL(add_copies) KERNEL(collect_edges) KERNEL(patch_guidance)
-    KERNEL(filter_normals) KERNEL(describe_faces) KERNEL(reach) KERNEL(face_patches)
-    KERNEL(face_geometry) KERNEL(pair_distances) KERNEL(follow_normals)
-    KERNEL(cosines) KERNEL(project) KERNEL(reconstruct) CHECKED(show_frames) CHECKED(turn_columns)
-    CHECKED(smooth_all)
+    GUARDED(vertex_faces) GUARDED(normals_apart) GUARDED(geometric_laplacian) GUARDED(build_tree)
+    GUARDED(nearest_distances) CHECKED(shown_normals) CHECKED(draw_shaded) CHECKED(paint_colors) CHECKED(paint_checker)
+    CHECKED(averaged) CHECKED(contrast) GUARDED(add_copies) GUARDED(collect_edges) GUARDED(patch_guidance)
+    GUARDED(filter_normals) GUARDED(describe_faces) GUARDED(reach) GUARDED(face_patches)
+    GUARDED(face_geometry) GUARDED(pair_distances) GUARDED(follow_normals)
+    GUARDED(cosines) GUARDED(project) GUARDED(reconstruct) CHECKED(show_frames) CHECKED(turn_columns)
+    GUARDED(smooth_all)
     m.attr("BATCH") = static_cast<int>(BATCH);
     m.attr("LEAST_KEPT") = static_cast<int>(LEAST_KEPT);
     m.def("frames_kept", &frames_kept, "vertices"_a);
-    CHECKED(label_components) KERNEL(weighted_angle)
-    CHECKED(local_frames) CHECKED(tangent_steps) CHECKED(add_heights) CHECKED(add_slides)
-    CHECKED(collect_flaps) CHECKED(shape_levels) CHECKED(collect_creases)
-    CHECKED(find_motions) CHECKED(settle_levels) CHECKED(count_folds) CHECKED(unfold_levels) CHECKED(shape_grid)
+    GUARDED(label_components) GUARDED(weighted_angle)
+    GUARDED(local_frames) GUARDED(tangent_steps) CHECKED(add_heights) CHECKED(add_slides)
+    GUARDED(collect_flaps) GUARDED(shape_levels) CHECKED(collect_creases)
+    CHECKED(find_motions) CHECKED(settle_levels) GUARDED(count_folds) GUARDED(unfold_levels) GUARDED(shape_grid)
 }

@@ -9,35 +9,30 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bsm import TriangleMesh, decode, decode_sequence, encode, encode_sequence
+from bsm import TriangleMesh, decode, decode_sequence, denoise, encode, encode_sequence
 from bsm._core import bitstream as of_bytes
 from bsm._core import codec as of_arrays
+from bsm.codec.denoise.learnt.descriptors import descriptions
+from bsm.codec.denoise.surface import Topology, surroundings
 from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.geometry.metrics import Original, Reference, surface_distance
 from bsm.codec.look.measure import AttributeLook
-from bsm.codec.signal.smooth import local_frames
+from bsm.codec.signal.smooth import local_frames, raised, slide
 from bsm.codec.static.choice.settling import Settler
+from bsm.codec.static.choice.shaping import Shaper
 from bsm.encoding.options import encode_options
 from tests.codec.static.attributes.test_attributes import dressed
 from tests.motion import bending
 from tests.shapes import torus
+from tools.noise import gaussian_along_normals
 from tools.vectors.good_fields import LAYER, refined
 from tools.vectors.meshes import tangled
 
-STAGES = (
-    *("smooth_all", "show_frames", "draw_shaded", "averaged"),
-    *("contrast", "shown_normals", "collect_creases"),
-    *("settle_levels", "paint_checker", "paint_colors"),
-)
-"""Of the codec's kernels those that do whole stages; others are called by what has looked at its arrays."""
-NAMING, BEYOND = {"draw_shaded", "shown_normals", "collect_creases", *STAGES[-3:]}, 10**6
-"""Kernels that look at each index that they are given."""
-KERNELS = {
-    **{name: kernel for name, kernel in vars(of_bytes).items() if callable(kernel)},
-    **{name: getattr(of_arrays, name) for name in STAGES},
-}
+BEYOND = 10**6
+KERNELS = {name: kernel for room in (of_bytes, of_arrays) for name, kernel in vars(room).items() if callable(kernel)}
 REFUSALS = 40
 """Of a kernel, after which it is left alone."""
-NOTHING_SHORT = {"priors", "start", "constant", "fields"}
+NOTHING_SHORT = {"priors", "start", "constant", "fields", "frames_kept"}
 """Kernels that are given no array, or one that may be of any length."""
 
 
@@ -67,7 +62,7 @@ def defended(kernel: Callable[..., Any], name: str, refusals: dict[str, int]) ->
 
     def call(*arguments: Any) -> Any:
         if refusals.setdefault(name, 0) < REFUSALS:
-            for wrong in spoiled(arguments, BEYOND * (name in NAMING)):
+            for wrong in spoiled(arguments, BEYOND):
                 try:
                     kernel(*wrong)
                 except ValueError:
@@ -80,7 +75,8 @@ def defended(kernel: Callable[..., Any], name: str, refusals: dict[str, int]) ->
 @pytest.fixture
 def refusals(monkeypatch: pytest.MonkeyPatch) -> dict[str, int]:
     """How often each kernel that was called refused."""
-    import_module("bsm.codec.sequence.encoder")  # modules that come later are not watched
+    for late in ("bsm.codec.sequence.encoder", "bsm.codec.denoise.automatic", "bsm.codec.static.choice.search"):
+        import_module(late)  # modules that come later are not watched
     counts: dict[str, int] = {}
     wrapped = {name: defended(kernel, name, counts) for name, kernel in KERNELS.items()}
     for library, room in ((of_bytes, "bsm.bitstream."), (of_arrays, "bsm.codec.")):
@@ -94,24 +90,38 @@ def refusals(monkeypatch: pytest.MonkeyPatch) -> dict[str, int]:
 def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     bare = torus(16, 12)
     mesh, size = dressed(bare), len(bare.positions)
+    moved = gaussian_along_normals(bare.positions, bare.faces, 0.3, seed=1)
     cases: tuple[tuple[TriangleMesh, dict[str, Any]], ...] = (
         (mesh, {"bits": 12, "key_seed": "svd", "partition": "metis"}),
         (mesh, {"step": 0.01, "smoothing": 1.0}),
+        (mesh, {"preset": "fine"}),
+        (TriangleMesh(moved, bare.faces), {}),
         (mesh, {"effort": "quick", "contract": None, "grid": 9, "keep_order": True}),
         (mesh, {"exact": True, "contract": None}),
         (tangled(), {"grid": 9}),
     )
+    denoise(TriangleMesh(moved, bare.faces), fine="guided", force=True)
+    topology = Topology(bare.faces, size)
+    assert list(descriptions(moved, topology, surroundings(moved, topology, 4.0)))
+    surface_distance(moved, bare.faces, bare.positions, bare.faces)
+    reference = Reference(bare.positions, bare.faces)
+    assert reference.nmsve(moved) > 0.0 and reference.theta(moved) > 0.0
     for shape, options in cases:
         decode(encode(shape, encode_options(threads=1, **options)), threads=1)
     decode(refined(bare, LAYER, (size,)), threads=1)
     positions, faces = bending(3, 12, 8)
     decode_sequence(encode_sequence(positions, faces, threads=1, step=0.01), threads=1)
     frames, steps = local_frames(bare.positions, bare.faces), np.ones((size, 3))
+    still = np.zeros((size, 3), np.int32)
+    slide(raised(bare.positions, frames, still, 0.1), frames, still, np.ones(size))
+    shaper = Shaper(Original(bare.positions, bare.faces), graph_of_faces(bare.faces, size))
+    shaper.levels(bare.positions, still[:, :1], frames[:, None, :3], 1.0, 1.0)
+    defended(of_arrays.turn_columns, "turn_columns", refusals)(np.eye(4, 2), np.empty(4), np.empty(2))
     seen = Settler(bare.positions, bare.faces, graph_of_faces(bare.faces, size))
     seen.levels(2.0 * bare.positions, frames, steps, lambda _: steps, 0.01, np.full(size, np.inf))
     corners = bare.positions[bare.faces].reshape(-1, 9)
     assert AttributeLook(bare, "color", corners).distance(bare.positions, corners) == 0.0
     AttributeLook(bare, "texcoord", np.ascontiguousarray(corners[:, :6]))
     names = {*KERNELS} - NOTHING_SHORT
-    assert not names - set(refusals), "kernels that this test does not reach"
-    assert not {name for name in names if not refusals[name]}, "kernels that refuse nothing"
+    assert sorted(names - set(refusals)) == [], "kernels that this test does not reach"
+    assert [name for name in sorted(names) if not refusals[name]] == [], "kernels that refuse nothing"

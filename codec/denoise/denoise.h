@@ -3,6 +3,11 @@
 
 #include "bitstream/kernel.h"
 
+/* What describes a face: filtered normals, what lies on circles around it, and how like its neighbors are. */
+enum { RANGES = 4, SCALES = 2, SECTORS = 8, RINGS = 2, FILTERED = SCALES * (2 * RANGES + 1),
+    LIKE = SCALES * 2 * RANGES };
+enum { DESCRIBED = 3 * (1 + FILTERED) + 4 * SECTORS * RINGS + LIKE + SCALES + 1 };
+
 int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts around, int64_t crowd, Ints seen,
     Longs starts, Ints members);
 int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double radius, int64_t most, int64_t begin,

@@ -5,12 +5,9 @@
  * Where a normal is zero, the cosine is. `around`, which begins as zeros, has of each vertex the sums of the cross
  * products of the faces' edges, of both, and of the original's lengths: 7 numbers. */
 double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around) {
-    int64_t n = least(original.rows, least(decoded.rows, around.rows));
     double apart = 0.0, total = 0.0;
-    if (original.columns != 3 || decoded.columns != 3 || faces.columns != 3 || around.columns != 7) return 0.0;
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
-        if (largest(face[0], largest(face[1], face[2])) >= n || least(face[0], least(face[1], face[2])) < 0) return 0.0;
         double own[3], other[3];
         cross_of_face(original.data, face, own);
         cross_of_face(decoded.data, face, other);
@@ -21,7 +18,7 @@ double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 f
             sums[6] += length;
         }
     }
-    for (int64_t v = 0; v < n; v++) {
+    for (int64_t v = 0; v < around.rows; v++) {
         const double *a = around.data + 7 * v, *b = a + 3;
         double lengths = __builtin_sqrt(dot3(a, a)) * __builtin_sqrt(dot3(b, b));
         double cosine = lengths > 0.0 ? dot3(a, b) / lengths : 0.0;
@@ -33,7 +30,7 @@ double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 f
 
 /* Each vertex minus the mean of its neighbors, weighted by inverse distance; zero beside a neighbor at distance 0. */
 void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result) {
-    for (int64_t i = 0; i < least(positions.rows, least(starts.size - 1, result.rows)); i++) {
+    for (int64_t i = 0; i < positions.rows; i++) {
         const double *own = positions.data + 3 * i;
         double sum[3] = {0.0, 0.0, 0.0}, total = 0.0;
         for (int64_t k = starts.data[i]; k < starts.data[i + 1]; k++) {
@@ -211,7 +208,8 @@ static double nearest(const double *p, ConstDoubles2 triangles, ConstDoubles2 lo
     int64_t stack[DEPTH];
     double best = to_triangle(p, triangles.data + 9 * *found);
     stack[0] = 0;
-    for (int depth = 1; depth > 0 && best > enough;) {
+    /* A tree that halves is never so deep; what lies deeper in another one is left out. */
+    for (int depth = 1; depth > 0 && depth < DEPTH - 1 && best > enough;) {
         int64_t node = stack[--depth];
         if (to_box(p, low.data + 3 * node, high.data + 3 * node) >= best) continue;
         if (count.data[node] > 0) {

@@ -29,7 +29,7 @@ LANGUAGES = {
 }
 SEARCH = re.compile(r"codec/static/(choice/.*|encoder|targets)\.py$")
 """The modules that find the smallest stream that keeps a promise."""
-BOUND = re.compile(r"(?:KERNEL|CHECKED)\((\w+)\)")
+BOUND = re.compile(r"(?:GUARDED|CHECKED)\((\w+)\)")
 """A kernel that Python may call, by its name in C and in Python."""
 DEFINED = re.compile(r"^[A-Za-z_][\w \t*]*?\b\w+\(([^;{}()]*(?:\([^()]*\)[^;{}()]*)*)\)\s*\{", re.MULTILINE)
 """A function of C where it is defined, and its parameters."""

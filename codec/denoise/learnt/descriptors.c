@@ -5,9 +5,6 @@
 #include "codec/denoise/denoise.h"
 #include "codec/denoise/vectors.h"
 
-enum { RANGES = 4, SCALES = 2, SECTORS = 8, RINGS = 2, FILTERED = SCALES * (2 * RANGES + 1),
-    LIKE = SCALES * 2 * RANGES };
-enum { DESCRIBED = 3 * (1 + FILTERED) + 4 * SECTORS * RINGS + LIKE + SCALES + 1 };
 /* Between the two circles, a square of distances of adjacent centroids. */
 static const float BETWEEN = 4.0f;
 
@@ -89,7 +86,6 @@ INLINE Lanes along(const Lanes *v, Vector3 axis) {
 KERNEL void describe_faces(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
                            ConstDoubles2 smooth, ConstDoubles2 axes, ConstLongs starts, ConstInts near,
                            double distance, int64_t begin, Doubles2 described, Doubles2 frames) {
-    if (described.columns < DESCRIBED || frames.columns < 9) return;
     double usual = distance * distance;
     for (int64_t i = 0; i < described.rows; i++) {
         int64_t f = begin + i, first = starts.data[f], count = starts.data[f + 1] - first;

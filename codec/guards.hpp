@@ -1,0 +1,183 @@
+// What must hold of arrays that Python gives to kernels of `codec`. C calls many of these as well, often in loops, with
+// arrays that it has made itself, so that the kernel does not check each index again: Python's arrays are checked once,
+// here. A guard has the name of its kernel, takes the same arguments, and says whether sizes fit together and indices
+// lie within what they point into. A failure is a fault of the caller, never of a stream.
+#pragma once
+
+#include "bitstream/kernel.hpp"
+
+extern "C" {
+#include "codec/denoise/denoise.h"
+#include "codec/geometry/geometry.h"
+#include "codec/look/look.h"
+#include "codec/signal/signal.h"
+#include "codec/static/choice/choice.h"
+}
+
+namespace guards {
+
+inline bool below(ConstInts indices, int64_t limit) { return all_below(indices.data, indices.size, limit); }
+inline bool below(ConstInts2 indices, int64_t limit) {
+    return all_below(indices.data, indices.rows * indices.columns, limit);
+}
+inline bool triples(int64_t rows, ConstDoubles2 array) { return array.rows == rows && array.columns == 3; }
+inline bool triples(int64_t rows, Doubles2 array) { return array.rows == rows && array.columns == 3; }
+
+// Rows of a list: they ascend from 0, and end within the members; `least` members at least are in each.
+inline bool lists(ConstLongs starts, int64_t rows, int64_t members, int64_t least = 0) {
+    if (rows < 0 || starts.size != rows + 1 || starts.data[0] != 0) return false;
+    for (int64_t row = 0; row < rows; row++)
+        if (starts.data[row + 1] - starts.data[row] < least || starts.data[row + 1] > members) return false;
+    return true;
+}
+inline bool graph(ConstLongs starts, ConstInts members, int64_t rows, int64_t limit, int64_t least = 0) {
+    return lists(starts, rows, members.size, least) && below(members, limit);
+}
+
+inline bool collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second) {
+    return faces.columns == 3 && offsets.size > 0 && below(faces, offsets.size - 1) && filled.size >= offsets.size - 1
+        && ends.size >= 6 * faces.rows && second.size >= 6 * faces.rows;
+}
+inline bool vertex_faces(ConstInts2 faces, Longs starts, Ints members) {
+    return starts.size > 0 && below(faces, starts.size - 1) && members.size >= faces.rows * faces.columns;
+}
+inline bool normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around) {
+    return triples(original.rows, original) && triples(original.rows, decoded) && faces.columns == 3
+        && around.rows == original.rows && around.columns == 7 && below(faces, original.rows);
+}
+inline bool geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result) {
+    int64_t n = positions.rows;
+    return triples(n, positions) && triples(n, result) && graph(starts, members, n, n);
+}
+inline bool face_geometry(
+    ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals, Bytes whole) {
+    int64_t m = faces.rows;
+    return triples(positions.rows, positions) && faces.columns == 3 && below(faces, positions.rows)
+        && triples(m, centroids) && areas.size == m && triples(m, normals) && (whole.size == 0 || whole.size == m);
+}
+inline bool weighted_angle(
+    ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces, double) {
+    return triples(faces.rows, normals) && weights.size == faces.rows && faces.columns == 3
+        && triples(decoded.rows, decoded) && below(faces, decoded.rows);
+}
+inline bool build_tree(ConstDoubles2 lowest, ConstDoubles2 highest, Longs order, Doubles2 low, Doubles2 high,
+    Longs first, Longs count) {
+    int64_t m = lowest.rows, nodes = 2 * m + 1;
+    return triples(m, lowest) && triples(m, highest) && order.size == m && triples(nodes, low) && triples(nodes, high)
+        && first.size == nodes && count.size == nodes;
+}
+// A node without triangles has its other child after it, so that a walk ends; how deep it goes the kernel bounds.
+inline bool nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
+    ConstLongs first, ConstLongs count, ConstLongs order, Doubles, Longs) {
+    int64_t m = triangles.rows, nodes = 2 * m + 1, seen = 1;
+    if (points.columns != 3 || triangles.columns != 9 || m < 1 || order.size != m || !triples(nodes, low)
+        || !triples(nodes, high) || first.size != nodes || count.size != nodes)
+        return false;
+    for (int64_t node = 0; node < seen; node++) {
+        int64_t begin = first.data[node], held = count.data[node];
+        if (held < 0 || begin < 0 || (held > 0 ? begin > m - held : begin <= node || begin >= nodes)) return false;
+        if (held == 0) seen = largest(seen, largest(begin, node + 1) + 1);
+        if (seen > nodes) return false;
+    }
+    return true;
+}
+inline bool add_copies(
+    Doubles2 sums, Doubles total, ConstInts vertices, ConstDoubles2 positions, ConstDoubles weights) {
+    return triples(total.size, sums) && triples(vertices.size, positions) && weights.size == vertices.size
+        && below(vertices, total.size);
+}
+inline bool face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts around, int64_t crowd, Ints seen,
+    Longs starts, Ints members) {
+    int64_t n = around_starts.size - 1, m = faces.rows, room = m;
+    if (faces.columns != 3 || !graph(around_starts, around, n, m) || !below(faces, n) || crowd < 0 || seen.size != m
+        || starts.size != m + 1)
+        return false;
+    for (int64_t k = 0; k < 3 * m; k++) {
+        int64_t size = around_starts.data[faces.data[k] + 1] - around_starts.data[faces.data[k]];
+        room += size > crowd ? 0 : size;
+    }
+    return members.size >= room;
+}
+inline bool reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double, int64_t most, int64_t begin,
+    Ints seen, Longs reached_starts, Ints) {
+    int64_t n = points.rows;
+    return triples(n, points) && graph(starts, members, n, n) && most > 0 && begin >= 0 && begin <= n && seen.size == n
+        && reached_starts.size == n + 1 && reached_starts.data[begin] >= 0;
+}
+inline bool pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances) {
+    return triples(values.rows, values) && pairs.columns == 2 && distances.size == pairs.rows
+        && below(pairs, values.rows);
+}
+inline bool follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around,
+    ConstDoubles2 normals, int64_t, ConstBytes free, Doubles2 planes, Doubles2 sums) {
+    int64_t n = positions.rows, m = faces.rows;
+    return triples(n, positions) && faces.columns == 3 && below(faces, n) && graph(starts, around, n, m)
+        && triples(m, normals) && free.size == n && planes.rows == m && planes.columns == 4 && sums.rows == n
+        && sums.columns == 16;
+}
+inline bool filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
+    ConstLongs starts, ConstInts near, double, double, Doubles2 packed, Doubles2 filtered) {
+    int64_t m = normals.rows;
+    return triples(m, centroids) && areas.size == m && triples(m, normals) && triples(m, guide)
+        && graph(starts, near, m, m) && packed.rows == m && packed.columns == 8 && triples(m, filtered);
+}
+inline bool patch_guidance(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members,
+    ConstDoubles steps, ConstLongs inner_starts, ConstInts inner, Doubles scores, Doubles2 means, Doubles2 guide) {
+    int64_t m = normals.rows;
+    return triples(m, normals) && areas.size == m && graph(starts, members, m, m, 1)
+        && graph(inner_starts, inner, m, steps.size) && scores.size == m && triples(m, means) && triples(m, guide);
+}
+inline bool describe_faces(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
+    ConstDoubles2 smooth, ConstDoubles2 axes, ConstLongs starts, ConstInts near, double, int64_t begin,
+    Doubles2 described, Doubles2 frames) {
+    int64_t m = normals.rows;
+    return triples(m, centroids) && areas.size == m && triples(m, normals) && triples(m, guide) && triples(m, smooth)
+        && triples(m, axes) && graph(starts, near, m, m) && begin >= 0 && begin <= m - described.rows
+        && described.columns >= DESCRIBED && frames.rows == described.rows && frames.columns == 9;
+}
+inline bool cosines(Doubles table, Doubles2 columns) { return table.size >= columns.rows + 8; }
+inline bool project(ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients) {
+    return subspace.rows == values.rows && coefficients.rows <= subspace.columns
+        && coefficients.columns == values.columns;
+}
+inline bool reconstruct(ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values) {
+    return subspace.rows == values.rows && coefficients.rows <= subspace.columns
+        && coefficients.columns == values.columns;
+}
+
+
+// Kernels that compare sizes themselves: their indices.
+inline bool label_components(ConstInts offsets, ConstInts neighbors, Ints, Ints) {
+    return fits_rows(offsets, neighbors, offsets.size - 1, offsets.size - 1);
+}
+inline bool smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2, double, Doubles, Doubles2) {
+    return fits_rows(offsets, neighbors, offsets.size - 1, offsets.size - 1);
+}
+inline bool local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2) { return below(faces, positions.rows); }
+inline bool tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double, double, Doubles2, Doubles) {
+    return below(faces, positions.rows);
+}
+inline bool collect_flaps(ConstInts2 faces, ConstInts starts, ConstInts members, Ints, Ints2) {
+    return below(faces, starts.size - 1) && fits_rows(starts, members, starts.size - 1, starts.size - 1);
+}
+inline bool count_folds(ConstDoubles2 positions, ConstInts2 flaps) { return below(flaps, positions.rows); }
+inline bool wanted(const Wanted &given) {
+    int64_t n = given.positions.rows;
+    return below(given.faces, n) && graph(given.around_starts, given.around, n, given.faces.rows)
+        && fits_rows(given.beside_starts, given.beside, n, n);
+}
+inline bool shape_levels(Wanted given, Aim, Doubles2, Ints2, ConstDoubles2, ConstDoubles, double, Bytes) {
+    return wanted(given);
+}
+inline bool shape_grid(Wanted given, Aim, Doubles2, Ints2, double, ConstInts2 flaps, ConstInts starts,
+    ConstInts members, Ints2, ConstDoubles, Bytes) {
+    int64_t n = given.positions.rows;
+    return wanted(given) && below(flaps, n) && fits_rows(starts, members, n, 2 * flaps.rows);
+}
+inline bool unfold_levels(Wanted given, ConstDoubles, Doubles2, Ints2, ConstDoubles2, ConstInts2 flaps,
+    ConstInts starts, ConstInts members, int64_t, Bytes, Bytes) {
+    int64_t n = given.positions.rows;
+    return wanted(given) && below(flaps, n) && fits_rows(starts, members, n, 2 * flaps.rows);
+}
+
+}  // namespace guards
