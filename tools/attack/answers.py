@@ -18,7 +18,7 @@ import numpy as np
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, MeshError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute
-from bsm.files.answer import found_in, leave
+from bsm.files.answer import FRAMES, MESH, found_in, leave
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.isolation import shared
 from bsm.files.motion.frames import Frames
@@ -51,11 +51,11 @@ def sound() -> list[Any]:
 
 def answers(random: Random, count: int) -> Iterator[bytes]:
     """Answers with something changed, once or several times."""
-    with shared(SIZE) as memory:
+    with shared(b"") as memory:
         seeds = []
         for found in sound():
             leave(memory, found)
-            seeds.append(os.pread(memory, 1 << 14, 0))
+            seeds.append(os.pread(memory, 1 << 14, 0).ljust(1 << 14, b"\0"))
     for _ in range(count):
         data = bytearray(random.choice(seeds))
         for _ in range(random.choice((1, 1, 2, 4))):
@@ -88,7 +88,7 @@ def fault(memory: int, data: bytes, limits: Limits) -> str:
     """What is wrong with how an answer is taken; "" if nothing is."""
     os.pwrite(memory, data, 0)
     try:
-        found = found_in(memory, limits)
+        found = found_in(memory, 2 * SIZE, limits, (*MESH, *FRAMES))
         if isinstance(found, Frames):
             for mesh in found.meshes or found.frames:
                 del mesh
@@ -107,7 +107,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
     random, found, before = Random(args.seed), list[str](), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    with shared(SIZE) as memory:
+    with shared(bytes(SIZE)) as memory:
         for number, data in enumerate(answers(random, args.count)):
             if problem := fault(memory, data, replace(Limits.service(), vertices=10_000)):
                 found.append(f"message {number} of seed {args.seed}: {problem}")

@@ -34,8 +34,6 @@ def recorded(lines: Iterable[str]) -> tuple[Counter[str], Counter[str]]:
         elif process in closed:
             calls.update([begun] if begun else [])
             refused[begun or ended] += "(errno 3" in rest
-            if "clone" in (begun, ended) and (thread := re.search(r"= (\d+)$", rest)):
-                closed.add(thread[1])
         elif _CLOSES in rest:
             closed.add(process)
     return calls, +refused

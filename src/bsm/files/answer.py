@@ -1,13 +1,12 @@
 """The answer of a process that has read a file: one flat table, then the bytes that its rows name.
 
-A hostile file may have taken that process over. So each row, a kind and a size, is checked before anything is made of
-it. Whatever is wrong is a `FormatError` or `LimitError`.
+A hostile file may have taken that process over. So the reader names the kinds of answers that it accepts, and checks
+each row, a kind and a size, before it makes anything of it. Whatever is wrong is a `FormatError` or `LimitError`.
 """
 
 import os
 import struct
 from collections.abc import Callable, Iterator, Mapping
-from mmap import mmap
 from typing import Any
 
 import numpy as np
@@ -36,11 +35,15 @@ _PLAIN: dict[type, tuple[Callable[[Any], bytes], Callable[[bytes], Any]]] = {
 """Values besides arrays: how each becomes bytes, and is made of them again."""
 _KINDS = (*KINDS, *_PLAIN)
 _COST, _LETTER = 1 << 10, 8  # bytes of memory that a row is charged, for its time, too, and a byte of text
+_MOST_WORDS = 4096  # letters of an error
 _REFUSALS: tuple[type[BsmError], ...] = (
     *(FormatError, LimitError, NoFacesError, errors.MeshError, errors.TruncatedError, errors.CorruptError),
-    *(errors.UnsupportedError, errors.DependencyError, errors.OptionError, errors.ArgumentError, errors.NumericError),
+    *(errors.UnsupportedError, errors.DependencyError),
 )
 """Errors of readers."""
+MESH: tuple[type, ...] = (MeshFile, *_REFUSALS)
+FRAMES: tuple[type, ...] = (type(None), Frames, errors.OptionError, *_REFUSALS)
+"""The answers that are accepted from readers of meshes and of sequences."""
 _METADATA = [(str, str | bytes | int | float)]
 _PARTS: dict[type, dict[str, Any]] = {
     Attribute: {"name": str, "values": np.ndarray, "domain": str, "semantic": str, "indices": np.ndarray | None},
@@ -50,14 +53,19 @@ _PARTS: dict[type, dict[str, Any]] = {
         **{"faces": np.ndarray, "count": int, "frames": [np.ndarray], "attributes": [Attribute], "notes": [str]},
         **{"frame_rate": float, "metadata": _METADATA, "rigged": int, "meshes": [TriangleMesh]},
     },
-    **dict.fromkeys(_REFUSALS, dict.fromkeys(("offset", "frame", "block"), int | None) | {"message": str}),
+    **dict.fromkeys(
+        (errors.OptionError, *_REFUSALS), dict.fromkeys(("offset", "frame", "block"), int | None) | {"message": str}
+    ),
 }
 """What an answer is made of, in this order; `[one]` is the number of them, then each."""
-_ANSWERS = (type(None), MeshFile, Frames, *_REFUSALS)
+_ANSWERS = (MeshFile, *FRAMES)
+_MISSING = "a package that reads such files is missing: pip install 'bsm-codec[formats,simulation,usd]'"
 
 
-def leave(memory: int, found: MeshFile | Frames | BsmError | None) -> None:
-    """Leave a mesh, frames, an error or nothing in shared memory."""
+def leave(
+    memory: int, found: MeshFile | Frames | BsmError | None, ask: Callable[[int], None] = lambda size: None
+) -> None:
+    """Leave a mesh, frames, an error or nothing in shared memory, after asking for the bytes that this takes."""
     rows, parts, total = list[bytes](), list[Any](), 0
     form = type(found) if type(found) in _ANSWERS else FormatError
     kind: Any
@@ -73,11 +81,10 @@ def leave(memory: int, found: MeshFile | Frames | BsmError | None) -> None:
         parts.append(data)
         total += len(data)
     table = _COUNT.pack(len(rows)) + b"".join(rows)
-    if len(table) + total > os.fstat(memory).st_size:
-        raise MemoryError
-    with mmap(memory, len(table) + total) as view:
-        for data in (table, *parts):
-            view.write(data)
+    ask(len(table) + total)
+    with open(memory, "wb", closefd=False) as file:
+        file.seek(0)
+        file.writelines((table, *parts))
 
 
 def _flat(form: Any, found: Any) -> Iterator[Any]:
@@ -96,11 +103,13 @@ def _flat(form: Any, found: Any) -> Iterator[Any]:
         yield found.item() if isinstance(found, np.generic) else found
 
 
-def found_in(memory: int, limits: Limits) -> MeshFile | Frames | None:
-    """The mesh or frames that a process has left, or raise the error."""
+def found_in(memory: int, most: int, limits: Limits, accepted: tuple[type, ...]) -> Any:
+    """The mesh or frames that a process has left, or raise the error; all copies take at most so many bytes."""
     try:
-        values = _read(memory)
+        values = _read(memory, most)
         form = _ANSWERS[_made(int, values, limits)]
+        if form not in accepted:
+            raise TypeError("an answer of another kind")
         found: MeshFile | Frames | BsmError | None = _made(form, values, limits)
     except LimitError:
         raise
@@ -109,12 +118,15 @@ def found_in(memory: int, limits: Limits) -> MeshFile | Frames | None:
     except Exception as error:
         raise FormatError("the process that read this file left no mesh") from error
     if isinstance(found, BsmError):
+        words = _MISSING if isinstance(found, errors.DependencyError) else found.message[:_MOST_WORDS]
+        found.message = " ".join(words.splitlines())
         raise found
     return found
 
 
-def _read(memory: int) -> Iterator[Any]:
-    size = left = os.fstat(memory).st_size
+def _read(memory: int, most: int) -> Iterator[Any]:
+    size = os.fstat(memory).st_size
+    left = most - size
     (count,) = _COUNT.unpack(os.pread(memory, _COUNT.size, 0))
     left -= count * _COST
     for place in range(_COUNT.size, _COUNT.size + count * _ROW.size, _ROW.size):

@@ -1,14 +1,13 @@
 """Readers of files in isolation: a process of its own for each file, with limits that the kernel enforces.
 
-A server with all readers loaded is started once, and forks for each file. The child opens no socket, starts no program,
-writes nothing, and ends where it exceeds its memory or time. With Landlock (landlockpy) it may only read the folder of
-the file and those of Python and its packages; without, only what our own readers read comes here. Arrays, notes and
-errors come back as data in shared memory.
+A server with all readers loaded is started once, and forks for each file. The child opens no socket, starts no program
+or thread, writes nothing, and ends where it exceeds its memory or time. With Landlock (landlockpy) it may only read the
+folder of the file and those of Python and its packages; without, only what our own readers read comes here. Arrays,
+notes and errors come back as data in shared memory.
 """
 
 import csv
 import ctypes
-import fcntl
 import gc
 import importlib
 import io
@@ -29,14 +28,14 @@ import sysconfig
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import asdict
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, UnsupportedError
 from bsm.bitstream.limits import Limits
 from bsm.files import mesh, sequence
-from bsm.files.answer import found_in, leave
+from bsm.files.answer import FRAMES, MESH, found_in, leave
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.pipes import Input
@@ -44,16 +43,16 @@ from bsm.files.table import FORMATS, MESH_FORMATS
 
 _COMMAND = "from bsm.files.isolation import serve; serve({number})"
 End: TypeAlias = tuple[int, int, float, bytes]
+_MEMORY, _WRITTEN = resource.RLIMIT_AS, resource.RLIMIT_FSIZE
 _KIND = struct.Struct("<32sI")  # a format, and seconds, as they are sent
 _END = struct.Struct("<iQd4096s")  # a status, the most memory, processor seconds, and last words, that come back
 _HEAD = struct.Struct("<QQ")  # the bytes of a question in shared memory, and those of a file after it
-_ROOM = 1 << 24  # bytes of shared memory besides the bytes that are given and those that come back
+_ROOM = 1 << 20  # bytes of an answer that a child need not ask for, in addition to its memory
 _OF_THIS_PROCESS = re.compile("/dev/(fd/|std)|/proc/")
 _SMALLEST = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"  # a file that has been read, so that the next is read sooner
 _PATIENCE = 10  # times its processor time that a child may take, since the machine may be busy
 _PROCESSORS = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}  # and their numbers in seccomp
 _WRITING = 0o1103  # flags of open: O_WRONLY, O_RDWR, O_CREAT, O_TRUNC
-_THREAD, _CLONE3, _NOT_KNOWN = 0x10000, 435, 38  # clone3 has its flags where no filter sees them: clone does it then
 _QUESTIONS = {"ioctl": (0x5401, 0x5451), "fcntl": (1, 2, 3, 1030)}  # TCGETS, FIOCLEX; F_GETFD to _GETFL, _DUPFD_CLOEXEC
 _REFUSED = 3000  # and the number of a call: the error of one that is refused
 _QUIET = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "PXR_WORK_THREAD_LIMIT", "MALLOC_ARENA_MAX"), "1")
@@ -74,7 +73,7 @@ def lack() -> str | None:
 
 def read_isolated(given: Input, file_format: str | None, limits: Limits, kind: str) -> MeshFile:
     """Read a mesh file in a process of its own; errors as of `read_mesh`."""
-    found: MeshFile = _read_there(_asked(given, file_format, kind), limits, kind)
+    found: MeshFile = _read_there(_asked(given, file_format, kind), limits, kind, MESH)
     return found
 
 
@@ -85,7 +84,7 @@ def frames_isolated(
     asked = _asked(given, file_format, kind) if isinstance(given, Input) else {"names": list(given)}
     beside = os.path.abspath(wanted.mesh) if wanted and wanted.mesh else None
     asked |= {"sequence": True, "wanted": wanted and {**asdict(wanted), "mesh": beside}, "beside": beside}
-    found: Frames | None = _read_there({"format": file_format, **asked}, limits, kind)
+    found: Frames | None = _read_there({"format": file_format, **asked}, limits, kind, FRAMES)
     return found
 
 
@@ -95,7 +94,7 @@ def _asked(given: Input, file_format: str | None, kind: str) -> dict[str, Any]:
     return {"path": path, "name": given.name, "format": chosen, "data": b"" if path else given.read_all()}
 
 
-def _read_there(asked: dict[str, Any], limits: Limits, kind: str) -> Any:
+def _read_there(asked: dict[str, Any], limits: Limits, kind: str, accepted: tuple[type, ...]) -> Any:
     names = asked.get("names") or [asked["path"]]
     size = sum(map(os.path.getsize, names)) if names[0] else len(asked["data"])
     asked["limits"] = asdict(limits)
@@ -105,13 +104,12 @@ def _read_there(asked: dict[str, Any], limits: Limits, kind: str) -> Any:
     asked["closed"] = lack() is None
     data = asked.pop("data", b"")
     question = json.dumps(asked).encode()
-    with shared(_ROOM + len(question) + len(data) + asked["memory"]) as memory:
-        os.pwrite(memory, _HEAD.pack(len(question), len(data)) + question + data, 0)
+    with shared(_HEAD.pack(len(question), len(data)) + question + data) as memory:
         known = kind if kind in FORMATS else ""
         status, _, _, words = end_of_child(memory, known, _PATIENCE * asked["seconds"])
         if os.WIFSIGNALED(status):
             raise _end_of(os.WTERMSIG(status), words, asked)
-        return found_in(memory, limits)
+        return found_in(memory, asked["memory"] + _ROOM, limits, accepted)
 
 
 def _too_little(asked: dict[str, Any]) -> LimitError:
@@ -128,16 +126,15 @@ def _end_of(number: int, words: bytes, asked: dict[str, Any]) -> BsmError:
         return LimitError(f"reading this file takes more than {_PATIENCE * asked['seconds']} s")
     if number == signal.SIGKILL:
         return LimitError("the process that read this file was ended: the system has too little memory")
-    return FormatError(f"reading this file crashed the library that reads it ({signal.Signals(number).name})")
+    return FormatError(f"reading this file crashed the library that reads it ({signal.strsignal(number)})")
 
 
 @contextmanager
-def shared(size: int) -> Iterator[int]:
-    """Memory that other processes can map; pages count once they are written."""
-    memory = os.memfd_create("bsm", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
+def shared(data: bytes) -> Iterator[int]:
+    """Memory that other processes can read and write."""
+    memory = os.memfd_create("bsm")
     try:
-        os.ftruncate(memory, _least(size, resource.getrlimit(resource.RLIMIT_FSIZE)[0]))
-        fcntl.fcntl(memory, fcntl.F_ADD_SEALS, fcntl.F_SEAL_SHRINK | fcntl.F_SEAL_GROW | fcntl.F_SEAL_SEAL)
+        os.pwrite(memory, data, 0)
         yield memory
     finally:
         os.close(memory)
@@ -231,15 +228,19 @@ def _watch(answer: int, memory: int, seconds: int) -> None:
     try:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         words, said = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
+        here, there = socket.socketpair()
         child = os.fork()
         if not child:
             os.setsid()
             os.dup2(said, 2)
-            for file in (answer, words, said):
+            for file in (answer, words, said, here.detach()):
                 os.close(file)
-            _read(memory)
+            _read(memory, there.detach())
+        there.close()
         signal.signal(signal.SIGALRM, lambda *_: os.kill(child, signal.SIGKILL))
         signal.alarm(seconds)
+        with here:
+            _grant(child, here)
         _, status, used = os.wait4(child, 0)
         status = status if signal.alarm(0) else signal.SIGALRM  # for a child may stop itself, or ignore that signal
         with suppress(ProcessLookupError):
@@ -252,10 +253,27 @@ def _watch(answer: int, memory: int, seconds: int) -> None:
         os._exit(0)
 
 
+def _grant(child: int, asks: socket.socket) -> None:
+    """Let a child write an answer of the size that it asks for, once, if it can do with so much less memory."""
+    size = int.from_bytes(asks.recv(8, socket.MSG_WAITALL), "little")
+    with suppress(OSError):  # the child may have ended
+        (most, hard), (_, largest) = (resource.prlimit(child, limit) for limit in (_MEMORY, _WRITTEN))
+        if granted := size <= largest:
+            resource.prlimit(child, _MEMORY, (most - size, hard))
+            granted = _held(child) <= most - size
+        if granted:
+            resource.prlimit(child, _WRITTEN, (size, largest))
+        asks.send(bytes([granted]))
+
+
+def _held(process: int | str) -> int:
+    return int(Path(f"/proc/{process}/statm").read_text().split()[0]) * mmap.PAGESIZE
+
+
 # ------------------------------------------------------------------------------------------------ the child
 
 
-def _read(memory: int) -> None:
+def _read(memory: int, room: int) -> None:
     """Read the file that shared memory names, and leave the mesh or the error there."""
     try:
         question, size = _HEAD.unpack(os.pread(memory, _HEAD.size, 0))
@@ -263,7 +281,7 @@ def _read(memory: int) -> None:
         asked["data"] = os.pread(memory, size, _HEAD.size + question)
         try:
             _confine(asked)
-            leave(memory, _called(asked))
+            leave(memory, _called(asked), partial(_ask, room))
         except MemoryError:
             leave(memory, _too_little(asked))
         except BsmError as error:
@@ -274,6 +292,14 @@ def _read(memory: int) -> None:
             leave(memory, FormatError(f"reading this file failed: {words}"))
     finally:
         os._exit(0)
+
+
+def _ask(room: int, size: int) -> None:
+    """Ask for the bytes of an answer; `MemoryError` if there are not so many."""
+    if size > _ROOM:
+        os.write(room, size.to_bytes(8, "little"))
+        if os.read(room, 1) != b"\1":
+            raise MemoryError
 
 
 def _called(asked: dict[str, Any]) -> MeshFile | Frames | None:
@@ -294,13 +320,13 @@ def _called(asked: dict[str, Any]) -> MeshFile | Frames | None:
 def _confine(asked: dict[str, Any]) -> None:
     """Take from this process what reading needs not: files of others, network, writing, memory and time beyond."""
     try:
-        held = int(Path("/proc/self/statm").read_text().split()[0]) * mmap.PAGESIZE
+        held = _held("self")
     except OSError as error:
         raise UnsupportedError(f"files from strangers are read where /proc is: {error}") from error
     for limit, most, longest in (
         (resource.RLIMIT_CORE, 0, 0),
-        (resource.RLIMIT_FSIZE, 0, 0),
-        (resource.RLIMIT_AS, held + asked["memory"], held + asked["memory"]),
+        (_WRITTEN, _ROOM, _ROOM + asked["memory"] // 2),
+        (_MEMORY, held + asked["memory"], held + asked["memory"]),
         (resource.RLIMIT_CPU, asked["seconds"], asked["seconds"] + 1),
     ):
         soft, hard = resource.getrlimit(limit)  # of where this runs, which may be less
@@ -342,7 +368,7 @@ def _close_calls() -> None:
 def _filter(own: int) -> Iterator[tuple[int, int, int, int]]:
     """The steps of a filter: an operation, how many steps to skip if true and if false, and a number."""
     load, equal, any_bit, at_least, add, end, end_so = 0x20, 0x15, 0x45, 0x35, 0x04, 0x06, 0x16
-    allowed, killed, failed = (end, 0, 0, 0x7FFF0000), (end, 0, 0, 0x80000000), 0x50000
+    allowed, killed, failed = (end, 0, 0, 0x7FFF0000), (end, 0, 0, 0x80000000), 0x50000 + _REFUSED
     call, processor, arguments = (load, 0, 0, 0), (load, 0, 0, 4), [(load, 0, 0, 16 + 8 * place) for place in range(3)]
     yield from (processor, (equal, 1, 0, _PROCESSORS[platform.machine()]), killed, call, (at_least, 0, 1, 1000), killed)
     for number, (name, is_allowed) in _calls().items():
@@ -351,16 +377,13 @@ def _filter(own: int) -> Iterator[tuple[int, int, int, int]]:
         steps = [allowed]
         if name in ("open", "openat"):
             steps = [arguments[1 + (name == "openat")], (any_bit, 1, 0, _WRITING), allowed, call]
-        elif name == "clone":
-            steps = [arguments[0], (any_bit, 0, 1, _THREAD), allowed, call]
         elif name in ("kill", "tgkill"):
             steps = [arguments[0], (equal, 0, 1, own), allowed, call]
         elif name in _QUESTIONS:
             asked = ((equal, 0, 1, one) for one in _QUESTIONS[name])
             steps = [arguments[1], *itertools.chain.from_iterable((one, allowed) for one in asked), call]
         yield from ((equal, 0, len(steps), number), *steps)
-    yield from ((equal, 0, 1, _CLONE3), (end, 0, 0, failed + _NOT_KNOWN))
-    yield from ((add, 0, 0, failed + _REFUSED), (end_so, 0, 0, 0))
+    yield from ((add, 0, 0, failed), (end_so, 0, 0, 0))
 
 
 @cache

@@ -14,7 +14,7 @@ import bsm
 from bsm import FormatError, LimitError, Limits, MeshFile, read_mesh
 from bsm.cli import main
 from bsm.files import isolation
-from bsm.files.answer import found_in, leave
+from bsm.files.answer import FRAMES, MESH, found_in, leave
 from bsm.files.isolation import lack
 from bsm.files.mesh import write_mesh
 from bsm.files.motion.frames import Frames, Shared, Wanted
@@ -96,8 +96,8 @@ def _fresh():
     [
         ("x = bytearray(3 << 30)", LimitError, "bytes of memory"),
         ("[0 for _ in iter(int, 1)]", LimitError, "s of processor time"),
-        ("os.kill(os.getpid(), 11)", FormatError, "SIGSEGV"),
-        ("os.abort()", FormatError, "SIGABRT"),
+        ("os.kill(os.getpid(), 11)", FormatError, "Segmentation fault"),
+        ("os.abort()", FormatError, "Aborted"),
         ("os.write(2, b'std::bad_alloc'); os.abort()", LimitError, "bytes of memory"),
         ("os._exit(3)", FormatError, "left no mesh"),
         ("raise KeyError(here)", FormatError, "KeyError"),
@@ -131,7 +131,7 @@ def test_what_a_library_multiplies_is_ended(kind, library, tmp_path):
     little = replace(Limits.service(), most_work=5e8, most_memory=200 << 20)
     with pytest.raises((LimitError, FormatError)) as refused:  # usd-core ends itself where memory ends
         read_mesh(tmp_path / f"a.{kind}", limits=little)
-    assert any(words in str(refused.value) for words in ("takes more than", "limit for its", "SIG")), refused.value
+    assert any(words in str(refused.value) for words in ("takes more than", "limit for its", "crashed")), refused.value
 
 
 SOCKETS = (("AF_INET", "STREAM"), ("AF_INET6", "DGRAM"), ("AF_UNIX", "STREAM"), ("AF_NETLINK", "RAW"))
@@ -155,6 +155,7 @@ def test_nothing_is_written_and_no_other_folder_read(before, monkeypatch, tmp_pa
         *(f"os.kill({number}, 0)" for number in (here, "os.getppid()", -1)),
         f"resource.prlimit({here}, resource.RLIMIT_CORE, (0, 0))",
         *(f"number({numbers})" for numbers in ("29, 0, 4096, 0o1600", f"234, {here}, {here}, 0", "56, 17, 0, 0, 0, 0")),
+        *(f"number(56, {flags}, 0, 0, 0, 0)" for flags in (0x3D0F00, 0x10900, 0x40010900, 0x50010900)),
         *(f"number({numbers})" for numbers in (f"72, 0, 8, {here}", "101, 16, 1", "425, 4, 0", "435, 0, 0")),
         "number(200, 1, 0)",
     ]
@@ -183,9 +184,8 @@ def test_a_refused_call_is_named(monkeypatch, tmp_path):
         read_mesh(TRIANGLE, isolated=True)
 
 
-def test_threads_run_and_nothing_stays(monkeypatch, tmp_path):
-    act = "import threading; t = threading.Thread(target=print); t.start(); t.join(); raise KeyError('ran')"
-    acting(monkeypatch, tmp_path, act)
+def test_nothing_stays(monkeypatch, tmp_path):
+    acting(monkeypatch, tmp_path, "raise KeyError('ran')")
     with pytest.raises(FormatError, match="ran"):
         read_mesh(TRIANGLE, isolated=True)
     server = isolation._server().process
@@ -195,17 +195,91 @@ def test_threads_run_and_nothing_stays(monkeypatch, tmp_path):
     assert server.returncode == -signal.SIGKILL  # waited for: no zombie
 
 
+@pytest.mark.parametrize("number", sorted(signal.valid_signals() - {signal.SIGKILL, signal.SIGSTOP}))
+def test_any_signal_that_ends_a_process_is_an_error(number):
+    assert isinstance(isolation._end_of(int(number), b"", {"seconds": 1, "memory": 1}), FormatError | LimitError)
+
+
+def calling(monkeypatch, tmp_path, *lines):
+    """What reading does if a taken-over process runs these lines in place of a reader."""
+    code = "\n".join(f"    {line}" for line in lines)
+    acting(monkeypatch, tmp_path, "pass", f"def called(asked):\n{code}\nisolation._called = called; ")
+
+
+TETRAHEDRON = "numpy.eye(4, 3), numpy.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]], 'int32')"
+ANSWERS = {
+    "return None": (FormatError, "left no mesh"),
+    f"return Frames(({TETRAHEDRON})[1], 1, iter([({TETRAHEDRON})[0]]))": (FormatError, "left no mesh"),
+    "raise errors.OptionError('no')": (FormatError, "left no mesh"),
+    "raise errors.FormatError('one' + chr(10) + chr(8232) + 'two' + chr(13) + 'three')": (
+        FormatError,
+        "^one  two three$",
+    ),
+    "raise errors.FormatError('x' * 70000)": (FormatError, "^x{4096}$"),
+    "raise errors.FormatError('x' * (90 << 20))": (FormatError, "left no mesh"),
+    "raise errors.DependencyError('pip install evil')": (bsm.DependencyError, "^a package .*: pip install 'bsm-codec"),
+}
+
+
+@pytest.mark.parametrize("answer", ANSWERS)
+def test_only_what_was_asked_for_is_accepted(answer, monkeypatch, tmp_path):
+    imports = "import numpy; from bsm.bitstream import errors; from bsm.files.motion.frames import Frames"
+    calling(monkeypatch, tmp_path, imports, answer)
+    error, words = ANSWERS[answer]
+    with pytest.raises(error, match=words) as refused:
+        read_mesh(TRIANGLE, isolated=True)
+    assert len(str(refused.value).splitlines()) == 1
+    (tmp_path / "a.obj").write_bytes(TRIANGLE)
+    assert main(["encode", str(tmp_path / "a.obj"), "--untrusted", "-q"]) == (8 if error is bsm.DependencyError else 3)
+
+
+def test_a_sequence_is_no_answer_where_a_mesh_is_asked_for_nor_a_mesh_for_a_sequence(monkeypatch, tmp_path):
+    with sequence_writer(str(tmp_path / "a.npz"), "npz", torus(4, 3).faces, 2, overwrite=True) as write:
+        for _ in range(2):
+            write(torus(4, 3).positions)
+    plain = "import numpy; from bsm import MeshFile, TriangleMesh"
+    calling(monkeypatch, tmp_path, plain, f"return MeshFile(TriangleMesh({TETRAHEDRON}))")
+    with pytest.raises(FormatError, match="left no mesh"):
+        open_sequence(tmp_path / "a.npz", isolated=True)
+
+
+@pytest.mark.parametrize(("written", "kept", "fits"), [(300, 200, True), (300, 450, False), (420, 0, False)])
+def test_an_answer_counts_as_memory(written, kept, fits, monkeypatch, tmp_path):
+    """Of 700 MB, an answer takes half at most, and the process has so much less from then on."""
+    lines = (
+        "import os, stat",
+        "def found(kind): return next(n for n in range(3, 64) if kind(n))",
+        "def mode(n): return os.fstat(n).st_mode if os.path.exists(n) else 0",
+        "room, memory = found(lambda n: stat.S_ISSOCK(mode(n))), found(lambda n: stat.S_ISREG(mode(n)))",
+        f"size = {written << 20}",
+        "isolation._ask(room, size)",
+        "os.lseek(memory, 0, 0)",
+        "piece = bytes(1 << 20)",
+        "while os.lseek(memory, 0, 1) < size: os.write(memory, piece)",
+        "try: os.write(memory, piece)",
+        "except OSError: pass",
+        "else: raise KeyError('more than was granted')",
+        f"kept = bytearray({kept << 20})",
+        "raise KeyError('had both')",
+    )
+    calling(monkeypatch, tmp_path, *lines)
+    with pytest.raises((FormatError, LimitError)) as refused:
+        read_mesh(TRIANGLE, limits=replace(Limits.service(), most_memory=float(700 << 20)))
+    assert isinstance(refused.value, LimitError) == (not fits), refused.value
+    assert ("had both" in str(refused.value)) == fits
+
+
 def test_lies_are_refused():
     """100,000 of them: `python -m tools.attack answers`."""
-    with isolation.shared(SIZE) as memory:
+    with isolation.shared(bytes(SIZE)) as memory:
         for data in answers(Random(7), 1500):
             assert fault(memory, data, Limits.service()) == ""
         for number in (0, 9, 400):
             os.pwrite(memory, b"\xff" * 8 + bytes(number), 0)
             with pytest.raises(FormatError, match="left no mesh"):
-                found_in(memory, Limits())
-    with isolation.shared(SIZE) as memory, pytest.raises(FormatError, match="left no mesh"):
-        found_in(memory, Limits())
+                found_in(memory, 2 * SIZE, Limits(), MESH)
+    with isolation.shared(bytes(SIZE)) as memory, pytest.raises(FormatError, match="left no mesh"):
+        found_in(memory, 2 * SIZE, Limits(), MESH)
 
 
 def test_what_a_process_leaves_is_within_limits():
@@ -214,11 +288,11 @@ def test_what_a_process_leaves_is_within_limits():
     def frames():
         return Frames(mesh.faces, 2, iter([mesh.positions] * 2), meshes=iter([mesh] * 2))
 
-    with isolation.shared(1 << 22) as memory:
+    with isolation.shared(b"") as memory:
         for found, name in ((MeshFile(mesh), "vertices"), (frames(), "vertices"), (frames(), "frames")):
             leave(memory, found)
             with pytest.raises(LimitError, match=name):
-                found_in(memory, replace(Limits(), **{name: 1}))
+                found_in(memory, 1 << 24, replace(Limits(), **{name: 1}), (*MESH, *FRAMES))
 
 
 def test_many_threads_read_at_a_time():
