@@ -31,7 +31,7 @@ typedef struct {
     bool prepaid; /* work that comes has been paid for */
     Spent spent;
     Ledger *ledger; /* where charges are noted as well, or NULL */
-    struct Writing *writing; /* where payloads are written, or NULL: they are read */
+    struct Payload *writing; /* where payloads are written, or NULL: they are read */
 } Context;
 
 /* What an error says: `#` in the text is replaced by a number, `$` by a name. */

@@ -31,7 +31,8 @@ import bsm
 MOST_BYTES = 64 << 20
 MOST_CONNECTIONS = 16
 """At a time, each with an upload in memory; more are sent away."""
-PRESETS = ("small", "balanced", "fine", "near-lossless")
+PRESETS = tuple(name for name, preset in bsm.PRESETS.items() if preset.contract is not None)
+"""Those with a promise: others need a target, or send whatever the mesh takes."""
 SPAWN = multiprocessing.get_context("spawn")
 Answer = tuple[int, "str | bytes"]
 

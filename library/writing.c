@@ -6,34 +6,45 @@
 
 #ifdef BSMDEC_WRITES
 
-void open_writer(Writer *writer, bsmdec_allocator host) {
+/* A caller writes what it already holds in memory: nothing of it is refused. */
+static bsmdec_limits no_limits(void) {
+    const double any = 1e300;
+    return (bsmdec_limits){
+        .size = sizeof(bsmdec_limits), .vertices = any, .faces = any, .blocks = any, .block_size = any,
+        .coefficients = any, .frames = any, .gop_frames = any, .frame_bytes = any, .metadata_bytes = any,
+        .attributes = any, .attribute_values = any, .sequence_bytes = any, .field_bytes = any, .work = any,
+        .work_per_vertex = any, .work_per_byte = any, .most_work = any, .memory = any, .memory_per_vertex = any,
+        .memory_per_byte = any, .most_memory = any, .heap = any,
+    };
+}
+
+void open_writer(PayloadWriter *writer, bsmdec_allocator host) {
     Context *context = &writer->context;
     make_tables();
     memset(writer, 0, sizeof *writer);
     context->host = with_pool(host, &writer->pool);
     context->error.offset = context->error.frame = context->error.block = -1;
-    context->limits.size = sizeof context->limits;
-    for (double *each = &context->limits.vertices; each <= &context->limits.heap; each++) *each = 1e300;
+    context->limits = no_limits();
     writer->arena = writer->scratch = arena_of(context);
     if (!is_exact())
         FAIL(context, UNSUPPORTED,
             "this build does not round as IEEE 754: compile it without fast or fused arithmetic");
 }
 
-void close_writer(Writer *writer) {
+void close_writer(PayloadWriter *writer) {
     release_all(&writer->arena);
     release_all(&writer->scratch);
     without_pool(writer->context.host);
 }
 
-bool begin_payloads(Context *context, int64_t capacity, Writing *writing) {
-    *writing = (Writing){.capacity = capacity};
+bool begin_payloads(Context *context, int64_t capacity, Payload *writing) {
+    *writing = (Payload){.capacity = capacity};
     return TAKE_OF_HOST(context, capacity, writing->data);
 }
 
-void end_payloads(Context *context, Writing *writing) { host_give(context, writing->data, (size_t)writing->capacity); }
+void end_payloads(Context *context, Payload *writing) { host_give(context, writing->data, (size_t)writing->capacity); }
 
-static void begin(CodedField *field, Context *context, Written given) {
+static void begin(CodedField *field, Context *context, Source given) {
     memset(field, 0, sizeof *field);
     field->context = context;
     field->arena = field->scratch = field->attributes.coding = field->attributes.recent = arena_of(context);
@@ -42,7 +53,7 @@ static void begin(CodedField *field, Context *context, Written given) {
 }
 
 /* Copy values, which are from `low` to those of `largest`. */
-static bool fill(Context *context, Ints2 to, Written given, int64_t first, const int32_t *largest, bool both) {
+static bool fill(Context *context, Ints2 to, Source given, int64_t first, const int32_t *largest, bool both) {
     for (int64_t i = 0; i < to.rows; i++)
         for (int64_t j = 0; j < to.columns; j++) {
             int32_t value = to.data[to.columns * i + j] = given.values[given.columns * i + first + j];
@@ -52,7 +63,7 @@ static bool fill(Context *context, Ints2 to, Written given, int64_t first, const
     return true;
 }
 
-bool begin_positions(CodedField *field, const GridField *like, Context *context, Written given,
+bool begin_positions(CodedField *field, const GridField *like, Context *context, Source given,
     const int32_t *largest, int light, const double *origin, double step, const double *exact,
     const int32_t *transforms, int congruence) {
     begin(field, context, given);
@@ -70,7 +81,7 @@ bool begin_positions(CodedField *field, const GridField *like, Context *context,
     return fill(context, field->grid.values, given, 0, largest, false);
 }
 
-bool begin_refinement(CodedField *field, Context *context, Written given) {
+bool begin_refinement(CodedField *field, Context *context, Source given) {
     static const int32_t MOST[] = {1 << 20, 1 << 20, 1 << 20};
     begin(field, context, given);
     field->kind = OF_LEVELS;
@@ -78,7 +89,7 @@ bool begin_refinement(CodedField *field, Context *context, Written given) {
         && fill(context, field->layer.levels.levels, given, 0, MOST, true);
 }
 
-bool begin_attribute(CodedField *field, Context *context, Written given, const Declaration *declaration,
+bool begin_attribute(CodedField *field, Context *context, Source given, const Declaration *declaration,
     int64_t vertices, const int32_t *at, const int32_t *places) {
     Attribute *attribute = &field->attribute;
     begin(field, context, given);
@@ -143,7 +154,7 @@ static bool close_surface(Context *context, ConstInts2 faces, int64_t vertices, 
     return true;
 }
 
-static bool write_connectivity(Context *context, Written given, int64_t vertices, Arena *arena, Arena *scratch,
+static bool write_connectivity(Context *context, Source given, int64_t vertices, Arena *arena, Arena *scratch,
     int32_t *order, int32_t *face_order, int32_t *faces) {
     int64_t m = given.faces_count, proper = 0, next = 0;
     Surface surface = {.order = {order, vertices}};
@@ -178,7 +189,7 @@ static bool write_connectivity(Context *context, Written given, int64_t vertices
     return true;
 }
 
-static void find_turns(Written given, const int32_t *order, const int32_t *face_order, const int32_t *faces,
+static void find_turns(Source given, const int32_t *order, const int32_t *face_order, const int32_t *faces,
     uint8_t *turns) {
     for (int64_t f = 0; f < given.faces_count; f++) {
         const int32_t *face = given.faces + 3 * (int64_t)face_order[f];
@@ -194,7 +205,7 @@ static void find_turns(Written given, const int32_t *order, const int32_t *face_
     }
 }
 
-bool write_faces(Writer *writer, Written given, int64_t vertices, Writing *writing, int32_t *order,
+bool write_faces(PayloadWriter *writer, Source given, int64_t vertices, Payload *writing, int32_t *order,
     int32_t *face_order, int32_t *faces, uint8_t *turns) {
     Arena arena = arena_of(&writer->context);
     writer->context.writing = writing;
@@ -212,7 +223,7 @@ int64_t room_of_chunk(const CodedField *field, int64_t count) {
     return 1024 + 160 * count * (columns + 4);
 }
 
-bool code_chunk(CodedField *field, int64_t first, int64_t count, Span payload, Writing *writing) {
+bool code_chunk(CodedField *field, int64_t first, int64_t count, Span payload, Payload *writing) {
     GridField *grid = &field->grid;
     Attribute *attribute = &field->attribute;
     bool done = true;

@@ -8,21 +8,21 @@
 #include "bitstream/pool.h"
 
 /* What a writer works with: its memory, and the first thing wrong. It must not be moved. */
-typedef struct Writer {
+typedef struct PayloadWriter {
     Context context;
     Pool pool;
     Arena arena, scratch;
-} Writer;
-void open_writer(Writer *writer, bsmdec_allocator host);
-void close_writer(Writer *writer);
+} PayloadWriter;
+void open_writer(PayloadWriter *writer, bsmdec_allocator host);
+void close_writer(PayloadWriter *writer);
 /* Room for payloads, which grows with them. */
-MUST_CHECK bool begin_payloads(Context *context, int64_t capacity, Writing *writing);
-void end_payloads(Context *context, Writing *writing);
+MUST_CHECK bool begin_payloads(Context *context, int64_t capacity, Payload *writing);
+void end_payloads(Context *context, Payload *writing);
 
 /* Write CONNECTIVITY of faces whose numbers are below `rows`, and say in which order vertices and faces are coded, and
  * which faces a decoder makes, and which corner of its own each of them begins with. `values` has the vertex of each
  * number; NULL: the number itself. */
-bool write_faces(Writer *writer, Written given, int64_t vertices, Writing *writing, int32_t *order,
+bool write_faces(PayloadWriter *writer, Source given, int64_t vertices, Payload *writing, int32_t *order,
     int32_t *face_order, int32_t *faces, uint8_t *turns);
 
 /* A field whose chunks are written, or read, one after the other. It must not be moved. */
@@ -41,14 +41,14 @@ typedef struct {
 /* Begin a field: positions on a grid, of floats in its cells also `exact` ones; levels; values of an attribute on rows
  * at vertices, with their places on a grid or NULL. A grid has the header's `congruence`, and rows of so many
  * `transforms` (specification, V 17.2). */
-bool begin_positions(CodedField *field, const GridField *like, Context *context, Written given,
+bool begin_positions(CodedField *field, const GridField *like, Context *context, Source given,
     const int32_t *largest, int light, const double *origin, double step, const double *exact,
     const int32_t *transforms, int congruence);
-bool begin_refinement(CodedField *field, Context *context, Written given);
-bool begin_attribute(CodedField *field, Context *context, Written given, const Declaration *declaration,
+bool begin_refinement(CodedField *field, Context *context, Source given);
+bool begin_attribute(CodedField *field, Context *context, Source given, const Declaration *declaration,
     int64_t vertices, const int32_t *at, const int32_t *places);
 void end_field(CodedField *field);
 /* Room that the payloads of so many rows can take. */
 int64_t room_of_chunk(const CodedField *field, int64_t count);
 /* Write the payloads of rows, or, without `writing`, read that of one kind of values. */
-bool code_chunk(CodedField *field, int64_t first, int64_t count, Span payload, Writing *writing);
+bool code_chunk(CodedField *field, int64_t first, int64_t count, Span payload, Payload *writing);

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._core import Decoder
-from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet, Writer
+from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet, SectionWriter
 from bsm.bitstream.errors import CorruptError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.decoding import CONNECTIVITY, NEED
@@ -64,7 +64,7 @@ def still_levels(matrices: int) -> bytes:
 
 def decode_connectivity(payload: bytes, vertices: int, faces: int, limits: Limits = DEFAULT_LIMITS) -> Ints:
     """Return the faces, shape (m, 3), that the decoder makes of a connectivity payload."""
-    decoder, writer = Decoder(limits, 1), Writer()
+    decoder, writer = Decoder(limits, 1), SectionWriter()
     header = Header(vertices=vertices, faces=faces, grid=(1, 1, 1))
     # What follows tells the decoder that no order comes, which would change the faces.
     packets: list[Packet] = [header, Connectivity(payload), Grid(0, vertices, b"")]

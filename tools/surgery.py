@@ -9,7 +9,7 @@ from typing import Any
 import msgpack
 
 from bsm.bitstream.container.header import HEADER_FIELDS, LAW, LAW_OF_SEQUENCES, PAPER, Declaration, Header, fields_of
-from bsm.bitstream.container.packets import BRIEF, BRIEF_TURNED, WRITERS, Declared, End, Metadata, Packet, Writer
+from bsm.bitstream.container.packets import BRIEF, BRIEF_TURNED, WRITERS, Declared, End, Metadata, Packet, SectionWriter
 from bsm.bitstream.container.wire import (
     MAGIC,
     MAX_VARINT_BYTES,
@@ -148,7 +148,7 @@ def record_of(kind: Any, payload: bytes) -> Any:
 
 def write_stream(packets: list[Packet]) -> bytes:
     """Return a whole stream: preamble, the packets given, END."""
-    writer = Writer()
+    writer = SectionWriter()
     return b"".join([writer.start(), *(writer.write(packet) for packet in packets), writer.end()])
 
 

@@ -205,7 +205,7 @@ WRITERS: dict[type[Any], tuple[FrameType, Callable[[Any], bytes]]] = {
 """The type of the frame of each packet, and the function that writes its payload."""
 
 
-class Writer:
+class SectionWriter:
     """Turns packets into the bytes of a stream; encoders decode the result before they return it."""
 
     def __init__(self) -> None:

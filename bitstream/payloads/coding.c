@@ -2,13 +2,13 @@
 
 #ifdef BSMDEC_WRITES
 static void begin_writing(Coding *writing) {
-    Writing *to = writing->context->writing;
+    Payload *to = writing->context->writing;
     writing->coder = (RangeCoder){.data = to->data + to->size, .size = to->capacity - to->size, .range = UINT32_MAX};
 }
 
 /* Write the fewest bytes that still tell the last decision (C 1.4). */
 static bool finish_writing(Coding *writing) {
-    Writing *to = writing->context->writing;
+    Payload *to = writing->context->writing;
     RangeCoder *coder = &writing->coder;
     int64_t size = coder->position, unit = INT64_C(1) << 32, value;
     if (coder->full || size + AHEAD > coder->size) return FAIL(writing->context, NO_MEMORY, "a payload has no room");
@@ -24,7 +24,7 @@ static bool finish_writing(Coding *writing) {
 }
 
 bool room_to_write(Coding *writing, int64_t bytes) {
-    Writing *to = writing->context->writing;
+    Payload *to = writing->context->writing;
     int64_t capacity = to != NULL ? to->size + writing->coder.position + bytes + AHEAD : 0;
     if (to == NULL || capacity < to->capacity) return true;
     uint8_t *data;

@@ -266,7 +266,7 @@ static bool write_sources(Coding *coding, const Arrangement *a, Arena *scratch) 
         && (a->copies == 0 || write_column(coding, scratch, steps));
 }
 
-bool write_order(Context *context, const Arrangement *arrangement, Arena *scratch, Writing *writing) {
+bool write_order(Context *context, const Arrangement *arrangement, Arena *scratch, Payload *writing) {
     Coding coding;
     Mark mark = mark_of(scratch);
     context->writing = writing;

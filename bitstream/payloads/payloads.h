@@ -69,7 +69,7 @@ typedef struct {
     int64_t copies, loose;
 } Arrangement;
 /* Write the coded part of ORDER. */
-bool write_order(Context *context, const Arrangement *arrangement, Arena *scratch, struct Writing *writing);
+bool write_order(Context *context, const Arrangement *arrangement, Arena *scratch, struct Payload *writing);
 
 /* What all fields of integers begin with: corners, orders, models (specification, V 1 to V 6). */
 

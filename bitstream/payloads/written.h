@@ -5,14 +5,14 @@
 
 /* Where payloads are written, one after the other, and where each ends. */
 enum { MOST_PAYLOADS = 4 };
-typedef struct Writing {
+typedef struct Payload {
     uint8_t *data;
     int64_t capacity, size, ends[MOST_PAYLOADS];
     int count;
-} Writing;
+} Payload;
 
 /* Faces, and values of each vertex, or of each row of an attribute; all arrays stay with the caller. */
 typedef struct {
     const int32_t *faces, *values;
     int64_t faces_count, rows, columns;
-} Written;
+} Source;

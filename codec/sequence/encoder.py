@@ -14,7 +14,7 @@ import numpy.typing as npt
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import write_gop_body
 from bsm.bitstream.container.header import Header
-from bsm.bitstream.container.packets import Writer
+from bsm.bitstream.container.packets import SectionWriter
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError, public
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.choices import checked_metadata
@@ -201,7 +201,7 @@ class SequenceEncoder:
         steps: Progress = silent
         self._verifier = verifier = SequenceVerifier(options, self._metadata, shown)
         meshes = Meshes()
-        writer = Writer()
+        writer = SectionWriter()
         number = 0
         self.run_starts, self.samples, self._checksum, self._drawn = [], 0, 0, 0.0
         splitter = RunSplitter(frames, self._faces, allowed=options.runs, attributes=self._attributes)

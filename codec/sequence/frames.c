@@ -719,7 +719,7 @@ bool copy_gops(const Gops *from, int k, Context *context, Arena *arena, Gops *co
     return true;
 }
 
-bool write_basis(Gops *gops, GopField field, int64_t frames, ConstDoubles2 spectrum, Writing *writing, Arena *scratch,
+bool write_basis(Gops *gops, GopField field, int64_t frames, ConstDoubles2 spectrum, Payload *writing, Arena *scratch,
     Doubles2 *basis) {
     gops->parts.context->writing = writing;
     release_all(&gops->frames);
@@ -728,7 +728,7 @@ bool write_basis(Gops *gops, GopField field, int64_t frames, ConstDoubles2 spect
     return done;
 }
 
-bool write_gop(Gops *gops, int method, int64_t frames, GopField field, ConstDoubles2 wanted, Writing *writing,
+bool write_gop(Gops *gops, int method, int64_t frames, GopField field, ConstDoubles2 wanted, Payload *writing,
     Arena *scratch) {
     Gop gop = {.method = method, .frames = frames, .coded = frames, .count = 1, .field = &field};
     if (!take_longs(scratch, frames, &gop.shown)) return false;

@@ -150,8 +150,8 @@ bool show_frame(Gops *gops, int64_t t, Arena *scratch, int track, ConstDoubles2 
 bool copy_gops(const Gops *from, int k, Context *context, Arena *arena, Gops *copy);
 /* Write the basis of a field, of which `spectrum` has what is free in it (S 5.2), in steps; then, of one track, the
  * levels of a field over it or of low-delay frames, that is as `wanted`: `gops` goes on from it, and has it. */
-bool write_basis(Gops *gops, GopField field, int64_t frames, ConstDoubles2 spectrum, Writing *writing, Arena *scratch,
+bool write_basis(Gops *gops, GopField field, int64_t frames, ConstDoubles2 spectrum, Payload *writing, Arena *scratch,
     Doubles2 *basis);
-bool write_gop(Gops *gops, int method, int64_t frames, GopField field, ConstDoubles2 wanted, Writing *writing,
+bool write_gop(Gops *gops, int method, int64_t frames, GopField field, ConstDoubles2 wanted, Payload *writing,
     Arena *scratch);
 #endif

@@ -13,7 +13,7 @@ from bsm._core.bitstream import constant
 from bsm.bitstream.connectivity.faces import EncodedConnectivity
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
-from bsm.bitstream.container.packets import Packet, Writer, write_brief
+from bsm.bitstream.container.packets import Packet, SectionWriter, write_brief
 from bsm.bitstream.container.wire import FrameType, write_frame
 from bsm.bitstream.errors import MeshError, OptionError, TargetError, counted
 from bsm.bitstream.once import cached_property
@@ -257,7 +257,7 @@ class Draft:
         return sum(map(len, self.frames))
 
     def _write(self) -> Iterator[bytes]:
-        writer, may_be_brief = Writer(), self.may_be_brief and not self.header.light
+        writer, may_be_brief = SectionWriter(), self.may_be_brief and not self.header.light
         brief = write_brief(self.header, self.body) if may_be_brief else None
         later = brief is not None, self.header.congruence > 0, self.header.onorm > 0, any(self.header.turn)
         yield writer.start(minor=int(any(later)))

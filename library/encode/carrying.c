@@ -21,7 +21,7 @@ static bool is_loose(const CodedMesh *coded, const bsmenc_attribute *a, int64_t 
 }
 
 /* The values that are used, as they are numbered, in memory of their own; `row`: the new number of each. */
-static bool take_used(Writer *writer, const CodedMesh *coded, const bsmenc_attribute *a, Ints row, void **values,
+static bool take_used(PayloadWriter *writer, const CodedMesh *coded, const bsmenc_attribute *a, Ints row, void **values,
     int64_t *count) {
     int width = a->domain == BSMDEC_FACE ? 1 : 3;
     size_t bytes = bsmdec_kind_size(a->kind) * (size_t)a->components;
@@ -60,7 +60,7 @@ static int64_t join_values(Corners corners, const int32_t *number, Bytes seams, 
 }
 
 /* The values as vertices of a mesh of their own: of vertices if all corners of each have one, otherwise joined. */
-static bool lay_out(Writer *writer, const CodedMesh *coded, const bsmenc_attribute *a, const int32_t *number,
+static bool lay_out(PayloadWriter *writer, const CodedMesh *coded, const bsmenc_attribute *a, const int32_t *number,
     int index, Carried *all, Ints chosen, int64_t *count) {
     Carried *carried = all + index;
     Declaration *d = &carried->quantized.declaration;
@@ -101,7 +101,7 @@ static bool lay_out(Writer *writer, const CodedMesh *coded, const bsmenc_attribu
     return true;
 }
 
-static bool carry(Writer *writer, const CodedMesh *coded, const bsmenc_attribute *a, int index, Carried *all) {
+static bool carry(PayloadWriter *writer, const CodedMesh *coded, const bsmenc_attribute *a, int index, Carried *all) {
     Context *context = &writer->context;
     Arena *arena = &writer->arena, *scratch = &writer->scratch;
     Carried *carried = all + index;
@@ -149,7 +149,7 @@ static bool carry(Writer *writer, const CodedMesh *coded, const bsmenc_attribute
     return true;
 }
 
-bool carry_attribute(Writer *writer, const CodedMesh *coded, const bsmenc_attribute *given, int index, Carried *all) {
+bool carry_attribute(PayloadWriter *writer, const CodedMesh *coded, const bsmenc_attribute *given, int index, Carried *all) {
     Declaration *d = &all[index].quantized.declaration;
     Mark mark = mark_of(&writer->scratch);
     all[index].joins = -1;
@@ -163,7 +163,7 @@ bool carry_attribute(Writer *writer, const CodedMesh *coded, const bsmenc_attrib
     return done || name_attribute(&writer->context, d->name);
 }
 
-bool write_seams(Writer *writer, const CodedMesh *coded, int index, const Carried *all, Writing *writing) {
+bool write_seams(PayloadWriter *writer, const CodedMesh *coded, int index, const Carried *all, Payload *writing) {
     Context *context = &writer->context;
     Arena *scratch = &writer->scratch;
     Corners corners = coded->corners;
@@ -193,10 +193,10 @@ bool write_seams(Writer *writer, const CodedMesh *coded, int index, const Carrie
     return done;
 }
 
-bool declare_carried(Writer *writer, const CodedMesh *coded, int index, const Carried *all, StreamWriter *stream) {
+bool declare_carried(PayloadWriter *writer, const CodedMesh *coded, int index, const Carried *all, StreamWriter *stream) {
     Context *context = &writer->context;
     Buffer entries = {.context = context};
-    Writing seams;
+    Payload seams;
     bool done = begin_payloads(context, all[index].seams.size + 64, &seams)
         && write_seams(writer, coded, index, all, &seams);
     if (done) {
@@ -219,12 +219,12 @@ bool can_lean(const Declaration *d) {
     return d->domain != BSMDEC_FACE && (small || d->coding == OCTAHEDRAL);
 }
 
-static bool code_values(Writer *writer, CodedField *field, int64_t rows, Buffer *payloads, Longs ends) {
+static bool code_values(PayloadWriter *writer, CodedField *field, int64_t rows, Buffer *payloads, Longs ends) {
     Context *context = &writer->context;
     bool done = true;
     for (int64_t first = 0, chunk = 0; done && first < rows; first += VALUES_CHUNK, chunk++) {
         int64_t count = least(VALUES_CHUNK, rows - first);
-        Writing writing;
+        Payload writing;
         done = begin_payloads(context, room_of_chunk(field, count), &writing)
             && code_chunk(field, first, count, (Span){0}, &writing);
         for (int i = 0; done && i < writing.count; i++) {
@@ -252,7 +252,7 @@ bool take_pieces(Arena *arena, const Carried *carried, Ints2 *pieces) {
     return true;
 }
 
-bool code_carried(Writer *writer, const CodedMesh *coded, const Carried *carried, const int32_t *places,
+bool code_carried(PayloadWriter *writer, const CodedMesh *coded, const Carried *carried, const int32_t *places,
     Buffer *payloads, Longs ends) {
     Context *context = &writer->context;
     Declaration declared = carried->quantized.declaration;
@@ -262,7 +262,7 @@ bool code_carried(Writer *writer, const CodedMesh *coded, const Carried *carried
     Ints2 pieces;
     declared.leans = places != NULL;
     if (!TAKE_ZEROS(&writer->scratch, 1, field) || !take_pieces(&writer->scratch, carried, &pieces)) return false;
-    Written given = {carried->faces.data, pieces.data, carried->faces.rows, rows, pieces.columns};
+    Source given = {carried->faces.data, pieces.data, carried->faces.rows, rows, pieces.columns};
     bool done = begin_attribute(field, context, given, &declared, coded->vertex_order.size,
                     declared.domain == BSMDEC_FACE ? NULL : carried->vertices.data, places)
         && code_values(writer, field, rows, payloads, ends);

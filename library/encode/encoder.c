@@ -108,7 +108,7 @@ static bool prepare_positions(Encoder *encoder) {
 }
 
 static bool write_grid(Encoder *encoder) {
-    Writer *writer = &encoder->writer;
+    PayloadWriter *writer = &encoder->writer;
     Context *context = &writer->context;
     const CodedMesh *coded = &encoder->coded;
     const Rounded *rounded = &encoder->rounded;
@@ -117,11 +117,11 @@ static bool write_grid(Encoder *encoder) {
     Buffer *payload = &encoder->out.payload;
     CodedField *field;
     if (!TAKE_ZEROS(&writer->arena, 1, field)) return false;
-    Written given = {coded->faces.data, rounded->places.data, coded->faces.rows, n, 3};
+    Source given = {coded->faces.data, rounded->places.data, coded->faces.rows, n, 3};
     bool done = begin_positions(field, NULL, context, given, rounded->largest, light, rounded->origin, rounded->step,
         rounded->exact ? encoder->positions.data : NULL, NULL, 0);
     for (int64_t first = 0, count; done && first < n; first += count) {
-        Writing writing;
+        Payload writing;
         count = least(first == 0 ? FIRST_CHUNK : CHUNK, n - first);
         done = begin_payloads(context, room_of_chunk(field, count), &writing)
             && code_chunk(field, first, count, (Span){0}, &writing);
@@ -153,8 +153,8 @@ static void write_motion(Encoder *encoder, FrameType type, int64_t first, int64_
 /* ---- Faces and their order ---- */
 
 /* CONNECTIVITY stays in `writing` until the header is known. */
-static bool code_faces_first(Encoder *encoder, Writing *writing) {
-    Writer *writer = &encoder->writer;
+static bool code_faces_first(Encoder *encoder, Payload *writing) {
+    PayloadWriter *writer = &encoder->writer;
     CodedMesh *coded = &encoder->coded;
     int64_t n = encoder->joined.first.size;
     *coded = (CodedMesh){.given = &encoder->given, .joined = &encoder->joined, .keeps = encoder->options.keep_order};
@@ -194,7 +194,7 @@ typedef struct {
 } Chunks;
 
 static bool code_attribute(Encoder *encoder, int index, Chunks *chunks) {
-    Writer *writer = &encoder->writer;
+    PayloadWriter *writer = &encoder->writer;
     Carried *carried = &encoder->carried[index];
     Declaration *d = &carried->quantized.declaration;
     Chunks leaning = {.bytes = {.context = &writer->context}};
@@ -234,7 +234,7 @@ static void write_values(Encoder *encoder, int index, const Chunks *chunks) {
 
 /* ---- All of it ---- */
 
-static bool write_body(Encoder *encoder, const Writing *connectivity, Chunks *chunks) {
+static bool write_body(Encoder *encoder, const Payload *connectivity, Chunks *chunks) {
     StreamWriter *out = &encoder->out;
     const Rounded *rounded = &encoder->rounded;
     Header header = {.vertices = encoder->coded.vertex_order.size, .faces = encoder->coded.faces.rows,
@@ -299,10 +299,10 @@ static bool tell_orders(Encoder *encoder) {
 }
 
 static bool encode(Encoder *encoder) {
-    Writer *writer = &encoder->writer;
+    PayloadWriter *writer = &encoder->writer;
     Context *context = &writer->context;
     bool lossless = encoder->options.positions == BSMENC_LOSSLESS;
-    Writing connectivity = {0};
+    Payload connectivity = {0};
     Chunks *chunks;
     if (!check_mesh(encoder) || (lossless && !make_single(encoder))
         || !join_mesh(&encoder->given, lossless, encoder->options.keep_order, writer, &encoder->joined)

@@ -41,9 +41,9 @@ typedef struct {
 int64_t number_rows(const int64_t *rows, int64_t count, int width, Arena *scratch, Ints numbers);
 /* Make one vertex of those with the number of one place, which becomes another where closed bodies share it. With
  * `keep`, faces without area stay. */
-bool join_places(const GivenMesh *given, Ints place, bool keep, Writer *writer, JoinedMesh *joined);
+bool join_places(const GivenMesh *given, Ints place, bool keep, PayloadWriter *writer, JoinedMesh *joined);
 /* The same of those at one position in all frames; -0.0 is there where 0.0 is, unless `exact`. */
-bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, JoinedMesh *joined);
+bool join_mesh(const GivenMesh *given, bool exact, bool keep, PayloadWriter *writer, JoinedMesh *joined);
 
 /* A joined mesh in the order of coding. */
 typedef struct {
@@ -57,7 +57,7 @@ typedef struct {
 } CodedMesh;
 /* Write CONNECTIVITY of a joined mesh of so many vertices, and put it in the order of coding. `merged`: the vertex of
  * each of its numbers, NULL: the number itself. */
-bool order_faces(Writer *writer, const int32_t *merged, int64_t vertices, Writing *writing, CodedMesh *coded);
+bool order_faces(PayloadWriter *writer, const int32_t *merged, int64_t vertices, Payload *writing, CodedMesh *coded);
 
 /* Which grid positions are coded on, and where on it they are (encoder only). */
 INLINE bool is_finite(double value) { return value - value == 0.0; }
@@ -167,14 +167,14 @@ typedef struct {
 } Carried;
 
 /* Carry attribute `index`; those before it are carried. */
-bool carry_attribute(Writer *writer, const CodedMesh *coded, const bsmenc_attribute *given, int index, Carried *all);
+bool carry_attribute(PayloadWriter *writer, const CodedMesh *coded, const bsmenc_attribute *given, int index, Carried *all);
 /* Write the seams of its own of a carried attribute. */
-bool write_seams(Writer *writer, const CodedMesh *coded, int index, const Carried *all, Writing *writing);
+bool write_seams(PayloadWriter *writer, const CodedMesh *coded, int index, const Carried *all, Payload *writing);
 /* Write the ATTRIBUTE section of a carried attribute. */
-bool declare_carried(Writer *writer, const CodedMesh *coded, int index, const Carried *all, StreamWriter *stream);
+bool declare_carried(PayloadWriter *writer, const CodedMesh *coded, int index, const Carried *all, StreamWriter *stream);
 /* Write the payloads of VALUES, chunk by chunk, into a buffer, and where each ends; `places`: of vertices on a grid. */
 enum { VALUES_CHUNK = 1 << 15 };
-bool code_carried(Writer *writer, const CodedMesh *coded, const Carried *carried, const int32_t *places,
+bool code_carried(PayloadWriter *writer, const CodedMesh *coded, const Carried *carried, const int32_t *places,
     Buffer *payloads, Longs ends);
 /* The numbers that are coded of levels: large ones are in two pieces. */
 bool take_pieces(Arena *arena, const Carried *carried, Ints2 *pieces);
@@ -194,14 +194,14 @@ typedef struct {
 
 /* Code frames so that no coordinate is off by more than `bound`. Their vertices and `faces` are in the order of
  * coding. */
-bool code_motion(Writer *writer, ConstInts2 faces, ConstDoubles2 frames, double bound, CodedMotion *motion);
+bool code_motion(PayloadWriter *writer, ConstInts2 faces, ConstDoubles2 frames, double bound, CodedMotion *motion);
 void give_motion(CodedMotion *motion);
 
 /* What is given to the encoder, and whether its streams keep what they promise. */
 typedef struct {
     bsmenc_stream stream; /* the user's, first */
     bsmdec_allocator host;
-    Writer writer;
+    PayloadWriter writer;
     const bsmenc_mesh *mesh;
     bsmenc_options options;
     GivenMesh given;

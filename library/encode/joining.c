@@ -108,7 +108,7 @@ static void number_used(const GivenMesh *given, Ints place, Ints seen, JoinedMes
     }
 }
 
-bool join_places(const GivenMesh *given, Ints place, bool keep, Writer *writer, JoinedMesh *joined) {
+bool join_places(const GivenMesh *given, Ints place, bool keep, PayloadWriter *writer, JoinedMesh *joined) {
     Arena *arena = &writer->arena, *scratch = &writer->scratch;
     int64_t n = given->vertices, m = given->faces, mentioned = 0, places = 0, kept = 0;
     const uint32_t *corners = given->corners;
@@ -144,7 +144,7 @@ bool join_places(const GivenMesh *given, Ints place, bool keep, Writer *writer, 
     return true;
 }
 
-bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, JoinedMesh *joined) {
+bool join_mesh(const GivenMesh *given, bool exact, bool keep, PayloadWriter *writer, JoinedMesh *joined) {
     Arena *scratch = &writer->scratch;
     int64_t n = given->vertices;
     Mark mark = mark_of(scratch);
@@ -165,11 +165,11 @@ bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, Jo
     return done;
 }
 
-bool order_faces(Writer *writer, const int32_t *merged, int64_t vertices, Writing *writing, CodedMesh *coded) {
+bool order_faces(PayloadWriter *writer, const int32_t *merged, int64_t vertices, Payload *writing, CodedMesh *coded) {
     Arena *arena = &writer->arena;
     const JoinedMesh *joined = coded->joined;
     int64_t m = joined->faces.rows;
-    Written given = {joined->faces.data, merged, m, joined->first.size, 1};
+    Source given = {joined->faces.data, merged, m, joined->first.size, 1};
     return take_ints(arena, vertices, &coded->vertex_order) && take_ints(arena, m, &coded->face_order)
         && take_ints2(arena, m, 3, &coded->faces) && take_bytes(arena, m, &coded->turns)
         && write_faces(writer, given, vertices, writing, coded->vertex_order.data, coded->face_order.data,

@@ -18,7 +18,7 @@ static const double LEAST_STEP = 0x1p-40, MOST_STEP = 0x1p20; /* in headers */
 
 /* The input, and the state of a decoder. */
 typedef struct {
-    Writer *writer;
+    PayloadWriter *writer;
     ConstInts2 faces;
     ConstDoubles2 frames;
     float step;
@@ -27,7 +27,7 @@ typedef struct {
     Chains chains;
     Assembly assembly;
     Gops gops;
-    Writing writing;
+    Payload writing;
     CodedMotion *motion;
 } MovingEncoder;
 
@@ -191,7 +191,7 @@ static bool code_with(MovingEncoder *encoding, double step, Arena *arena) {
     return done;
 }
 
-bool code_motion(Writer *writer, ConstInts2 faces, ConstDoubles2 frames, double bound, CodedMotion *motion) {
+bool code_motion(PayloadWriter *writer, ConstInts2 faces, ConstDoubles2 frames, double bound, CodedMotion *motion) {
     Context *context = &writer->context;
     Arena arena = arena_of(context);
     MovingEncoder encoding = {.writer = writer, .faces = faces, .frames = frames, .motion = motion};

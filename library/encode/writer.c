@@ -127,7 +127,7 @@ void put_order(Buffer *buffer, const CodedMesh *coded, Arena *scratch) {
     const JoinedMesh *joined = coded->joined;
     Context *context = buffer->context;
     Mark mark = mark_of(scratch);
-    Writing writing = {0};
+    Payload writing = {0};
     Ints source, number; /* the joined vertex of each given one that comes back; their numbers */
     Ints2 corners;
     Doubles2 loose;

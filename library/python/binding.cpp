@@ -330,15 +330,15 @@ class Output {
     // The payload that work writes.
     template <typename Work> nb::bytes written(Work work) {
         run([&] {
-            Writing *writing = encoding_anew(encoding);
+            Payload *writing = encoding_anew(encoding);
             return writing != nullptr && work(writing);
         });
-        const Writing &written = *encoding_payloads(encoding);
+        const Payload &written = *encoding_payloads(encoding);
         return nb::bytes(written.data, (size_t)written.size);
     }
 
     nb::typed<nb::list, nb::bytes> payloads() const {
-        const Writing &written = *encoding_payloads(encoding);
+        const Payload &written = *encoding_payloads(encoding);
         nb::list all;
         for (int i = 0; i < written.count; i++) {
             int64_t first = i > 0 ? written.ends[i - 1] : 0;
@@ -394,7 +394,7 @@ class OrderedMesh : public Shared, Output {
         given.amount = amount;
         CarriedOutcome whole;
         run([&] { return encode_carried(encoding, &given, first, &whole); });
-        const Writing &seams = *encoding_payloads(encoding);
+        const Payload &seams = *encoding_payloads(encoding);
         Made<void> decoded = made_of<void>(whole.rows, (int64_t)values.shape(1), KINDS[kind]);
         carried_values(encoding, decoded.data);
         const bsmenc_outcome &outcome = whole.outcome;
@@ -468,7 +468,7 @@ class FieldCoder : public Shared, Output {
     auto read(nb::bytes payload, int64_t count) {
         const uint8_t *data = (const uint8_t *)payload.c_str();
         int64_t size = (int64_t)payload.size();
-        code(count, [&](int64_t first) { return decode_chunk(encoding, first, count, data, size); });
+        code(count, [&](int64_t first) { return decode_field_chunk(encoding, first, count, data, size); });
         return copy_of(encoding_values(encoding), (int64_t)rows(), (int64_t)values.shape(1));
     }
 
@@ -485,7 +485,7 @@ class FieldCoder : public Shared, Output {
     int64_t next = -1; // before it has begun
 
     size_t rows() const { return values.shape(0); }
-    Written given() const {
+    Source given() const {
         return {faces.data(), values.data(), (int64_t)faces.shape(0), (int64_t)values.shape(0),
             (int64_t)values.shape(1)};
     }
@@ -566,7 +566,7 @@ class Chain : public Steps {
     auto write(ConstDoubles2 prediction, ConstDoubles2 coefficients, double step, bool all) {
         Made<double> made = made_of<double>(prediction.rows, 3);
         int64_t rows = 0;
-        nb::bytes payload = written([&](Writing *writing) {
+        nb::bytes payload = written([&](Payload *writing) {
             return write_coded_block(
                 chain, prediction, coefficients, step, all, writing, &rows, {made.data, prediction.rows, 3});
         });
@@ -583,7 +583,7 @@ class Chain : public Steps {
 class TrackCoder : public Steps {
     template <typename Work> auto coded(Work work) {
         ConstDoubles2 found = {nullptr, 0, 0};
-        nb::bytes payload = written([&](Writing *writing) { return work(writing, &found); });
+        nb::bytes payload = written([&](Payload *writing) { return work(writing, &found); });
         return std::make_tuple(payload, copy_of(found.data, found.columns > 0 ? found.rows : 0, found.columns));
     }
 
@@ -596,13 +596,13 @@ class TrackCoder : public Steps {
     }
     // The payload of a basis, and the basis.
     auto basis(ConstInts exponents, ConstDoubles2 spectrum) {
-        return coded([&](Writing *writing, ConstDoubles2 *found) {
+        return coded([&](Payload *writing, ConstDoubles2 *found) {
             return write_track_basis(chain, exponents, spectrum, writing, found);
         });
     }
     // The payload of levels, and the field.
     auto code(int method, int64_t frames, double step, int64_t back, ConstDoubles2 wanted) {
-        return coded([&](Writing *writing, ConstDoubles2 *found) {
+        return coded([&](Payload *writing, ConstDoubles2 *found) {
             return write_track(chain, method, frames, step, back, wanted, writing, found);
         });
     }
@@ -626,7 +626,7 @@ class Cut : public Steps {
     }
     // The payload of parts that are numbered by their first vertices.
     nb::bytes write(ConstInts labels, int64_t parts) {
-        return written([&](Writing *writing) { return write_labels(chain, labels, parts, writing); });
+        return written([&](Payload *writing) { return write_labels(chain, labels, parts, writing); });
     }
     // Vertices of a block in the order of its rows, and the graph among them.
     auto rows(ConstInts members) {

@@ -7,7 +7,7 @@
 #include "library/writing.h"
 
 struct CodedChain {
-    Writer *writer;
+    PayloadWriter *writer;
     Header header;
     Graph graph;
     Blocks blocks;
@@ -19,7 +19,7 @@ struct CodedChain {
     Gops gops;
 };
 
-CodedChain *open_chain(Writer *writer) {
+CodedChain *open_chain(PayloadWriter *writer) {
     CodedChain *chain;
     if (!TAKE_ZEROS(&writer->arena, 1, chain)) return NULL;
     chain->writer = writer;
@@ -40,7 +40,7 @@ bool are_below(const int32_t *numbers, int64_t count, int64_t least, int64_t bou
     return true;
 }
 
-bool are_all_there(Writer *writer, const int32_t *numbers, int64_t count, int64_t bound) {
+bool are_all_there(PayloadWriter *writer, const int32_t *numbers, int64_t count, int64_t bound) {
     Bytes there;
     int64_t missing = bound;
     if (!zero_bytes(&writer->scratch, bound, &there)) return false;
@@ -69,7 +69,7 @@ static bool are_labels(CodedChain *chain, ConstInts labels, int64_t parts) {
         || FAIL(&chain->writer->context, MISUSED, "labels do not fit the graph, or a part is empty");
 }
 
-bool write_labels(CodedChain *chain, ConstInts labels, int64_t parts, Writing *writing) {
+bool write_labels(CodedChain *chain, ConstInts labels, int64_t parts, Payload *writing) {
     Context *context = &chain->writer->context;
     const Graph *graph = &chain->graph;
     Ints own;
@@ -83,7 +83,7 @@ bool write_labels(CodedChain *chain, ConstInts labels, int64_t parts, Writing *w
 }
 
 bool grow_parts(CodedChain *chain, ConstInts labels, int64_t parts, int64_t size, GrownBlocks *grown) {
-    Writer *writer = chain->writer;
+    PayloadWriter *writer = chain->writer;
     Blocks blocks;
     Header header = {.blocks = parts, .block_size = size};
     if (!are_labels(chain, labels, parts)
@@ -187,7 +187,7 @@ bool give_dictionary(CodedChain *chain, ConstSingles2 own) {
 }
 
 bool write_coded_block(CodedChain *chain, ConstDoubles2 prediction, ConstDoubles2 coefficients, double step, bool all,
-    Writing *writing, int64_t *rows, Doubles2 positions) {
+    Payload *writing, int64_t *rows, Doubles2 positions) {
     Context *context = &chain->writer->context;
     Arena *scratch = &chain->writer->scratch;
     ConstSingles2 dictionary = const_singles2(chain->dictionary);
@@ -216,7 +216,7 @@ bool commit_coded_block(CodedChain *chain, int64_t width, ConstDoubles2 position
 
 bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame, ConstDoubles2 starts, ConstInts widths,
     double *memory) {
-    Writer *writer = chain->writer;
+    PayloadWriter *writer = chain->writer;
     Arena *scratch = &writer->scratch;
     int64_t n = chain->graph.size, columns = 0;
     MovingAttribute *moving;
@@ -242,15 +242,15 @@ bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame, 
 }
 
 bool begin_track(CodedChain *track, const CodedChain *from, int64_t k) {
-    Writer *writer = track->writer;
+    PayloadWriter *writer = track->writer;
     if (!from->gops.begun || k < 0 || k >= from->gops.tracks)
         return FAIL(&writer->context, MISUSED, "track # is not there", k);
     return copy_gops(&from->gops, (int)k, &writer->context, &writer->arena, &track->gops);
 }
 
-bool write_track_basis(CodedChain *track, ConstInts exponents, ConstDoubles2 spectrum, Writing *writing,
+bool write_track_basis(CodedChain *track, ConstInts exponents, ConstDoubles2 spectrum, Payload *writing,
     ConstDoubles2 *basis) {
-    Writer *writer = track->writer;
+    PayloadWriter *writer = track->writer;
     int64_t width = track->gops.track->width;
     GopField field = {.width = width, .components = spectrum.columns,
         .exponents = {(int32_t *)exponents.data, exponents.size}}; /* only read */
@@ -264,8 +264,8 @@ bool write_track_basis(CodedChain *track, ConstInts exponents, ConstDoubles2 spe
 }
 
 bool write_track(CodedChain *track, int method, int64_t frames, double step, int64_t back, ConstDoubles2 wanted,
-    Writing *writing, ConstDoubles2 *field) {
-    Writer *writer = track->writer;
+    Payload *writing, ConstDoubles2 *field) {
+    PayloadWriter *writer = track->writer;
     Gops *gops = &track->gops;
     bool coded = wanted.rows > 0;
     GopField given = {.width = gops->track->width, .components = coded ? wanted.columns : 0, .back = back,

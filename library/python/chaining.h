@@ -5,12 +5,12 @@
 
 /* One chain after the other, a part, or a graph alone: of an encoding, which has its errors. */
 typedef struct CodedChain CodedChain;
-struct Writer;
-struct Writing;
+struct PayloadWriter;
+struct Payload;
 /* Whether numbers are from `least` to below `bound`; whether each of those below it is among them. */
 bool are_below(const int32_t *numbers, int64_t count, int64_t least, int64_t bound);
-bool are_all_there(struct Writer *writer, const int32_t *numbers, int64_t count, int64_t bound);
-CodedChain *open_chain(struct Writer *writer);
+bool are_all_there(struct PayloadWriter *writer, const int32_t *numbers, int64_t count, int64_t bound);
+CodedChain *open_chain(struct PayloadWriter *writer);
 void close_chain(CodedChain *chain);
 
 /* Of a graph: the part of each vertex; blocks of `size` vertices at most that grow from parts; and the rows of some of
@@ -23,7 +23,7 @@ typedef struct {
 } GrownBlocks;
 bool grow_parts(CodedChain *chain, ConstInts labels, int64_t parts, int64_t size, GrownBlocks *grown);
 /* The payload of parts that are numbered by their first vertices (C 10). */
-bool write_labels(CodedChain *chain, ConstInts labels, int64_t parts, struct Writing *writing);
+bool write_labels(CodedChain *chain, ConstInts labels, int64_t parts, struct Payload *writing);
 bool order_rows(CodedChain *chain, ConstInts members);
 /* U of its L + shift after iterations of Algorithm 1 from a start. */
 bool iterate_graph(CodedChain *chain, double shift, ConstSingles2 start, int64_t power, int64_t iterations,
@@ -61,7 +61,7 @@ bool give_dictionary(CodedChain *chain, ConstSingles2 own);
 ConstSingles2 present_dictionary(const CodedChain *chain);
 /* Write the levels nearest to coefficients, as `write_levels` of codec/signal/decoding.h. */
 bool write_coded_block(CodedChain *chain, ConstDoubles2 prediction, ConstDoubles2 coefficients, double step, bool all,
-    struct Writing *writing, int64_t *rows, Doubles2 positions);
+    struct Payload *writing, int64_t *rows, Doubles2 positions);
 /* Positions become what the next block knows, and the first `width` columns its predecessor's U. */
 bool commit_coded_block(CodedChain *chain, int64_t width, ConstDoubles2 positions);
 
@@ -75,7 +75,7 @@ double memory_for_gop(const CodedChain *chain, int method, int64_t frames, Const
 bool begin_track(CodedChain *track, const CodedChain *from, int64_t k);
 /* Write a basis, of what is free in it, or the levels of a field (codec/sequence/gops.h); without rows it is not
  * coded. What is decoded lasts until the next call. */
-bool write_track_basis(CodedChain *track, ConstInts exponents, ConstDoubles2 spectrum, struct Writing *writing,
+bool write_track_basis(CodedChain *track, ConstInts exponents, ConstDoubles2 spectrum, struct Payload *writing,
     ConstDoubles2 *basis);
 bool write_track(CodedChain *track, int method, int64_t frames, double step, int64_t back, ConstDoubles2 wanted,
-    struct Writing *writing, ConstDoubles2 *field);
+    struct Payload *writing, ConstDoubles2 *field);

@@ -49,7 +49,7 @@ bool decoder_skim(bsmdec *decoder, SkimmedPacket *packet) {
 }
 
 struct Encoding {
-    Writer writer;
+    PayloadWriter writer;
     CodedField field;
     GivenMesh given;
     JoinedMesh joined;
@@ -58,7 +58,7 @@ struct Encoding {
     int carried_count;
     Record declared; /* the last of them */
     Mark mark; /* before what carried attributes have */
-    Writing payloads;
+    Payload payloads;
     CodedChain *chain;
 };
 
@@ -82,21 +82,21 @@ CodedChain *encoding_chain(Encoding *encoding) {
 }
 
 const bsmdec_error *encoding_error(const Encoding *encoding) { return &encoding->writer.context.error; }
-const Writing *encoding_payloads(const Encoding *encoding) { return &encoding->payloads; }
+const Payload *encoding_payloads(const Encoding *encoding) { return &encoding->payloads; }
 
 static bool begin_again(Encoding *encoding, int64_t capacity) {
     end_payloads(&encoding->writer.context, &encoding->payloads);
-    encoding->payloads = (Writing){0};
+    encoding->payloads = (Payload){0};
     return begin_payloads(&encoding->writer.context, capacity, &encoding->payloads);
 }
 
-Writing *encoding_anew(Encoding *encoding) {
+Payload *encoding_anew(Encoding *encoding) {
     return begin_again(encoding, 1 << 12) ? &encoding->payloads : NULL;
 }
 
 bool encode_joined(Encoding *encoding, ConstInts2 faces, ConstInts places, bool keep, bool keeps,
     JoinedArrays *arrays) {
-    Writer *writer = &encoding->writer;
+    PayloadWriter *writer = &encoding->writer;
     JoinedMesh *joined = &encoding->joined;
     int64_t n = places.size;
     Ints place;
@@ -135,12 +135,12 @@ bool encode_order(Encoding *encoding, ConstDoubles2 positions) {
     encoding->given.positions = positions;
     end_payloads(section.context, &encoding->payloads);
     put_order(&section, &encoding->coded, &encoding->writer.scratch);
-    encoding->payloads = (Writing){section.data, section.capacity, section.size, {section.size}, 1};
+    encoding->payloads = (Payload){section.data, section.capacity, section.size, {section.size}, 1};
     return !failed(section.context);
 }
 
 bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, CarriedOutcome *whole) {
-    Writer *writer = &encoding->writer;
+    PayloadWriter *writer = &encoding->writer;
     const CodedMesh *coded = &encoding->coded;
     bool by_vertex = given->domain == BSMDEC_VERTEX, by_face = given->domain == BSMDEC_FACE;
     int64_t rows = by_vertex ? encoding->given.vertices : by_face ? encoding->given.faces : given->rows;
@@ -180,20 +180,20 @@ int carried_field(const Encoding *encoding, int key, const double **numbers) {
     return numbers_of(&encoding->declared, key, numbers);
 }
 
-bool encode_positions(Encoding *encoding, const Encoding *like, Written given, const int32_t *largest, int light,
+bool encode_positions(Encoding *encoding, const Encoding *like, Source given, const int32_t *largest, int light,
     const double *origin, double step, const double *exact, const int32_t *transforms, int congruence) {
     const GridField *known = light != LIGHT && like != NULL ? &like->field.grid : NULL;
     return begin_positions(&encoding->field, known != NULL && known->grid.order.data != NULL ? known : NULL,
         &encoding->writer.context, given, largest, light, origin, step, exact, transforms, congruence);
 }
 
-bool encode_levels(Encoding *encoding, Written given) {
+bool encode_levels(Encoding *encoding, Source given) {
     return begin_refinement(&encoding->field, &encoding->writer.context, given);
 }
 
-bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declaration, int64_t size, int64_t vertices,
+bool encode_attribute(Encoding *encoding, Source given, const uint8_t *declaration, int64_t size, int64_t vertices,
     const int32_t *at, const int32_t *places) {
-    Writer *writer = &encoding->writer;
+    PayloadWriter *writer = &encoding->writer;
     Declaration declared;
     return parse_declaration(&writer->context, (Span){declaration, size}, &writer->scratch, &declared)
         && begin_attribute(&encoding->field, &writer->context, given, &declared, vertices, at, places);
@@ -204,7 +204,7 @@ bool encode_chunk(Encoding *encoding, int64_t first, int64_t count) {
         && code_chunk(&encoding->field, first, count, (Span){0}, &encoding->payloads);
 }
 
-bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size) {
+bool decode_field_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size) {
     return code_chunk(&encoding->field, first, count, (Span){payload, size}, NULL);
 }
 

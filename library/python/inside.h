@@ -41,9 +41,9 @@ void close_encoding(Encoding *encoding);
 CodedChain *encoding_chain(Encoding *encoding);
 const bsmdec_error *encoding_error(const Encoding *encoding);
 /* The payloads of the last call that wrote some. */
-const Writing *encoding_payloads(const Encoding *encoding);
+const Payload *encoding_payloads(const Encoding *encoding);
 /* Where payloads are written next, in the place of these; NULL without memory. */
-Writing *encoding_anew(Encoding *encoding);
+Payload *encoding_anew(Encoding *encoding);
 /* Join the vertices of a given mesh at one place (library/encode/encoding.h): the joined vertex of each (-1: in no face
  * that is kept), the first given vertex and the given face of each joined one; how many are merged, or in no face. With
  * `keeps`, those in no face come back. Faces must outlive this. */
@@ -76,14 +76,14 @@ void carried_values(const Encoding *encoding, void *values);
 /* The numbers of a field of its declaration, and how many there are. */
 int carried_field(const Encoding *encoding, int key, const double **numbers);
 /* With `congruence` of the header, its rows of `transforms` (V 17.2), and corners of an encoding like it, or NULL. */
-bool encode_positions(Encoding *encoding, const Encoding *like, Written given, const int32_t *largest, int light,
+bool encode_positions(Encoding *encoding, const Encoding *like, Source given, const int32_t *largest, int light,
     const double *origin, double step, const double *exact, const int32_t *transforms, int congruence);
-bool encode_levels(Encoding *encoding, Written given);
-bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declaration, int64_t size, int64_t vertices,
+bool encode_levels(Encoding *encoding, Source given);
+bool encode_attribute(Encoding *encoding, Source given, const uint8_t *declaration, int64_t size, int64_t vertices,
     const int32_t *at, const int32_t *places);
 /* Write the payloads of rows, or read that of one kind of values. */
 bool encode_chunk(Encoding *encoding, int64_t first, int64_t count);
-bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size);
+bool decode_field_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size);
 /* Round positions to a grid (library/encode/encoding.h). If `bits` is 0, the grid has cells of this size from this
  * origin; if `cell` is 0 as well, it is the grid for exact floats. `grid` gets the origin, the step and the largest
  * place of each axis. */

@@ -85,7 +85,7 @@ def test_the_command_line_has_the_same_targets():
         ({"grid_cell": 1.0, "grid_origin": (0, 1e300, 0)}, bsm.OptionError, "within 1e290"),
         ({"effort": "more"}, bsm.OptionError, "effort must be one of"),
         ({"preset": "fine", "grid": 4}, bsm.OptionError, "grid fixes .* combined with the preset fine"),
-        ({"preset": "best"}, bsm.OptionError, "small, balanced, fine"),
+        ({"preset": "best"}, bsm.OptionError, ", ".join(bsm.PRESETS)),
         ({"theta": 5, "size": 100}, bsm.OptionError, "give one target only"),
         ({"theta": 5, "target": bsm.Target("bpv", 2)}, bsm.OptionError, "give one target only"),
     ],

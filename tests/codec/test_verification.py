@@ -10,7 +10,7 @@ import pytest
 import bsm
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
-from bsm.bitstream.container.packets import Writer
+from bsm.bitstream.container.packets import SectionWriter
 from tests.shapes import curved, torus
 
 MESH = curved(torus(24, 20))
@@ -77,19 +77,19 @@ BROKEN: dict[str, tuple[Callable[[], bytes], type, Change]] = {
 def test_a_broken_writer_is_caught(name: str, checksum: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """Also without the checksum of positions in the stream, which tells decoders most of it."""
     make, kind, change = BROKEN[name]
-    write, end = Writer.write, Writer.end
+    write, end = SectionWriter.write, SectionWriter.end
     touched = []
 
-    def broken(writer: Writer, packet: packets.Packet) -> bytes:
+    def broken(writer: SectionWriter, packet: packets.Packet) -> bytes:
         if type(packet) is kind and not touched:
             touched.append(packet)
             packet = change(packet)
         return write(writer, packet)
 
     make()
-    monkeypatch.setattr(Writer, "write", broken)
+    monkeypatch.setattr(SectionWriter, "write", broken)
     if not checksum:
-        monkeypatch.setattr(Writer, "end", lambda writer, positions=None: end(writer))
+        monkeypatch.setattr(SectionWriter, "end", lambda writer, positions=None: end(writer))
     # What no longer decodes is refused by a limit where it claims too much.
     with pytest.raises((bsm.VerificationError, bsm.LimitError)):
         make()
@@ -97,13 +97,13 @@ def test_a_broken_writer_is_caught(name: str, checksum: bool, monkeypatch: pytes
 
 
 def test_refinement_is_checked(monkeypatch: pytest.MonkeyPatch) -> None:
-    write = Writer.write
+    write = SectionWriter.write
 
-    def broken(writer: Writer, packet: packets.Packet) -> bytes:
+    def broken(writer: SectionWriter, packet: packets.Packet) -> bytes:
         changed = isinstance(packet, packets.Refinement)
         return write(writer, replace(packet, data=flipped(packet.data)) if changed else packet)
 
     assert any(isinstance(event, bsm.RefinementEvent) for event in bsm.Decoder().events([refined()]))
-    monkeypatch.setattr(Writer, "write", broken)
+    monkeypatch.setattr(SectionWriter, "write", broken)
     with pytest.raises(bsm.VerificationError):
         refined()
