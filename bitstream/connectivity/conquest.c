@@ -1,8 +1,14 @@
 /* The conquest: triangle by triangle over a closed surface, the same walk for both directions (specification, C 6).
  *
+ * A front of edges separates triangles that are known from others; a node of it is a vertex with so many edges to
+ * come. The next triangle closes a corner of the front, adds a vertex, whose valence is coded, or meets the front
+ * elsewhere (C. Touma, C. Gotsman, "Triangle mesh compression", 1998). Valences suffice where nothing splits, about
+ * two bits a vertex; contexts are what the front already tells about the vertices there. Borders are closed with
+ * dummies before, so that the walk knows one case less.
+ *
  * An encoder has a guide, which tells each third vertex; without one, the coder's payload does. Whatever a payload
- * says, indices stay inside: a node is made by add_node, a vertex by add_vertex, a face by emit, each
- * of which counts. */
+ * says, indices stay inside: a node is made by add_node, a vertex by add_vertex, a face by emit, each of which
+ * counts. */
 #include "bitstream/connectivity/connectivity.h"
 
 enum { REACH = 4096 /* a node further along the front than this is named by its number instead */ };

@@ -1,4 +1,12 @@
-/* One integer, given predictions of it (specification, V 3 to V 5). */
+/* One integer, given predictions of it (specification, V 3 to V 5).
+ *
+ * In: up to seven predictions in sixteenths, and contexts. Out: the integer, by binary decisions. First it is asked
+ * whether a prediction is right, for those that often were; then the side and the distance from the best guess, in
+ * classes that grow. For every decision each prediction gives odds, from a heavy-tailed distribution around it whose
+ * width it has learnt; a logistic mixer adds them to the odds of the contexts and learns which to believe (as in PAQ,
+ * M. Mahoney 2005). So a bad prediction costs little, and no rule has to say which one holds where. Tables replace
+ * logarithms, and all sums are integers of 32 bits, so that vectors of any width give the same bits. Most of a
+ * decoder's time for grids is spent here: lanes are predictions, not decisions, which depend on each other. */
 #include "bitstream/fields/fields.h"
 
 #if KERNEL_ISA == 4 || (defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__))

@@ -1,4 +1,11 @@
-/* Positions on a grid, vertex after vertex, predicted from coded neighbors (specification, V 7 to V 10). */
+/* Positions on a grid, vertex after vertex, predicted from coded neighbors (specification, V 7 to V 10).
+ *
+ * The order goes where most triangles are known around the next vertex (queues, corners.c), so that it has two flaps
+ * or more to be predicted from. Its position is foretold from parallelograms, planes, closing rings, and values seen
+ * before on the axis, which CAD parts repeat; a learner for each kind of surroundings finds how meshes deviate from a
+ * parallelogram, and how large the error will be. The axis along which the plane is steepest comes last: the plane
+ * then tells it. What the prediction is worth, expectation.simd.c decides for each value. Everything is an integer:
+ * the surroundings steer the decoder. */
 #include "bitstream/fields/twins.h"
 
 enum {

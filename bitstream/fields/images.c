@@ -1,4 +1,8 @@
-/* Vertices that are where an image is: one decision for three values (specification, V 17.11). */
+/* Vertices that are where an image is: one decision for three values (specification, V 17.11).
+ *
+ * Where parts repeat on the grid itself, the cell of a twin's image is right in most cases, and three values at
+ * nearly no bits each still cost more than one decision. Up to two candidates are asked, the better trusted first; a
+ * refuted cell is not asked again, nor coded by value. */
 #include "bitstream/fields/twins.h"
 
 enum { AXES = 3, LIMIT = 255, RATE = 14 };

@@ -1,4 +1,11 @@
-/* Levels that refine a mesh, vertex after vertex, predicted from coded neighbors (specification, V 11). */
+/* Levels that refine a mesh, vertex after vertex, predicted from coded neighbors (specification, V 11).
+ *
+ * In: for each vertex three small integers, how far it lies from a smooth base along the normal and two tangents.
+ * These are most of the bytes of a scan. They look like noise but for a slow drift that the base leaves, so that the
+ * guess is a sum, learnt as it goes, of what neighbors and flaps suggest, and usually 0. A level is then coded as
+ * miss, side, class and place by mixed decisions whose contexts are mainly sizes around: how rough the surface is
+ * here tells more than where the guess lies. This model is much smaller than that of grids, since there is less to
+ * predict. It runs in the order of vertices, which is that of the conquest, and needs faces only. */
 #include "bitstream/fields/fields.h"
 
 enum {

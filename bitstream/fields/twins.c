@@ -1,4 +1,13 @@
-/* What repeats in a mesh: images under transforms, and congruent flaps (specification, V 17). */
+/* What repeats in a mesh: images under transforms, and congruent flaps (specification, V 17).
+ *
+ * A CAD part repeats itself: sectors, mirrored halves, rows of holes. The encoder sends a few rigid transforms; here
+ * both sides find, vertex after vertex, which known vertex is carried to the one at hand: its twin. Twins spread
+ * along the surface: the twin of a vertex lies beside the twins of its neighbors, so that few vertices are looked up
+ * in space, in a hash of cells. Where no transform explains a vertex, echoes may: earlier vertices over a flap of the
+ * same lengths. What is found only predicts (grid.simd.c), so a wrong twin costs bits, never exactness. All is
+ * integers, since both sides must find the same. A hostile mesh could make each look-up walk long chains: visits,
+ * corners and candidates are bounded, and each cell that is looked at is charged (V 17.9). Changing a bound changes
+ * the format. */
 #include "bitstream/fields/twins.h"
 
 enum {

@@ -1,4 +1,10 @@
-/* ORDER: vertices and faces as they were given (specification, F 9, C 9). */
+/* ORDER: vertices and faces as they were given (specification, F 9, C 9).
+ *
+ * The conquest numbers vertices and faces anew. Who needs the old numbers gets them as a permutation: each step says
+ * how many numbers that are still free lie between the last one and this, which is 0 or small where the given order
+ * follows the surface, as it does in most files. Free numbers are counted in a tree, since steps through them one by
+ * one would be quadratic for a shuffled mesh. Copies of a vertex and loose vertices, which the conquest does not see,
+ * are named here, and each face tells by which corner it began. */
 #include "bitstream/payloads/payloads.h"
 
 #include "bitstream/coefficients/coefficients.h"

@@ -1,4 +1,14 @@
-/* GOPs to frames, and back to GOPs (specification, S 3.7 to S 7, S 10). */
+/* GOPs to frames, and back to GOPs (specification, S 3.7 to S 7, S 10).
+ *
+ * A group of frames is a field, a matrix with a row for each vertex and few columns, times a temporal basis: frames
+ * are sums of a few motions. The field is coded part by part like positions of a mesh, by the spectral dictionary of
+ * each part, which follows from the first frame alone. One walk reads and writes: where a target is given (`wanted`),
+ * the walk chooses levels and hands them to the coder, which otherwise reads them, and what comes after sees the same
+ * numbers. So encoder and decoder cannot drift apart, whatever prediction is used. A basis is learnt from the frames
+ * and sent as reflections (S 5), which are orthogonal whatever a payload says; low-delay frames use cosines, so that
+ * no frame waits for a later one. Positions and moving attributes are tracks of one GOP; positions are coded last,
+ * since attributes do not depend on them. Frames are shown in batches, so that a field is read once for several
+ * frames. */
 #include "codec/sequence/gops.h"
 
 #include "bitstream/coefficients/coefficients.h"

@@ -1,7 +1,13 @@
 /* Levels chosen by what each error costs where it is, and by their bits. Encoder only: decoders see levels.
  *
- * Coordinate descent, vertex after vertex and axis after axis, over the levels that may be best: the nearest one, that
- * of the neighbors, none, and those beside the one at hand. */
+ * In: where each vertex should lie along three axes, what an error costs there, and what a level costs by its
+ * distance from what its neighbors suggest. Out: levels, changed in place, and counts of what was taken, from which
+ * the caller makes the rates of the next sweep. Rounding alone would spend the same bits where an error shows (a
+ * bend, a silhouette) and where it does not. The choice is a field in which each level depends on its neighbors, so
+ * the least sum cannot be found; coordinate descent, vertex after vertex and axis after axis, comes near it in two
+ * sweeps. Only the levels that may be best are tried: the nearest one, that of the neighbors, none, and those beside
+ * the one at hand. Normals come last, since they make good what was left along the surface. No vertex may end beyond
+ * its reach, or the largest error that the encoder promises would be lost. */
 #include "codec/geometry/geometry.h"
 #include "codec/static/choice/choice.h"
 

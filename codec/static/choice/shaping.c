@@ -1,8 +1,11 @@
 /* Levels chosen so that normals come out right at few bits, instead of rounding. Encoder only: decoders see levels.
  *
- * Coordinate descent, vertex after vertex: of the levels nearby, the one at which the faces around are bent least, by
- * area-weighted angle (as the chord, 2 sin(angle / 2)), and cheap to code. A vertex is looked at again when it or a
- * neighbor has moved. */
+ * In: the mesh as it should be, levels, and where they bring the vertices. Out: both, changed in place. Rounding
+ * makes each vertex as near as it can be, which leaves normals of small faces to chance; a target that is an angle is
+ * kept with a coarser step if vertices give way together. Coordinate descent, vertex after vertex: of the levels
+ * nearby, the one at which the faces around are bent least, by area-weighted angle (as the chord, 2 sin(angle / 2),
+ * which needs no arc), and cheap to code. A vertex is looked at again when it or a neighbor has moved, so late sweeps
+ * cost little. Edges that fold are counted here, too, and mended: a fold is plain to see whatever the mean angle is. */
 #include "codec/geometry/geometry.h"
 #include "codec/static/choice/choice.h"
 
