@@ -149,7 +149,8 @@ static bool carry(PayloadWriter *writer, const CodedMesh *coded, const bsmenc_at
     return true;
 }
 
-bool carry_attribute(PayloadWriter *writer, const CodedMesh *coded, const bsmenc_attribute *given, int index, Carried *all) {
+bool carry_attribute(
+    PayloadWriter *writer, const CodedMesh *coded, const bsmenc_attribute *given, int index, Carried *all) {
     Declaration *d = &all[index].quantized.declaration;
     Mark mark = mark_of(&writer->scratch);
     all[index].joins = -1;
@@ -193,7 +194,8 @@ bool write_seams(PayloadWriter *writer, const CodedMesh *coded, int index, const
     return done;
 }
 
-bool declare_carried(PayloadWriter *writer, const CodedMesh *coded, int index, const Carried *all, StreamWriter *stream) {
+bool declare_carried(
+    PayloadWriter *writer, const CodedMesh *coded, int index, const Carried *all, StreamWriter *stream) {
     Context *context = &writer->context;
     Buffer entries = {.context = context};
     Payload seams;

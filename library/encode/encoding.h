@@ -167,11 +167,13 @@ typedef struct {
 } Carried;
 
 /* Carry attribute `index`; those before it are carried. */
-bool carry_attribute(PayloadWriter *writer, const CodedMesh *coded, const bsmenc_attribute *given, int index, Carried *all);
+bool carry_attribute(
+    PayloadWriter *writer, const CodedMesh *coded, const bsmenc_attribute *given, int index, Carried *all);
 /* Write the seams of its own of a carried attribute. */
 bool write_seams(PayloadWriter *writer, const CodedMesh *coded, int index, const Carried *all, Payload *writing);
 /* Write the ATTRIBUTE section of a carried attribute. */
-bool declare_carried(PayloadWriter *writer, const CodedMesh *coded, int index, const Carried *all, StreamWriter *stream);
+bool declare_carried(
+    PayloadWriter *writer, const CodedMesh *coded, int index, const Carried *all, StreamWriter *stream);
 /* Write the payloads of VALUES, chunk by chunk, into a buffer, and where each ends; `places`: of vertices on a grid. */
 enum { VALUES_CHUNK = 1 << 15 };
 bool code_carried(PayloadWriter *writer, const CodedMesh *coded, const Carried *carried, const int32_t *places,
