@@ -24,6 +24,7 @@ from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
 from tests.bsm.program import declare_entry_points
 from tests.bsm.test_libraries import painted
+from tools import docs_pages
 from tools.docs_pages import exit_codes
 from tools.noise import gaussian_along_normals
 from tools.pictures import PICTURES
@@ -276,14 +277,16 @@ def public_functions():
 
 
 def test_each_page_of_the_site_is_linked_from_another():
-    pages = [path for folder in (ROOT / "docs", ROOT / "docs" / "guides") for path in sorted(folder.glob("*.md"))]
+    docs = ROOT / "docs"
+    texts = {path: path for folder in (docs, docs / "guides") for path in sorted(folder.glob("*.md"))}
+    texts |= {docs / page: ROOT / source for page, source in docs_pages.ELSEWHERE.items()}
     links = {
         (page.parent / link).resolve()
-        for page in pages
-        for link in re.findall(r"\]\(([\w./-]+\.md)(?:#[\w-]+)?\)", page.read_text("utf-8"))
+        for page, text in texts.items()
+        for link in re.findall(r"\]\(([\w./-]+\.md)(?:#[\w-]+)?\)", text.read_text("utf-8"))
         if (page.parent / link).resolve() != page.resolve()
     }
-    assert not [str(page) for page in pages if page.resolve() not in links and page.name != "index.md"]
+    assert not [str(page) for page in texts if page.resolve() not in links and page.name != "index.md"]
 
 
 def test_docstrings_of_public_arrays_name_shapes():
@@ -321,3 +324,13 @@ def test_the_first_picture_says_what_the_table_says():
     row = next(line for line in (ROOT / "README.md").read_text("utf-8").splitlines() if line.startswith("| bunny"))
     cells = [cell.strip() for cell in row.split("|")]
     assert (figures["file"], figures["balanced"]) == (cells[2], cells[4]), "run python -m tools.pictures MESHES"
+
+
+def test_every_page_and_every_document_of_the_law_is_on_the_site():
+    navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+    pages = [page.removeprefix("docs/") for page in PAGES] + [*docs_pages.ELSEWHERE]
+    missing = [page for page in pages if f": {page}\n" not in navigation and not page.startswith("api/python")]
+    assert missing == []
+    assert set(docs_pages.law().values()) == {f"spec/{path.name}" for path in (ROOT / "spec").glob("*.md")}
+    overview = (ROOT / "spec/README.md").read_text(encoding="utf-8")
+    assert [path.name for path in (ROOT / "spec").glob("*.md") if path.name not in overview] == ["README.md"]

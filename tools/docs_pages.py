@@ -1,15 +1,29 @@
-"""Make the pages that MkDocs does not find in files: the command line and the reference of Python.
+"""Make the pages that MkDocs does not find in `docs`: the law, texts of other folders, the command line, Python.
+
+The site takes each text from the folder that owns it, without links in the file system, which some checkouts lack. All
+documents of the law are pages, so that none can be forgotten.
 
 pip install -e '.[docs,denoise]' && mkdocs build --strict
 """
 
 from inspect import getdoc, isclass, isfunction
+from pathlib import Path
 from typing import Any
 
 import bsm
 from bsm.cli import COMMANDS, command_parser
 from bsm.ground.exits import EXITS
 
+ROOT = Path(__file__).parents[1]
+ELSEWHERE = {
+    "api/javascript.md": "web/README.md",
+    "changes.md": "CHANGELOG.md",
+    "contributing.md": "CONTRIBUTING.md",
+    "guides/blender.md": "plugins/blender/README.md",
+    "guides/untrusted.md": "src/bsm/SERVICE.md",
+    "paper.md": "codec/PAPER.md",
+}
+"""Pages whose texts other folders own."""
 MODULES = {
     "bsm.research": "One's own dictionary, prediction or partition in place of ours",
     "bsm.trimesh": "Streams in trimesh",
@@ -21,8 +35,10 @@ MODULES = {
 
 
 def on_config(config: Any) -> Any:
-    """Put the pages of public names behind those of Python that are written by hand."""
+    """Put the pages of public names after those of Python that are written by hand, and the law where it belongs."""
     for section in config.nav:
+        if "The format" in section:
+            section["The format"] = [*law()]
         if "Reference" in section:
             section["Reference"].insert(
                 1, {"Python": ["api/python.md", *({name: f"api/{name}.md"} for name in reference())]}
@@ -34,6 +50,8 @@ def on_files(files: Any, config: Any) -> Any:
     """Add the pages that are made here."""
     from mkdocs.structure.files import File
 
+    for page, source in (ELSEWHERE | law()).items():
+        files.append(File.generated(config, page, content=(ROOT / source).read_text(encoding="utf-8")))
     files.append(File.generated(config, "api/python.md", content=contents()))
     for name, page in reference().items():
         files.append(File.generated(config, f"api/{name}.md", content=page))
@@ -44,6 +62,17 @@ def on_files(files: Any, config: Any) -> Any:
 def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
     """a[i][j] of the specification is no link."""
     return markdown.replace("][", "]\\[") if page.file.src_uri.startswith("format/") else markdown
+
+
+def law() -> dict[str, str]:
+    """The pages of the specification, and their documents: the overview, the core, extensions, and all else."""
+    names = sorted((path.name for path in (ROOT / "spec").glob("*.md")), key=_place)
+    return {f"format/{name}": f"spec/{name}" for name in names}
+
+
+def _place(name: str) -> tuple[int, str]:
+    kinds = ("README", "core-", "extension-")
+    return next((place for place, kind in enumerate(kinds) if name.startswith(kind)), len(kinds)), name
 
 
 def reference() -> dict[str, str]:
