@@ -277,16 +277,15 @@ def public_functions():
 
 
 def test_each_page_of_the_site_is_linked_from_another():
-    docs = ROOT / "docs"
-    texts = {path: path for folder in (docs, docs / "guides") for path in sorted(folder.glob("*.md"))}
-    texts |= {docs / page: ROOT / source for page, source in docs_pages.ELSEWHERE.items()}
+    texts = [path for folder in ("docs", "docs/guides") for path in sorted((ROOT / folder).glob("*.md"))]
+    texts += [ROOT / source for source in docs_pages.ELSEWHERE.values()]
     links = {
-        (page.parent / link).resolve()
-        for page, text in texts.items()
+        (text.parent / link).resolve()
+        for text in texts
         for link in re.findall(r"\]\(([\w./-]+\.md)(?:#[\w-]+)?\)", text.read_text("utf-8"))
-        if (page.parent / link).resolve() != page.resolve()
+        if (text.parent / link).resolve() != text.resolve()
     }
-    assert not [str(page) for page in texts if page.resolve() not in links and page.name != "index.md"]
+    assert not [str(text) for text in texts if text.resolve() not in links and text.name != "index.md"]
 
 
 def test_docstrings_of_public_arrays_name_shapes():

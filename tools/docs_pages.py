@@ -6,8 +6,10 @@ documents of the law are pages, so that none can be forgotten.
 pip install -e '.[docs,denoise]' && mkdocs build --strict
 """
 
+import re
 from inspect import getdoc, isclass, isfunction
 from pathlib import Path
+from posixpath import dirname, normpath, relpath
 from typing import Any
 
 import bsm
@@ -24,6 +26,7 @@ ELSEWHERE = {
     "paper.md": "codec/PAPER.md",
 }
 """Pages whose texts other folders own."""
+LINK = r"\]\(([\w./-]+\.\w+)(#[\w-]+)?\)"
 MODULES = {
     "bsm.research": "One's own dictionary, prediction or partition in place of ours",
     "bsm.trimesh": "Streams in trimesh",
@@ -60,8 +63,17 @@ def on_files(files: Any, config: Any) -> Any:
 
 
 def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
-    """a[i][j] of the specification is no link."""
-    return markdown.replace("][", "]\\[") if page.file.src_uri.startswith("format/") else markdown
+    """Links lead to files of the repository; on the site, to the pages that are made of them."""
+    place, pages = page.file.src_uri, {source: name for name, source in (ELSEWHERE | law()).items()}
+    source = (ELSEWHERE | law()).get(place, f"docs/{place}")
+
+    def moved(link: re.Match[str]) -> str:
+        file = normpath(f"{dirname(source)}/{link[1]}")
+        name = pages.get(file) or (file.removeprefix("docs/") if file.startswith("docs/") else None)
+        return f"]({relpath(name, dirname(place) or '.')}{link[2] or ''})" if name else link[0]
+
+    # a[i][j] of the specification is no link.
+    return re.sub(LINK, moved, markdown.replace("][", "]\\[") if place.startswith("format/") else markdown)
 
 
 def law() -> dict[str, str]:
