@@ -253,7 +253,7 @@ def test_meshio_data():
     meshio = pytest.importorskip("meshio")
     cells = [("line", [[0, 1]]), ("quad", [[0, 1, 2, 3]]), ("triangle", np.array([[0, 1, 2]], np.uint64))]
     theirs = meshio.Mesh(SQUARE, cells, {"height": [1.0, 2, 3, 4]}, {"kind": [[1], [2], [3]]}, info=["by hand"])
-    with pytest.warns(bsm.BsmWarning, match=r"cells of the type line, info \(by hand\)"):
+    with pytest.warns(bsm.BsmWarning, match=r"cells of the type line \(1\), info \(by hand\)"):
         ours = as_mesh(theirs)
     assert len(ours.faces) == 3
     ragged = meshio.Mesh(SQUARE, [("polygon", [[0, 1, 2, 3]]), ("polygon", [[0, 1, 2]])])

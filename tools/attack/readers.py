@@ -33,7 +33,8 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.npz import write_npy
 from bsm.files.mesh import read_mesh, written_mesh
 from bsm.files.motion.frames import Shared, Wanted
-from bsm.files.sequence import SEQUENCES_READ, open_sequence, sequence_writer
+from bsm.files.sequence import open_sequence, sequence_writer
+from bsm.files.table import SEQUENCES_READ
 from tests.gltf import Built, Tree, glb, unpack
 from tests.shapes import ply_head
 from tools.attack.taken import Taken, bounds, taken_by_each

@@ -29,9 +29,9 @@ from bsm.files.output import default_output, no_link, output_inside, refuse_coll
 from bsm.files.parsing import PRECISION
 from bsm.files.partial import decode_blocks, decode_what_is_left
 from bsm.files.pipes import about, read_chunks, size_of
-from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
+from bsm.files.sequence import SEQUENCE_FORMATS, sequence_kind, sequence_writer
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
-from bsm.files.table import MESH_SUFFIXES, WRITTEN_FORMATS
+from bsm.files.table import MESH_SUFFIXES, ONE_FILE, WRITTEN_FORMATS
 from bsm.ground.console import Console, printable
 from bsm.ground.lengths import metres, unit_of
 from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees

@@ -15,8 +15,8 @@ from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name, look_like_frames
 from bsm.files.output import refuse_collisions
 from bsm.files.pipes import is_url
-from bsm.files.sequence import SEQUENCE_FORMATS, SEQUENCES_READ
-from bsm.files.table import GLTF, MESH_FORMATS, MESH_SUFFIXES, WRITTEN_FORMATS
+from bsm.files.sequence import SEQUENCE_FORMATS
+from bsm.files.table import FORMATS, GLTF, MESH_SUFFIXES, SEQUENCES_READ, WRITTEN_FORMATS
 from bsm.ground.console import Console
 from bsm.jobs.encode import EncodeJob, encode_one, shared_images
 from bsm.jobs.plan import plan, plan_trees
@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "output file, - for a pipe, or folder for several inputs (default: IN with .bsm). Several inputs to one .bsm "
         "are the frames of a sequence",
     )
-    formats = tuple(dict.fromkeys((*MESH_FORMATS, *SEQUENCES_READ)))
+    formats = tuple(kind for kind, row in FORMATS.items() if row.reader or kind in SEQUENCES_READ)
     known = "format of the input, as a suffix without the dot (default: by its name or content)"
     adder(parser)("--format", "FORMAT", known, choices=formats)
     add_encode_flags(parser)

@@ -17,9 +17,9 @@ from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.arrays import as_array
 from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.files.formats.cells import columns_of, of_meshio
 from bsm.files.formats.metadata import plain_fields, without_materials, without_names
 from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, compact, named_column
-from bsm.files.formats.with_meshio import columns_of, of_meshio
 from bsm.files.formats.with_trimesh import joined, polygons_of
 from bsm.files.images import largest_side, with_linked_images
 from bsm.files.mesh import read_mesh
@@ -171,7 +171,7 @@ def _split(flat: Ints) -> tuple[Ints, Ints]:
 
 
 def _of_pyvista(mesh: Any) -> Polygons:
-    left = [name for name in ("verts", "lines", "strips") if getattr(mesh, f"n_{name}")]
+    left = {name: None for name in ("verts", "lines", "strips") if getattr(mesh, f"n_{name}")}
     first, last = mesh.n_verts + mesh.n_lines, mesh.n_cells - mesh.n_strips  # cells are points and lines, too
     cells = {name: values[first:last] for name, values in mesh.cell_data.items()}
     normals, texcoords = mesh.point_data.active_normals_name, mesh.point_data.active_texture_coordinates_name

@@ -29,8 +29,12 @@ from bsm.files.table import FORMATS, GLTF, MESH_FORMATS, USD_FORMATS, WRITTEN_FO
 
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
 _ALL = 1 << 62
-_WAY = "convert it to GLB, OBJ or PLY first, for instance with Blender"
+_WAY = "convert it to GLB, OBJ, PLY or VTU first, with the program that made it"
 _FOREIGN = {
+    ("fbx", "blend", "abc", "3ds", "x3d", "wrl"): "convert it to GLB, OBJ or PLY first, for instance with Blender",
+    ("gii",): "convert it to PLY or VTK, for instance with nibabel or mris_convert",
+    ("frd",): "convert it to .vtu with ccx2paraview",
+    ("op2", "odb", "med", "unv", "rst", "d3plot"): "save it as .vtu, for instance with meshio or ParaView",
     ("step", "stp", "iges", "igs", "brep"): "it holds surfaces; export triangles, for instance with FreeCAD",
     ("las", "laz", "e57", "pcd", "pts"): "it holds points; point clouds are not supported",
     ("zip", "gz", "bz2", "xz", "tar", "tgz"): "it contains files: unpack it, and read its contents",
@@ -100,6 +104,13 @@ def read_cut(
         return found
     path, name = (given.name if given.is_file else None), given.name
     folder = Path(path).parent if path else None
+    if kind in FORMATS and FORMATS[kind].apart:
+        if path is None or given.peek(2) == b"\x1f\x8b":
+            raise FormatError(f".{kind} files are read from an uncompressed file with a name")
+        surface, times = by_name("bsm.files.apart", "surface_of")(path, kind, limits, here=isolated is False)
+        later = (f"later steps ({len(times) - 1})",) * bool(times[1:])
+        still: Polygons = replace(surface, dropped=(*surface.dropped, *later))
+        return still.checked(limits, os.path.getsize(path), cut)
     data = given.read_all()
     if data.startswith(b"\x1f\x8b"):
         path, name, data = None, name.removesuffix(".gz"), gunzipped(data, limits)

@@ -29,14 +29,12 @@ from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
 from bsm.files.motion.frames import Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import Input, Source, as_input, is_pipe, is_url
-from bsm.files.table import FORMATS, GLTF, RATE, TIMES, USD_FORMATS, WRITTEN_FORMATS, XDMF
+from bsm.files.table import FORMATS, GLTF, ONE_FILE, RATE, SEQUENCES_READ, TIMES, WRITTEN_FORMATS
 
 _ISOLATED = ("bsm.files.isolation", "frames_isolated")  # it loads this module
 ZIP = b"PK\x03\x04"
-ONE_FILE = ("npz", "npy", *CACHES, "glb", *USD_FORMATS)  # forms of a whole sequence in one file
 SEQUENCE_FORMATS = (*ONE_FILE, *(name for name in WRITTEN_FORMATS if name not in ONE_FILE))
 """What `bsm decode` can make of a sequence; a form of a mesh is a file for each frame."""
-SEQUENCES_READ = ("npz", "npy", *CACHES, *GLTF, *USD_FORMATS, *XDMF, *folder.LISTS)  # whole sequences in one file
 
 
 def open_sequence(
@@ -59,7 +57,7 @@ def open_sequence(
     if kind in folder.LISTS and given.is_file:
         names, times = folder.listed(given.name, kind, limits)
         return open_frames(names, None, limits, replace(asked, times=times), isolated=isolated)
-    moves = kind in (*CACHES, *USD_FORMATS, *XDMF) or (kind in GLTF and wanted is not None)
+    moves = kind in SEQUENCES_READ and kind not in ("npz", "npy") and (kind not in GLTF or wanted is not None)
     head = b"" if moves else given.peek(len(NPY))
     piped = head == NPY or file_format == "npy"
     packed = head.startswith(ZIP) and (file_format is not None or kind in ("", "npz"))  # a 3MF is a ZIP, too
@@ -69,6 +67,8 @@ def open_sequence(
         found: Frames | None = by_name(*_ISOLATED)(given, file_format, limits, kind, wanted)
     elif kind in CACHES:
         found = read_cache(given.name, kind, asked, limits)
+    elif moves and FORMATS[kind].apart:
+        found = by_name("bsm.files.apart", "frames_of")(given.name, kind, asked, limits, here=isolated is False)
     elif moves:
         row = FORMATS[kind]
         found = by_name(row.modules[0], row.reader.removesuffix("_mesh"))(given.name, asked, limits)
@@ -87,7 +87,7 @@ def open_frames(
         paths = [os.path.abspath(name) for name in ordered]
         frames: Frames = by_name(*_ISOLATED)(paths, file_format, limits, kinds[0], wanted)
         return frames
-    read = partial(read_cut, file_format=file_format, limits=limits, cut=CutAlike(), isolated=False)
+    read = partial(read_cut, file_format=file_format, limits=limits, cut=CutAlike(), isolated=isolated)
     return folder.read_files(ordered, read, wanted)
 
 

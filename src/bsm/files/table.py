@@ -9,6 +9,7 @@ well.
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 START, STEP, TIMES, RATE = "frame_start", "frame_step", "frame_times", "frame_rate"
@@ -24,8 +25,10 @@ class Format:
     reader: str = ""  # of a mesh, in the first of the modules; that of a sequence is called so without _mesh
     writer: str = ""  # and its module
     own: bool = False  # read without the libraries of others
+    frames: str = ""  # a file may hold all frames of a sequence, where it is read ("r") and written ("w")
     beside: bool = False  # materials and images that its metadata name are read from its folder
     by_path: bool = False  # the reader is told the path
+    apart: bool = False  # read in a process of its own, since its library may crash
     begins: bytes = b"(?!)"  # what the first bytes of a file match
     called: str = ""  # in errors, where a file has the suffix of another format
     unit: str = ""
@@ -40,18 +43,26 @@ def _own(kind: str, begins: bytes, **more: Any) -> Format:
     return Format(f"read_{kind}", f"{module}:write_{kind}", True, begins=begins, modules=(module,), **more)
 
 
-def _meshio(part: str) -> Format:
-    return Format(f"read_{part}", by_path=True, modules=("bsm.files.formats.with_meshio", f"meshio.{part}"))
+def _lines(kind: str) -> Format:
+    return Format(f"read_{kind}", modules=(f"bsm.files.formats.{kind}",))
 
 
 _EMPTY_PLY = b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
 _EMPTY_PLY += b"element face 0\nproperty list uchar int vertex_indices\nend_header\n"
 _OBJ = rb"(?:[^\0]{0,65536}[\r\n])?[ \t]*v[ \t]+[-+\d.]"
-_GLTF = Format("read_gltf_mesh", modules=("bsm.gltf.scene", "bsm.gltf.coding", "DracoPy", "PIL.Image"))
-_GLB = replace(_GLTF, writer="bsm.gltf.write:write_glb", begins=b"glTF", called="a GLB", unit="meters", up="y")
+_GLTF = Format("read_gltf_mesh", frames="r", modules=("bsm.gltf.scene", "bsm.gltf.coding", "DracoPy", "PIL.Image"))
+_GLB = replace(
+    _GLTF, frames="rw", writer="bsm.gltf.write:write_glb", begins=b"glTF", called="a GLB", unit="meters", up="y"
+)
 _PXR = ("bsm.files.motion.usd", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel")
+_USD = Format("read_usd_mesh", frames="rw", unit="named", up="named", modules=_PXR)
 _3MF = "bsm.files.formats.three_mf"
-_PARTS = {"vtk": "vtk", "vtu": "vtu", "inp": "abaqus", "bdf": "nastran", "nas": "nastran", "msh": "gmsh"}  # of meshio
+_LINES = {"inp": "abaqus", "bdf": "nastran", "nas": "nastran"}
+_VTK = {
+    "vtkIOLegacy": "vtk", "vtkIOXML": "vtu pvtu vtm pvtp vts pvts vtr pvtr vti pvti", "vtkIOHDF": "vtkhdf",
+    "vtkIOEnSight": "case encas", "vtkIOExodus": "exo ex2 e", "vtkIOCGNSReader": "cgns", "vtkIOGeometry": "foam",
+}  # fmt: skip
+"""Suffixes of what modules of VTK read."""
 XDMF = ("xdmf", "xmf")
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")
 
@@ -62,16 +73,31 @@ FORMATS: Mapping[str, Format] = {
     "glb": replace(_GLB, times=_TIMED),
     "gltf": _GLTF,
     "stl": _own("stl", rb"\s*solid", called="an STL", beside=True, empty=bytes(84)),
-    "npz": _own("npz", rb"(?s:PK\x03\x04.*positions\.npy)", times=frozenset()),
+    "npz": _own("npz", rb"(?s:PK\x03\x04.*positions\.npy)", frames="rw", times=frozenset()),
     "vtp": _own("vtp", rb"(?s:.{0,1000})<VTKFile[^>]*PolyData", times=_TIMED),
     "3mf": Format("read_3mf", f"{_3MF}:write_3mf", unit="named", up="z", modules=(_3MF, "lib3mf")),
     "dae": Format("read_dae", by_path=True, modules=("bsm.files.formats.dae", "collada", "lxml.etree")),
-    **dict.fromkeys(USD_FORMATS, Format("read_usd_mesh", unit="named", up="named", times=_TIMED, modules=_PXR)),
-    **{kind: _meshio(part) for kind, part in _PARTS.items()},
-    **dict.fromkeys(XDMF, replace(_meshio("xdmf"), reader="read_xdmf_mesh")),
-    "npy": Format(times=frozenset()),
-    "pc2": Format(),
-    "mdd": Format(times=_TIMED),
+    **dict.fromkeys(USD_FORMATS, replace(_USD, times=_TIMED)),
+    **{kind: _lines(name) for kind, name in _LINES.items()},
+    "msh": Format("read_gmsh_mesh", frames="r", by_path=True, modules=("bsm.files.formats.gmsh",)),
+    **{
+        kind: Format(
+            "read_vtk",
+            frames="" if module in ("vtkIOLegacy", "vtkIOXML") else "r",
+            apart=True,
+            modules=("bsm.files.formats.with_vtk", f"vtkmodules.{module}"),
+        )
+        for module, kinds in _VTK.items()
+        for kind in kinds.split()
+    },
+    **dict.fromkeys(
+        XDMF, Format("read_xdmf_mesh", frames="r", by_path=True, modules=("bsm.files.formats.xdmf", "h5py"))
+    ),
+    "npy": Format(frames="rw", times=frozenset()),
+    "pc2": Format(frames="rw"),
+    "mdd": Format(frames="rw", times=_TIMED),
+    "pvd": Format(frames="rw", times=_TIMED),
+    "series": Format(frames="r"),
     "tileset": Format(unit="meters", up="z"),
 }
 _FOREIGN = {
@@ -83,8 +109,15 @@ GLTF = ("glb", "gltf")
 WITH_IMAGES_BESIDE = (*(kind for kind, row in FORMATS.items() if row.beside), "gltf", "dae")
 MESH_FORMATS = tuple(kind for kind, row in FORMATS.items() if row.own and row.reader)  # read and written by ourselves
 WRITTEN_FORMATS = tuple(sorted(kind for kind, row in FORMATS.items() if row.writer))
+SEQUENCES_READ, ONE_FILE = (tuple(kind for kind, row in FORMATS.items() if how in row.frames) for how in "rw")
+"""Formats whose files hold a whole sequence, in and out."""
 MESH_SUFFIXES = tuple(f".{kind}" for kind, row in FORMATS.items() if row.reader and kind not in USD_FORMATS)
-"""Suffixes of the mesh files that a search of folders finds."""
+"""Suffixes of the mesh files that are found in folders and by patterns."""
+
+
+def is_mesh_name(path: str) -> bool:
+    """Whether a file is called like a mesh that is read."""
+    return Path(path).suffix[1:].lower() in FORMATS and bool(FORMATS[Path(path).suffix[1:].lower()].reader)
 
 
 def format_of_bytes(data: bytes) -> str | None:

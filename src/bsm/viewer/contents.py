@@ -39,14 +39,14 @@ from bsm.encoding.options import encode_options, sequence_options
 from bsm.encoding.simplification import encode_source
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.libraries import with_texels, without_provenance
-from bsm.files.mesh import by_name, format_of_name, parts_of, read_mesh, size_with_parts
+from bsm.files.mesh import by_name, parts_of, read_mesh, size_with_parts
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.pipes import Input, is_url, read_chunks, size_of
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
-from bsm.files.table import GLTF
+from bsm.files.table import GLTF, is_mesh_name
 from bsm.ground.console import Progress
 from bsm.ground.exits import worded
 
@@ -298,11 +298,11 @@ def given_among(paths: Sequence[str], folder: str) -> list[Given]:
     """Open files that were sent together: one or two with all that they name, or the frames of a sequence."""
     limits = Limits.service()
     caches = [path for path in paths if PurePath(path).suffix[1:].lower() in CACHES]
-    shown = caches or [path for path in paths if path.lower().endswith((".bsm", ".npz")) or format_of_name(path)]
+    shown = caches or [path for path in paths if path.lower().endswith(".bsm") or is_mesh_name(path)]
     if len(shown) > 2:
         frames = replace(given_at(folder, limits), name=PurePath(common_name(shown)).name)
         return [replace(frames, size=sum(size_of(path) or 0 for path in shown), used=tuple(shown))]
-    meshes = [path for path in paths if format_of_name(path)] if caches else []
+    meshes = [path for path in paths if is_mesh_name(path)] if caches else []
     return [given_at(path, limits, Wanted(mesh=meshes[0]) if meshes else _moving(path)) for path in shown or paths[:1]]
 
 

@@ -14,12 +14,15 @@ from bsm import BsmError, Limits, read_mesh
 from bsm.files.mesh import written_mesh
 from bsm.files.table import FORMATS, USD_FORMATS, WRITTEN_FORMATS
 from tests.gltf import unpack
+from tests.grids import save_grid
 from tests.motion import bending, save_frames
 from tests.shapes import torus
 
-MESHIO = {kind: row.modules[1][7:] for kind, row in FORMATS.items() if row.modules[1:] and "meshio." in row.modules[1]}
+MESHIO = {"inp": "abaqus", "bdf": "nastran", "nas": "nastran", "msh": "gmsh", "xdmf": "xdmf", "xmf": "xdmf"}
+VTK = {"vtk": "vtkUnstructuredGridWriter", "vtu": "vtkXMLUnstructuredGridWriter"}  # one of each library of files
 LIBRARIES = {"3mf": "lib3mf", "dae": "collada", **dict.fromkeys(USD_FORMATS, "pxr"), **dict.fromkeys(MESHIO, "h5py")}
-READ = sorted(kind for kind, row in FORMATS.items() if row.reader)
+LIBRARIES |= dict.fromkeys(VTK, "vtk")
+READ = sorted(kind for kind, row in FORMATS.items() if row.reader and (kind in VTK or not row.apart))
 LIMITS = Limits(vertices=10_000, faces=10_000)
 
 
@@ -41,6 +44,9 @@ def valid(kind: str, folder: Path) -> bytes:
         meshio = pytest.importorskip("meshio")
         meshio.write(path, meshio.Mesh(mesh.positions.round(3), {"triangle": mesh.faces}), MESHIO[kind])
         return path.read_bytes()
+    if kind in VTK:
+        save_grid(path, mesh.positions, [(5, face) for face in mesh.faces])
+        return path.read_bytes()
     save_frames(path, path.suffix[1:], *bending(2, 6, 5))
     if kind == "usdz":
         from pxr import UsdUtils
@@ -58,7 +64,13 @@ def test_no_reader_lets_another_error_out(kind: str, tmp_path: Path) -> None:
     cuts = [whole[: len(whole) * part // 9] for part in range(1, 9)]
     counts = [whole[: m.start()] + b"999999999" + whole[m.end() :] for m in list(re.finditer(rb"\d+", whole))[:40:4]]
     longs = [whole[:at] + b"\xff\xff\xff\x7f" + whole[at + 4 :] for at in range(0, min(len(whole) - 4, 400), 20)]
-    if kind in ("usd", "usdc", *MESHIO):  # these libraries take memory for such counts, and only isolation bounds it
+    if kind in (
+        "usd",
+        "usdc",
+        "xdmf",
+        "xmf",
+        *VTK,
+    ):  # these libraries take memory for such counts, and only isolation bounds it
         counts = longs = []
     path = tmp_path / f"mesh.{kind}"
     path.write_bytes(whole)

@@ -4,11 +4,14 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.files.formats.with_meshio import _SHAPES, of_meshio
+from bsm.files import apart
+from bsm.files.formats.cells import _SHAPES, of_meshio
 from bsm.files.motion.frames import Wanted
 from bsm.files.sequence import open_sequence
+from tests.grids import grid, save, save_grid
 
 meshio, _ = pytest.importorskip("meshio"), pytest.importorskip("h5py")
+pytest.importorskip("vtkmodules", reason="needs the extra simulation")
 POINTS = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1, 2)], float)
 CUBES = [[0, 1, 4, 3, 6, 7, 10, 9], [1, 2, 5, 4, 7, 8, 11, 10]]
 KINDS = {"vtk": "vtk", "vtu": "vtu", "inp": "abaqus", "nas": "nastran", "msh": "gmsh", "xdmf": "xdmf"}
@@ -28,9 +31,11 @@ def test_a_volume_of_each_format_is_its_skin_with_its_data(suffix, tmp_path):
     meshio.write(path, meshio.Mesh(POINTS, {"hexahedron": CUBES}, {"heat": np.arange(12.0)}, data), KINDS[suffix])
     mesh, notes, dropped = vars(found := bsm.read_mesh(path)).values()
     assert (len(mesh.positions), len(mesh.faces), volume_of(mesh)) == (12, 20, pytest.approx(2))
-    named = {attribute.name: attribute.values[:, 0].tolist() for attribute in mesh.attributes}
-    assert not data or (named["heat"] == [*range(12)] and named["kind"] == [1.0] * 10 + [2.0] * 10)
-    assert dropped[0] == "the inside of volumes" and dropped[0] in notes[1] and found.mesh is mesh
+    named = {attribute.name: attribute.values[:, 0] for attribute in mesh.attributes}
+    order = np.lexsort(mesh.positions.T)
+    sides = 1.0 + (mesh.positions[mesh.faces].mean(axis=1)[:, 0] > 1)
+    assert not data or (named["heat"][order].tolist() == [*range(12)] and (named["kind"] == sides).all())
+    assert "the inside of volumes" in dropped and dropped[0] in notes[1] and found.mesh is mesh
     path.write_bytes(path.read_bytes()[: path.stat().st_size // 3])
     with pytest.raises(bsm.BsmError):
         bsm.read_mesh(path)
@@ -56,7 +61,7 @@ def test_surfaces_stay_in_order_and_others_are_named():
     )
     left = ("polyhedron4", [[[0, 1, 3], [0, 1, 6], [0, 3, 6], [1, 3, 6]]])
     found = of_meshio(meshio.Mesh(POINTS, [*kinds, left], cell_data={"n": [[0], [1], [2], [3, 4], [5]]}))
-    assert found.dropped == ("cells of the type line", "cells of the type polyhedron4", "the inside of volumes")
+    assert found.dropped == ("cells of the type line (1)", "cells of the type polyhedron4 (1)", "the inside of volumes")
     assert found.columns[0].values[:, 0].tolist() == [1, 2, 2, 2, 3, 4] and found.sizes.tolist() == [4, 3, 3, 3, 3, 3]
     flat = of_meshio(meshio.Mesh(POINTS[:6, :2], [("quad9", [[0, 2, 5, 3, 1, 5, 4, 3, 4]])])).checked(bsm.Limits()).mesh
     assert len(flat.faces) == 6 and not flat.positions[:, 2].any()
@@ -77,3 +82,168 @@ def test_steps_are_frames(data, tmp_path, monkeypatch):
         (tmp_path / "a.xdmf").write_text((tmp_path / "a.xdmf").read_text().replace("a.h5:", "../a.h5:"))
         with pytest.raises(bsm.FormatError, match="not in the folder"):
             bsm.read_mesh("a.xdmf")
+
+
+# ----------------------------------------------------------------------------------------------------------------- VTK
+
+HEXAHEDRA = [(12, cube) for cube in CUBES]
+
+
+@pytest.mark.parametrize("suffix", ["vtk", "vtu", "vtkhdf", "exo"])
+@pytest.mark.parametrize("isolated", [None, False])
+def test_what_vtk_writes_is_read_with_its_values(suffix, isolated, tmp_path):
+    path = tmp_path / f"a.{suffix}"
+    of_points, of_cells = {"heat": np.arange(12.0)}, {"kind": np.array([1.0, 2.0])}
+    save_grid(path, POINTS, HEXAHEDRA, of_points, of_cells)
+    mesh = bsm.read_mesh(path, isolated=isolated).mesh
+    named = {attribute.name: attribute.values[:, 0] for attribute in mesh.attributes}
+    assert volume_of(mesh) == pytest.approx(2) and len(mesh.positions) == 12
+    assert named["heat"][np.lexsort(mesh.positions.T)].tolist() == [*range(12)]
+    assert (named["kind"] == 1 + (mesh.positions[mesh.faces].mean(axis=1)[:, 0] > 1)).all()
+
+
+@pytest.mark.parametrize("kind", CORNERS)
+@pytest.mark.parametrize("curved", [False, True])
+def test_skins_of_vtk_look_outwards_with_the_values_of_their_cells(kind, curved, tmp_path):
+    types = {"tetra": (10, 24), "pyramid": (14, 27), "wedge": (13, 26), "hexahedron": (12, 25)}
+    given, points = CORNERS[kind], [*POINTS]
+    edges = _SHAPES[kind][1].split() if curved else []
+    cells = []
+    for move in (0, 5):
+        first = len(points)
+        points += [*np.add(POINTS, (move, 0, 0))]
+        middles = [first + 12 + place for place in range(len(edges))]
+        points += [(POINTS[given[int(a)]] + POINTS[given[int(b)]]) / 2 + (move, 0, 0) for a, b in edges]
+        cells.append((types[kind][curved], [*(first + corner for corner in given), *middles]))
+    save_grid(tmp_path / "a.vtu", points, cells, {}, {"n": np.array([3, 8])})
+    mesh = bsm.read_mesh(tmp_path / "a.vtu").mesh
+    assert volume_of(mesh) == pytest.approx(2 * VOLUMES[kind])
+    moved = mesh.positions[mesh.faces].mean(axis=1)[:, 0] > 4
+    assert (mesh.attributes[0].values[:, 0] == np.where(moved, 8, 3)).all()
+
+
+LEGACY = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET "
+XML = '<VTKFile type="{0}" version="0.1" byte_order="LittleEndian"><{0}{1}>{2}</{0}></VTKFile>'
+PIECE = (
+    '<Piece NumberOfPoints="3" NumberOfCells="1"><Points><DataArray type="Float64" NumberOfComponents="3" '
+    'format="ascii">{0} 0 0 {1} 0 0 {0} 1 0</DataArray></Points><Cells><DataArray type="Int32" Name="connectivity" '
+    'format="ascii">0 1 2</DataArray><DataArray type="Int32" Name="offsets" format="ascii">3</DataArray>'
+    '<DataArray type="UInt8" Name="types" format="ascii">5</DataArray></Cells></Piece>'
+)
+WRITTEN = {
+    "strips.vtk": (
+        LEGACY + "POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 1 1 0\nTRIANGLE_STRIPS 1 5\n4 0 1 2 3\n",
+        2,
+        1,
+    ),
+    "lines.vtk": (
+        LEGACY + "POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\nLINES 1 3\n2 0 1\nPOLYGONS 1 5\n4 0 1 2 3\n"
+        "CELL_DATA 2\nSCALARS n int 1\nLOOKUP_TABLE default\n7 8\n",
+        2,
+        1,
+    ),
+    "flat.vtk": (LEGACY + "STRUCTURED_POINTS\nDIMENSIONS 3 2 1\nORIGIN 0 0 0\nSPACING 1 1 1\n", 4, 2),
+    "box.vtk": (
+        LEGACY + "RECTILINEAR_GRID\nDIMENSIONS 2 2 2\nX_COORDINATES 2 float\n0 1\nY_COORDINATES 2 float\n0 1\n"
+        "Z_COORDINATES 2 float\n0 1\n",
+        12,
+        6,
+    ),
+    "pieces.vtu": (XML.format("UnstructuredGrid", "", PIECE.format(0, 1) + PIECE.format(5, 7)), 2, 1.5),
+}
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+def test_kinds_of_data_of_vtk(name, tmp_path):
+    text, faces, area = WRITTEN[name]
+    (tmp_path / name).write_text(text)
+    mesh, _, dropped = vars(bsm.read_mesh(tmp_path / name)).values()
+    a, b, c = mesh.positions[mesh.faces.T]
+    assert len(mesh.faces) == faces and np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2 == pytest.approx(area)
+    assert name != "lines.vtk" or (mesh.attributes[0].values[:, 0].tolist() == [8, 8] and "points and lines" in dropped)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "why"),
+    [
+        ("a.vtk", LEGACY + "STRUCTURED_POINTS\nDIMENSIONS 2000 2000 2000\n", "2000 x 2000 x 2000.*contour"),
+        ("a.vti", XML.format("ImageData", ' WholeExtent="0 299 0 299 0 299"', ""), "300 x 300 x 300"),
+        (
+            "a.vtk",
+            LEGACY + "RECTILINEAR_GRID\nDIMENSIONS 900 900 900\nX_COORDINATES 2 float\n0 1\n",
+            "grid of 900 x 900 x 900",
+        ),
+        ("a.vtk", LEGACY + "UNSTRUCTURED_GRID\nPOINTS 3 float\n0 0 0 1 0 0\n", "VTK|rror"),
+        ("a.vtu", "<VTKFile", "."),
+        ("a.vtu", "", "."),
+        ("a.exo", "CDF", "."),
+    ],
+)
+def test_what_has_no_surface_is_refused_by_its_header(name, text, why, tmp_path):
+    (tmp_path / name).write_text(text)
+    with pytest.raises(bsm.FormatError, match=why):
+        bsm.read_mesh(tmp_path / name)
+
+
+def test_blocks_are_parts_with_their_names(tmp_path):
+    model = pytest.importorskip("vtkmodules.vtkCommonDataModel")
+    blocks = model.vtkMultiBlockDataSet()
+    for number, name in enumerate(("left", "right")):
+        blocks.SetBlock(number, grid(np.add(POINTS, (5 * number, 0, 0)), HEXAHEDRA))
+        blocks.GetMetaData(number).Set(model.vtkCompositeDataSet.NAME(), name)
+    writer = pytest.importorskip("vtkmodules.vtkIOXML").vtkXMLMultiBlockDataWriter()
+    writer.SetFileName(str(tmp_path / "a.vtm"))
+    writer.SetInputData(blocks)
+    writer.Write()
+    mesh = bsm.read_mesh(tmp_path / "a.vtm").mesh
+    assert [mesh.metadata[f"part.{number}.name"] for number in range(2)] == ["left", "right"]
+    assert volume_of(mesh) == pytest.approx(4)
+
+
+def test_steps_of_exodus_are_frames(tmp_path):
+    source = pytest.importorskip("vtkmodules.util.vtkAlgorithm").VTKPythonAlgorithmBase
+
+    class Steps(source):
+        def __init__(self):
+            super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkUnstructuredGrid")
+
+        def RequestInformation(self, request, inputs, outputs):
+            about, key = outputs.GetInformationObject(0), self.GetExecutive()
+            about.Set(key.TIME_STEPS(), [0.0, 0.5, 1.0], 3)
+            about.Set(key.TIME_RANGE(), [0.0, 1.0], 2)
+            return 1
+
+        def RequestData(self, request, inputs, outputs):
+            about, key = outputs.GetInformationObject(0), self.GetExecutive().UPDATE_TIME_STEP()
+            time = about.Get(key) if about.Has(key) else 0.0
+            found = grid(POINTS, HEXAHEDRA, {"heat": np.full(12, time)})
+            type(found).GetData(about).DeepCopy(found)
+            return 1
+
+    writer = pytest.importorskip("vtkmodules.vtkIOExodus").vtkExodusIIWriter()
+    steps = Steps()
+    writer.SetInputConnection(steps.GetOutputPort())
+    writer.SetFileName(str(tmp_path / "a.exo"))
+    writer.WriteAllTimeStepsOn()
+    assert writer.Write()
+    frames = open_sequence(str(tmp_path / "a.exo"), wanted=Wanted())
+    assert frames.count == 3 and frames.frame_rate == 2
+    assert [next(a for a in mesh.attributes if a.name == "heat").values[0, 0] for mesh in frames.meshes] == [0, 0.5, 1]
+    assert "later steps (2)" in bsm.read_mesh(tmp_path / "a.exo").dropped
+
+
+def test_a_crash_of_vtk_is_an_error_and_the_next_file_is_read(tmp_path):
+    save_grid(tmp_path / "a.vtu", POINTS, HEXAHEDRA)
+    bsm.read_mesh(tmp_path / "a.vtu")
+    apart._process().kill()
+    with pytest.raises(bsm.FormatError, match="crashed VTK"):
+        bsm.read_mesh(tmp_path / "a.vtu")
+    assert len(bsm.read_mesh(tmp_path / "a.vtu").mesh.faces) == 20
+
+
+def test_a_folder_and_a_pattern_find_every_format_that_is_read(tmp_path):
+    for number in range(3):
+        save(tmp_path / f"s_{number}.vtu", grid(np.add(POINTS, (0, 0, number)), HEXAHEDRA))
+    for name in (str(tmp_path), str(tmp_path / "s_*.vtu")):
+        frames = open_sequence(name)
+        assert [frame[:, 2].min() for frame in frames.frames] == [0, 1, 2]

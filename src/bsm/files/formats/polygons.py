@@ -342,8 +342,15 @@ class Part:
             if column.semantic == "normal":
                 values = turned_normals(column.values.astype(np.float64), linear)
                 columns[place] = replace(column, values=compact(values))
-        positions = self.positions @ linear.T + matrix[:3, 3]
+        with np.errstate(invalid="ignore"):  # a later check refuses infinite values
+            positions = self.positions @ linear.T + matrix[:3, 3]
         return replace(self, positions=positions, corners=self.corners[order], columns=columns)
+
+
+def part_of(polygons: Polygons, name: str) -> Part:
+    """Return polygons as a part without materials."""
+    materials = np.zeros(len(polygons.sizes), np.int64)
+    return Part(polygons.positions, polygons.sizes, polygons.corners, polygons.columns, materials, name)
 
 
 def joined_parts(given: Iterable[Part], counts: Sequence[tuple[int, int]], limits: Limits, received: int) -> Polygons:

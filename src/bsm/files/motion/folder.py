@@ -23,10 +23,10 @@ from bsm.files.conventions import TIME_VALUE
 from bsm.files.formats.metadata import Written
 from bsm.files.formats.polygons import CutAlike, MeshFile
 from bsm.files.formats.vtp import elements_of
-from bsm.files.mesh import format_of_name, read_cut, save_written, written_mesh
-from bsm.files.motion.frames import Frames, Wanted, timing_of
+from bsm.files.mesh import read_cut, save_written, written_mesh
+from bsm.files.motion.frames import Frames, Wanted, rate_of_times, timing_of
 from bsm.files.pipes import about, file_beside, is_pipe, is_url
-from bsm.files.table import FORMATS, START, STEP, WRITTEN_FORMATS
+from bsm.files.table import FORMATS, MESH_SUFFIXES, START, STEP
 
 _NUMBERS = re.compile(r"((?:(?<![^\W_])-)?\d+)")  # a "-" that follows a letter or a digit is a hyphen
 _SIGNED, _DECIMALS = re.compile(r"-?\d+"), re.compile(r"((?:(?<![^\W_])-)?\d+(?:\.\d+)?)")
@@ -44,14 +44,14 @@ def mesh_files(path: str) -> list[str]:
         names = [os.path.join(path, name) for name in os.listdir(path)]
     else:
         names = glob.glob(_PLACE.sub("*", path) if is_numbered(path) else path)
-    return [name for name in names if format_of_name(name) and not os.path.basename(name).startswith(".")]
+    read = (name for name in names if Path(name).suffix.lower() in MESH_SUFFIXES)
+    return [name for name in read if not os.path.basename(name).startswith(".")]
 
 
 def frame_files(path: str) -> list[str]:
     """The mesh files of a folder or pattern, by the numbers in their names."""
     if not (found := mesh_files(path)):
-        known = ", ".join(WRITTEN_FORMATS)
-        raise FormatError(f"no mesh files in {path} ({known}); -r looks in the folders below, too")
+        raise FormatError(f"no mesh files in {path} ({', '.join(MESH_SUFFIXES)}); -r looks in the folders below, too")
     return in_order(found)
 
 
@@ -167,6 +167,11 @@ def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], want
     metadata = {name: value for name, value in first.metadata.items() if name != TIME_VALUE}
     if TIME_VALUE in first.metadata and not times:
         times = [float(read(number).metadata.get(TIME_VALUE, "nan")) for number in range(count)]
+    known = rate_of_times(np.array(times, np.float64))
+    if rate and times and known != rate:
+        notes.append(
+            f"the times of frames are replaced by the frame rate {rate:g}{f'; theirs is {known:g}' * (known > 0)}"
+        )
     rate, timing = timing_of(np.array(times, np.float64), rate) if times else (rate, _numbering(names))
     notes += ["the times of frames are not numbers that grow, and are left out"] if timing is None else []
     last = read(count - 1) if first.attributes and not runs else first

@@ -1,0 +1,100 @@
+"""Readers that may crash: a process of its own runs them, so that a crash is an error, also of a file that is trusted.
+
+The process stays for the next file, since it takes a while to load VTK. Its answers are pickled, which only files that
+are trusted may cause: those from strangers are read in the stricter processes of `isolation.py`, which set `here`.
+"""
+
+import atexit
+import os
+import pickle
+import subprocess
+import sys
+from contextlib import suppress
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from threading import Lock
+from typing import Any, TypeAlias
+
+from bsm.bitstream.errors import BsmError, FormatError, UnsupportedError, imported
+from bsm.bitstream.limits import Limits
+from bsm.files.formats.polygons import CutAlike, MeshFile, Polygons
+from bsm.files.motion.folder import read_files
+from bsm.files.motion.frames import Frames, Wanted
+
+_COMMAND = "from bsm.files.apart import serve; serve()"
+_TURN = Lock()
+Surface: TypeAlias = tuple[Polygons, tuple[float, ...]]
+
+
+def surface_of(path: str, kind: str, limits: Limits, step: int = 0, *, here: bool = False) -> Surface:
+    """The surfaces in a file of VTK at one of its times, and these; `here` reads it in this process."""
+    asked = os.path.abspath(path), kind, limits, step
+    if here:
+        module = imported("bsm.files.formats.with_vtk", f".{kind} files are read with VTK", "simulation")
+        found: Surface = module.read_vtk(*asked)
+        return found
+    with _TURN:
+        process = _process()
+        try:
+            pickle.dump(asked, process.stdin)
+            process.stdin.flush()
+            answer: Surface | BsmError = pickle.load(process.stdout)
+        except (OSError, EOFError, pickle.UnpicklingError) as error:
+            _process.cache_clear()
+            code = _end(process)
+            raise FormatError(f"reading this file crashed VTK (exit code {code})") from error
+    if isinstance(answer, BsmError):
+        raise answer
+    return answer
+
+
+def frames_of(path: str, kind: str, wanted: Wanted, limits: Limits, *, here: bool = False) -> Frames | None:
+    """The steps in a file of VTK as frames; None if it has fewer than two."""
+    _, times = surface_of(path, kind, limits, here=here)
+    cut, size = CutAlike(), os.path.getsize(path)
+
+    def read(name: str) -> MeshFile:
+        return surface_of(path, kind, limits, int(name), here=here)[0].checked(limits, size, cut)
+
+    return read_files([*map(str, range(len(times)))], read, replace(wanted, times=times)) if times[1:] else None
+
+
+@cache
+def _process() -> Any:
+    if not Path(sys.executable or "").name.lower().startswith(("python", "pypy")):
+        raise UnsupportedError("files of VTK are read in a process of their own, and sys.executable is not Python")
+    own = str(Path(sys.modules["bsm"].__file__ or "").parents[1])
+    paths = os.pathsep.join(filter(None, (own, os.environ.get("PYTHONPATH", ""))))
+    pipes: Any = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+    begun = subprocess.Popen([sys.executable, "-P", "-c", _COMMAND], env={**os.environ, "PYTHONPATH": paths}, **pipes)
+    atexit.register(_end, begun)
+    return begun
+
+
+def _end(process: Any) -> int:
+    """Let the process end, and return its exit code."""
+    with suppress(OSError):
+        process.stdin.close()
+    process.stdout.close()
+    code: int = process.wait()
+    return code
+
+
+def serve() -> None:
+    """Read the files that are asked for at standard input, until it ends."""
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # libraries print
+    while True:
+        try:
+            asked = pickle.load(sys.stdin.buffer)
+        except EOFError:
+            return
+        try:
+            answer: Surface | BsmError = surface_of(*asked, here=True)
+        except BsmError as error:
+            answer = error
+        except MemoryError:
+            answer = FormatError("reading this file takes more memory than there is")
+        pickle.dump(answer, answers)
+        answers.flush()

@@ -1,0 +1,171 @@
+"""Abaqus and CalculiX input: shells and the skin of solids, of the model or of each instance of its parts.
+
+A keyword line begins with *, and data lines follow. Nodes and elements are taken in the scope that they are in: the
+model, a part or an instance. Keywords in keywords.csv are harmless; all others refuse the file.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from bsm.bitstream.errors import FormatError
+from bsm.bitstream.limits import Limits
+from bsm.files.formats.cells import skin
+from bsm.files.formats.lines import Keywords, by_number, whole
+from bsm.files.formats.metadata import named
+from bsm.files.formats.polygons import Part, Polygons, joined_parts, part_of, unit_rows
+from bsm.files.parsing import Doubles, Ints, require_counts
+
+_FLAT = r"(?:S|STRI|DS|M3D|R3D|SFM3D|F3D|AC2D|ACAX|DC2D|DCC2D|DCAX|DCCAX|CPS|CPE|CPEG|CAX|CGAX|E2D|WARP2D|COH2D)"
+_SOLID = r"(?:C3D|DC3D|DCC3D|AC3D|SC|CSS|COH3D|Q3D|F3D)"
+_KIND = re.compile(rf"(?:{_FLAT}(?P<flat>[34689])|{_SOLID}(?P<solid>4|5|6|8|10|15|20))(?![0-9V])\w*")
+_SHAPES = {4: "tetra", 5: "pyramid", 6: "wedge", 8: "hexahedron", 10: "tetra", 15: "wedge", 20: "hexahedron"}
+_LINES = re.compile(
+    r"(?:B[23]\d|T[23]D[23]|PIPE|ELBOW|MASS|ROTARYI|SPRING|DASHPOT|CONN|GAP|FRAME|RB|DC1D|DCOUP|D$|ITT|ITS|LS6)\w*"
+)
+"""Elements without a surface."""
+_WAY = "write it as .vtu, e.g. with ccx2paraview or ParaView"
+
+
+@dataclass(eq=False)
+class _Scope:
+    """Nodes and elements with numbers of their own: of the model, a part or an instance."""
+
+    name: str
+    nodes: list[tuple[int, list[str]]] = field(default_factory=list)  # a line, and the data lines that follow
+    elements: list[tuple[str, str, int, list[str]]] = field(default_factory=list)  # with their kind and set
+    placed: Doubles = field(default_factory=lambda: np.eye(4))
+
+
+@dataclass(frozen=True)
+class _Keyword:
+    name: str
+    given: dict[str, str]
+    line: int
+    rows: list[str]
+
+
+def _keywords(lines: list[str]) -> Iterator[_Keyword]:
+    """The keywords of a file with what they say, and the lines of data after them."""
+    open_ = None
+    for number, row in enumerate(lines, 1):
+        line = row.strip()
+        if not line or line.startswith("**"):
+            continue
+        if line.startswith("*"):
+            if open_ is not None:
+                yield open_
+            open_ = _Keyword("", {}, number, [line])
+        elif open_ is None:
+            raise FormatError(f"line {number}: {line[:40]!r} is not a keyword: this is not a file of Abaqus")
+        elif open_.rows[0].endswith(",") and open_.rows[0].startswith("*") and len(open_.rows) == 1:
+            open_.rows[0] += line
+        else:
+            open_.rows.append(line)
+    if open_ is not None:
+        yield open_
+
+
+def _said(keyword: _Keyword) -> _Keyword:
+    """A keyword with its name and parameters."""
+    name, *words = (word.strip() for word in keyword.rows[0][1:].split(","))
+    pairs = (word.partition("=") for word in words if word)
+    given = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
+    return _Keyword(" ".join(name.upper().split()), given, keyword.line, keyword.rows[1:])
+
+
+def read_abaqus(data: bytes, limits: Limits) -> Polygons:
+    table = Keywords("abaqus", _WAY)
+    model, parts, instances = _Scope(""), dict[str, _Scope](), list[_Scope]()
+    scope, assembly = model, False
+    for keyword in map(_said, _keywords(data.decode("latin-1").splitlines())):
+        name, given, line = keyword.name, keyword.given, keyword.line
+        if name == "PART":
+            scope = parts[given.get("NAME", "").upper()] = _Scope(given.get("NAME", ""))
+        elif name == "INSTANCE":
+            part = parts.get(given.get("PART", "").upper())
+            if part is None or {"LIBRARY", "INSTANCE"} & given.keys():
+                raise table.refusal(f"*INSTANCE of {given.get('PART', 'another model')}", line)
+            scope = _Scope(given.get("NAME", ""), [*part.nodes], [*part.elements], _placed(keyword))
+            instances.append(scope)
+        elif name in ("END PART", "END INSTANCE", "ASSEMBLY"):
+            assembly |= name == "ASSEMBLY"
+            scope = _Scope("") if assembly else model  # reference points of an assembly are in no element here
+        elif name == "NODE":
+            if {"SYSTEM", "INPUT"} & given.keys() and given.get("SYSTEM", "").upper() != "R":
+                raise table.refusal(f"*NODE with {' and '.join(given)}", line)
+            scope.nodes.append((line, keyword.rows))
+        elif name == "ELEMENT":
+            if "INPUT" in given or "OFFSET" in given or (assembly and scope not in instances):
+                raise table.refusal(f"*ELEMENT with {', '.join(given)}", line)
+            scope.elements.append((given.get("TYPE", "").upper(), given.get("ELSET", ""), line, keyword.rows))
+        elif "INPUT" in given:
+            raise table.refusal(f"*{name} with INPUT", line)
+        else:
+            called = given.get(name, given.get("NAME", "")) if name in ("NSET", "ELSET", "SURFACE") else ""
+            table.leave(f"{name} {called}".strip(), line)
+    if model.elements and instances:
+        raise table.refusal("*ELEMENT outside of parts", model.elements[0][2])
+    names = dict[str, int]()
+    made = [_surface(one, names, table, limits) for one in instances or [model, *parts.values()]]
+    shown = [part for part, _ in made if len(part.sizes)]
+    counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for part in shown]
+    found = joined_parts(shown, counts, limits, len(data))
+    lost = dict.fromkeys(name for _, left in made for name in left)
+    columns = [column for column in found.columns if column.name != "group" or len(names) > 1]
+    groups = named(list(names), "group") if any(names) else {}
+    return replace(found, dropped=(*lost, *table.named), columns=tuple(columns), metadata={**found.metadata, **groups})
+
+
+def _placed(keyword: _Keyword) -> Doubles:
+    """Where an instance is: moved, then turned around an axis."""
+    try:
+        rows = [[float(word or "0") for word in row.rstrip(", ").split(",")] for row in keyword.rows]
+        found = np.eye(4)
+        if rows:
+            found[:3, 3] = (rows[0] + [0.0] * 3)[:3]
+        if rows[1:]:
+            a, b, angle = np.array(rows[1][:3]), np.array(rows[1][3:6]), np.radians(rows[1][6])
+            x, y, z = unit_rows((b - a)[None])[0]
+            k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+            turn = np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+            about = np.eye(4)
+            about[:3, :3], about[:3, 3] = turn, a - turn @ a
+            found = about @ found
+    except (ValueError, IndexError) as error:
+        raise FormatError(f"line {keyword.line}: the place of an instance is not made of numbers: {error}") from None
+    return found
+
+
+def _surface(scope: _Scope, names: dict[str, int], table: Keywords, limits: Limits) -> tuple[Part, tuple[str, ...]]:
+    """The surface of a scope, and what it leaves out."""
+    rows = [
+        (line, [word.strip() or "0" for word in row.split(",")][:4]) for line, those in scope.nodes for row in those
+    ]
+    require_counts(limits, vertices=len(rows))
+    numbers = whole([words[0] for _, words in rows], "*NODE", rows[0][0] if rows else 0)
+    try:
+        places = np.array([(*words[1:], "0", "0", "0")[:3] for _, words in rows], np.float64).reshape(-1, 3)
+    except ValueError as error:
+        raise FormatError(f"line {rows[0][0]}: a node is not made of numbers: {error}") from None
+    blocks, sets = list[tuple[str, Ints]](), list[int]()
+    for kind, called, line, those in scope.elements:
+        words = ",".join(those).replace(",", " ").split()
+        if (found := _KIND.fullmatch(kind)) is None and kind != "STRI65":
+            if not _LINES.fullmatch(kind):
+                raise table.refusal(f"*ELEMENT of the type {kind or '(none)'}", line)
+            table.left[f"elements of the type {kind}"] += sum(not row.endswith(",") for row in those)
+            continue
+        count = int(found["flat"] or found["solid"]) if found else 6
+        if len(words) % (count + 1):
+            raise FormatError(f"line {line}: elements of the type {kind} do not have {count} nodes each")
+        nodes = whole(words, "*ELEMENT", line).reshape(-1, count + 1)[:, 1:]
+        flat = found is None or found["flat"]
+        blocks.append(((("triangle" if count % 3 == 0 and count < 9 else "quad") if flat else _SHAPES[count]), nodes))
+        sets += [names.setdefault(called, len(names))] * len(nodes)
+    blocks = [(shape, by_number(numbers, nodes)) for shape, nodes in blocks]
+    of_cells = {"group": np.array(sets, np.int32)}
+    skinned = skin(places, blocks, {}, of_cells)
+    return part_of(skinned, scope.name).placed(scope.placed), skinned.dropped

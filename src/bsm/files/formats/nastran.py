@@ -1,0 +1,155 @@
+"""Nastran bulk data: shells and the skin of solids, in basic coordinates, with the number of the property of each.
+
+A card has a name and fields, in eight or sixteen columns or between commas, and goes on in lines that begin with a
+blank field, + or *. Cards of geometry are taken; those in keywords.csv are harmless; all others refuse the file.
+"""
+
+import re
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from bsm.bitstream.errors import FormatError, MeshError
+from bsm.bitstream.limits import Limits
+from bsm.files.formats.cells import skin
+from bsm.files.formats.lines import Keywords, by_number, whole
+from bsm.files.formats.polygons import Polygons, unit_rows
+from bsm.files.parsing import Doubles, Ints, require_counts
+
+Card: TypeAlias = tuple[int, list[str]]
+_ELEMENTS = {
+    "CTRIA3": ("triangle", (3,)), "CTRIAR": ("triangle", (3,)), "CTRIA6": ("triangle", (6, 3)),
+    "CQUAD4": ("quad", (4,)), "CQUADR": ("quad", (4,)), "CSHEAR": ("quad", (4,)), "CQUAD8": ("quad", (8, 4)),
+    "CTETRA": ("tetra", (10, 4)), "CPYRAM": ("pyramid", (13, 5)), "CPENTA": ("wedge", (15, 6)),
+    "CHEXA": ("hexahedron", (20, 8)),
+}  # fmt: skip
+"""Elements that are taken: their shapes, and how many nodes they may have."""
+_ORDER = {15: [*range(9), 12, 13, 14, 9, 10, 11], 20: [*range(12), 16, 17, 18, 19, 12, 13, 14, 15]}
+"""Where nodes on edges are, which Nastran counts from the bottom up."""
+_EXPONENT = re.compile(r"(?<=[\d.])(?:[eEdD])?([+-])(?=\d)|[dD](?=\d)")
+_WAY = "write it as .vtu, e.g. with pyNastran or ParaView"
+
+
+def read_nastran(data: bytes, limits: Limits) -> Polygons:
+    keywords = Keywords("nastran", _WAY)
+    cards = defaultdict[str, list[Card]](list)
+    for name, line, fields in _cards(data.decode("latin-1").splitlines(), keywords):
+        if name in ("GRID", "CORD2R", *_ELEMENTS):
+            cards[name].append((line, fields))
+        else:
+            keywords.leave(name, line)
+    require_counts(limits, vertices=len(cards["GRID"]))
+    grids = _without_repeats(cards["GRID"])
+    numbers = _integers(grids, 0)
+    points = _placed(_reals([(line, row[2:5]) for line, row in grids]), _integers(grids, 1), cards["CORD2R"])
+    blocks, properties = [], list[Ints]()
+    for name, (shape, counts) in _ELEMENTS.items():
+        for count, some in _by_count(name, cards[name], counts, keywords):
+            nodes = np.column_stack([_integers(some, 2 + place) for place in range(count)])
+            blocks.append((shape, by_number(numbers, nodes)[:, _ORDER.get(count, [*range(count)])]))
+            properties.append(_integers(some, 1))
+    of_cells = {"property": np.concatenate(properties)} if properties else {}
+    return skin(points, blocks, {}, of_cells, keywords.named)
+
+
+def _cards(lines: Sequence[str], keywords: Keywords) -> Iterator[tuple[str, int, list[str]]]:
+    """The cards of bulk data: their names, lines and fields."""
+    starts = [place for place, line in enumerate(lines) if re.match(r"\s*BEGIN\b", line, re.I)]
+    if len(starts) > 1 or (starts and not re.match(r"\s*BEGIN(\s+BULK)?\s*(\$.*)?$", lines[starts[0]], re.I)):
+        raise keywords.refusal(lines[starts[-1]].strip()[:40], starts[-1] + 1)
+    first = starts[0] + 1 if starts else 0
+    name, begun, fields = "", 0, list[str]()
+    for number, given in enumerate(lines[first:], first + 1):
+        line = given.partition("$")[0].rstrip()
+        if not line.strip():
+            continue
+        if re.match(r"\s*[\w*+]*\s*,", line):
+            words = [word.strip() for word in line.split(",")]
+            head, step = words[0], 4 if words[0].endswith("*") else 8
+            row = words[1 : 1 + step]
+        else:
+            line = line.expandtabs(8)
+            head = line[:8].strip()
+            width, step = (16, 4) if head.endswith("*") else (8, 8)
+            row = [line[at : at + width].strip() for at in range(8, min(len(line), 72), width)]
+        if head[:1] in ("", "+", "*") and (head[:1] or name):
+            fields += row + [""] * (step - len(row))
+            continue
+        if name:
+            yield name, begun, fields
+        name, begun, fields = head.rstrip("*").upper(), number, row + [""] * (step - len(row))
+        if name == "ENDDATA":
+            return
+        if not re.fullmatch("[A-Z][A-Z0-9]{0,7}", name):
+            raise FormatError(f"line {number}: {given.strip()[:40]!r} is not a card of Nastran")
+    if name:
+        yield name, begun, fields
+
+
+def _integers(cards: Sequence[Card], place: int) -> Ints:
+    """One field of cards as whole numbers; a blank one is 0."""
+    words = [row[place] or "0" if place < len(row) else "0" for _, row in cards]
+    return whole(words, "a card", cards[0][0] if cards else 0)
+
+
+def _reals(cards: Sequence[Card]) -> Doubles:
+    """The fields of cards as numbers, as Nastran writes them: 7.-3 is 7e-3."""
+    text = _EXPONENT.sub(lambda found: f"e{found[1] or ''}", " ".join(word or "0" for _, row in cards for word in row))
+    try:
+        return np.array(text.split(), np.float64).reshape(len(cards), len(cards[0][1]) if cards else 3)
+    except ValueError:
+        for line, row in cards if len(cards) > 1 else ():
+            _reals([(line, row)])
+        line, row = cards[0]
+        raise FormatError(f"line {line}: {' '.join(row)[:60]!r} are not {len(row)} numbers") from None
+
+
+def _without_repeats(cards: Sequence[Card]) -> list[Card]:
+    """Cards without those that say the same again."""
+    known = {tuple(row): (line, row) for line, row in reversed(cards)}
+    return list(reversed(known.values()))
+
+
+def _by_count(
+    name: str, cards: Sequence[Card], counts: Sequence[int], keywords: Keywords
+) -> Iterator[tuple[int, list[Card]]]:
+    """Elements by how many nodes they have; nodes on edges are all there, or none."""
+    found = defaultdict[int, list[Card]](list)
+    for line, row in cards:
+        there = [word not in ("", "0") for word in row[2 : 2 + counts[0]]]
+        count = next((n for n in counts if all(there[:n]) and len(there) >= n and not any(there[n:])), 0)
+        if not count:
+            raise keywords.refusal(f"{name} with {sum(there)} of {counts[0]} nodes", line)
+        found[count].append((line, row))
+    yield from found.items()
+
+
+def _placed(points: Doubles, systems: Ints, cards: Sequence[Card]) -> Doubles:
+    """Points of coordinate systems in basic coordinates."""
+    given = {row[0]: (line, row) for line, row in cards}
+    places = dict[str, tuple[Doubles, Doubles]]()
+
+    def system(number: str, below: tuple[str, ...] = ()) -> tuple[Doubles, Doubles]:
+        if number in ("", "0"):
+            return np.eye(3), np.zeros(3)
+        if number not in given or number in below:
+            why = "refers to itself" if number in below else "is not there, or not rectangular (CORD2R)"
+            raise FormatError(f"the coordinate system {number} {why}; {_WAY}")
+        if number not in places:
+            line, row = given[number]
+            axes, origin = system(row[1], (*below, number))
+            a, b, c = _reals([(line, (row[2:11] + [""] * 9)[:9])]).reshape(3, 3) @ axes.T + origin
+            z = unit_rows((b - a)[None])[0]
+            y = unit_rows(np.cross(z, c - a)[None])[0]
+            if not y.any():
+                raise MeshError(f"line {line}: the axes of the coordinate system {number} lie on a line")
+            places[number] = np.column_stack([np.cross(y, z), y, z]), a
+        return places[number]
+
+    found = points.copy()
+    for number in np.unique(systems).tolist():
+        axes, origin = system(str(number))
+        found[systems == number] = points[systems == number] @ axes.T + origin
+    return found

@@ -1,0 +1,180 @@
+"""Files that VTK reads, its own and those of solvers: surfaces, and the skin of volumes (the extra `simulation`).
+
+Readers of VTK crash on some damaged files, so `files/apart.py` runs `read_vtk` in a process of its own. A header that
+announces an image, or a grid of more points than the file has bytes, is refused before its points are allocated. The
+surfaces of a file become parts of one mesh. Errors that VTK reports refuse the file; its warnings are named as losses.
+"""
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkSMPTools, vtkStringArray, vtkStringOutputWindow
+from vtkmodules.vtkCommonDataModel import vtkGenericCell
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+from vtkmodules.vtkFiltersCore import vtkCellCenters, vtkTriangleFilter
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+
+from bsm.bitstream.errors import FormatError, imported
+from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.attributes import Domain, Semantic
+from bsm.files.formats.cells import INSIDE, columns_of
+from bsm.files.formats.metadata import plain_fields
+from bsm.files.formats.polygons import Column, Part, Polygons, joined_parts, polygon_normals, turned_corners
+from bsm.files.parsing import Doubles, Ints, as_library_error, require_counts
+from bsm.files.table import FORMATS
+
+_READERS = {
+    "vtkIOLegacy": "vtkGenericDataObjectReader", "vtkIOXML": "vtkXMLGenericDataObjectReader",
+    "vtkIOHDF": "vtkHDFReader", "vtkIOEnSight": "vtkGenericEnSightReader", "vtkIOExodus": "vtkExodusIIReader",
+    "vtkIOCGNSReader": "vtkCGNSReader", "vtkIOGeometry": "vtkOpenFOAMReader",
+}  # fmt: skip
+"""The reader in each module of VTK."""
+_ALL_OF = ("PointArrays", "CellArrays", "Bases", "Families", "PatchArrays")
+_CELL = "vtkCell"
+_OWN = re.compile(f"vtkGhostType|vtkValidPointMask|{_CELL}")
+_SAID = re.compile(r"(ERROR|Warning): In [^\n]*\n\w+ \(0x\w+\): ")
+
+
+def read_vtk(path: str, kind: str, limits: Limits, step: int = 0) -> tuple[Polygons, tuple[float, ...]]:
+    """The surfaces of a file at one of its times, and these."""
+    vtkOutputWindow.SetInstance(said := vtkStringOutputWindow())
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    vtkSMPTools.SetBackend("Sequential")  # a process that reads files from strangers may start no thread
+    size = Path(path).stat().st_size
+    with as_library_error("VTK"):
+        module = FORMATS[kind].modules[1]
+        reader = getattr(imported(module, "", "simulation"), _READERS[module.partition(".")[2]])()
+        getattr(reader, "SetCaseFileName" if module.endswith("EnSight") else "SetFileName")(path)
+        times = _opened(reader, kind, size, limits)
+        if times:
+            reader.UpdateTimeStep(times[step])
+        reader.Update()
+        data, words = reader.GetOutputDataObject(0), _SAID.split(said.GetOutput())
+        if "ERROR" in words or data is None:
+            raise FormatError(
+                " ".join(words[words.index("ERROR") + 1].split()) if "ERROR" in words else "there is none"
+            )
+        left = dict.fromkeys(" ".join(text.split()) for text in words[2::2])
+        leaves = [*_leaves(data, "")]
+        parts = [part for leaf, name in leaves if (part := _part(leaf, name, left)) is not None]
+    counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for part in parts]
+    whole = joined_parts(parts, counts, limits, size)
+    fields = {name: values for leaf, _ in (*leaves, (data, "")) for name, values in _arrays(leaf.GetFieldData(), left)}
+    known, others = plain_fields(fields)
+    return replace(whole, dropped=(*left, *others), metadata={**whole.metadata, **known}), times
+
+
+def _opened(reader: Any, kind: str, size: int, limits: Limits) -> tuple[float, ...]:
+    """Let a reader read all that is in a file, and return its times; refuse images and grids by their header."""
+    if kind == "vtk":
+        for what in ("Scalars", "Vectors", "Normals", "Tensors", "TCoords", "Fields", "ColorScalars"):
+            getattr(reader, f"ReadAll{what}On")()
+    reader.UpdateInformation()
+    for what in _ALL_OF:
+        getattr(reader, f"EnableAll{what}", int)()
+    if kind == "foam":  # the patches are the skin of what is inside
+        names = [reader.GetPatchArrayName(place) for place in range(reader.GetNumberOfPatchArrays())]
+        for name in names:
+            reader.SetPatchArrayStatus(name, int(name != "internalMesh" or len(names) == 1))
+    for what in ("NODAL", "ELEM_BLOCK") if hasattr(reader, "SetAllArrayStatus") else ():
+        reader.SetAllArrayStatus(getattr(reader, what), 1)
+    about, data = reader.GetOutputInformation(0), reader.GetOutputDataObject(0)
+    extent = about.Get(Pipeline.WHOLE_EXTENT()) if about.Has(Pipeline.WHOLE_EXTENT()) else ()
+    counts = [high - low + 1 for low, high in zip(extent[::2], extent[1::2])]
+    what = " x ".join(map(str, counts))
+    if data is not None and data.IsA("vtkImageData") and min(counts, default=0) > 1:
+        raise FormatError(f"this is an image of {what} points; extract a contour, e.g. in ParaView")
+    if math.prod(counts) > max(size, 1):
+        raise FormatError(f"this is a grid of {what} points in {size} bytes; extract a surface, e.g. in ParaView")
+    require_counts(limits, vertices=math.prod(counts) if counts and min(counts) == 1 else 0)
+    return tuple(about.Get(Pipeline.TIME_STEPS())) if about.Has(Pipeline.TIME_STEPS()) else ()
+
+
+def _leaves(data: Any, name: str) -> Iterator[tuple[Any, str]]:
+    """The sets of data below one, with their names, or those above them."""
+    below = {"vtkPartitionedDataSetCollection": "PartitionedDataSet", "vtkMultiBlockDataSet": "Block"}
+    of_one = "Partition" if data.IsA("vtkPartitionedDataSet") else ""
+    what = next((what for kind, what in below.items() if data.IsA(kind)), of_one)
+    for place in range(getattr(data, f"GetNumberOf{what}s")() if what else 0):
+        about = data.GetMetaData(place) if data.HasMetaData(place) else None
+        called = about.Get(data.NAME()) if about is not None and about.Has(data.NAME()) else name
+        if (one := getattr(data, f"Get{what}")(place)) is not None:
+            yield from _leaves(one, called)
+    if not what:
+        yield data, name
+
+
+def _part(data: Any, name: str, left: dict[str, None]) -> Part | None:
+    """The surface of a set of data; None if it has none."""
+    if not data.IsA("vtkDataSet"):
+        left[f"a {data.GetClassName().removeprefix('vtk')}"] = None
+        return None
+    if data.IsA("vtkImageData") and min(data.GetDimensions()) > 1:
+        left["images in three dimensions"] = None
+        return None
+    surface = data
+    if not data.IsA("vtkPolyData"):
+        numbers = numpy_to_vtk(np.arange(data.GetNumberOfCells(), dtype=np.int64), deep=True)
+        numbers.SetName(_CELL)  # where cells are curved, those that the filter passes count something else
+        data.GetCellData().AddArray(numbers)
+        surface = _through(vtkDataSetSurfaceFilter(), data)
+    before = surface.GetNumberOfVerts() + surface.GetNumberOfLines()
+    left |= {"points and lines": None} if before else {}
+    if surface.GetNumberOfStrips():
+        surface, before = _through(vtkTriangleFilter(), surface), 0
+    if not surface.GetNumberOfPolys():
+        return None
+    positions = np.array(vtk_to_numpy(surface.GetPoints().GetData()), np.float64)
+    corners = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).astype(np.int64)
+    sizes = np.diff(vtk_to_numpy(surface.GetPolys().GetOffsetsArray()).astype(np.int64))
+    columns: list[Column] = []
+    domains: tuple[tuple[Any, Domain, int], ...] = (
+        (surface.GetPointData(), "vertex", 0), (surface.GetCellData(), "face", before),
+    )  # fmt: skip
+    for given, domain, first in domains:
+        shown: tuple[tuple[Any, Semantic], ...] = ((given.GetTCoords(), "texcoord"), (given.GetNormals(), "normal"))
+        active = {array.GetName(): meaning for array, meaning in shown if array is not None}
+        columns += columns_of({name: v[first:] for name, v in _arrays(given, left)}, domain, left, active)
+    if not data.IsA("vtkPolyData"):
+        cells = vtk_to_numpy(surface.GetCellData().GetArray(_CELL))[before:]
+        inward = _inward(data, cells, positions, sizes, corners, left)
+        corners = corners[turned_corners(sizes, inward)]
+    return Part(positions, sizes, corners, columns, np.zeros(len(sizes), np.int64), name)
+
+
+def _through(step: Any, data: Any) -> Any:
+    """What a filter makes of a set of data."""
+    step.SetInputData(data)
+    for what in ("PassVerts", "PassLines"):
+        getattr(step, f"Set{what}", int)(0)
+    step.Update()
+    return step.GetOutput()
+
+
+def _inward(data: Any, cells: Ints, positions: Doubles, sizes: Ints, corners: Ints, left: dict[str, None]) -> Any:
+    """Which polygons of the skin of volumes look inwards: writers order the corners of wedges in either way."""
+    kinds = np.array([data.GetCellType(cell) for cell in np.unique(cells).tolist()])
+    dims = {kind: vtkGenericCell.InstantiateCell(kind).GetCellDimension() for kind in np.unique(kinds).tolist()}
+    solid = np.array([dims[kind] == 3 for kind in kinds.tolist()])[np.searchsorted(np.unique(cells), cells)]
+    left |= {INSIDE: None} if solid.any() else {}
+    middles = vtk_to_numpy(_through(vtkCellCenters(), data).GetPoints().GetData())[cells]
+    centers = np.add.reduceat(positions[corners], np.cumsum(sizes) - sizes) / sizes[:, None]
+    return solid & ((polygon_normals(positions, sizes, corners) * (centers - middles)).sum(axis=1) < 0)
+
+
+def _arrays(given: Any, left: dict[str, None]) -> Iterator[tuple[str, Any]]:
+    """The arrays of data that VTK holds, by their names."""
+    for place in range(given.GetNumberOfArrays()):
+        array, name = given.GetAbstractArray(place), given.GetAbstractArray(place).GetName() or f"array {place}"
+        if isinstance(array, vtkStringArray):
+            yield name, np.array([array.GetValue(row) for row in range(array.GetNumberOfValues())])
+        elif not array.IsA("vtkDataArray"):
+            left[name] = None
+        elif not _OWN.fullmatch(name):
+            yield name, vtk_to_numpy(array)

@@ -1,0 +1,270 @@
+"""XDMF: grids in XML, whose numbers are there, in HDF5, or in binary files beside it (the extra `simulation`).
+
+All temporal collections of a file play together: their steps have the same times, and the arrays of each are those of
+the mesh. Collections in space become parts. Elements, kinds of cells and of numbers that are not known are refused.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bsm.bitstream.errors import FormatError, MeshError, imported
+from bsm.bitstream.limits import Limits
+from bsm.files.formats.cells import runs, skin
+from bsm.files.formats.polygons import CutAlike, MeshFile, Polygons, joined_parts, part_of
+from bsm.files.motion.folder import read_files
+from bsm.files.motion.frames import Frames, Wanted
+from bsm.files.parsing import Ints, as_library_error, require_inflated
+from bsm.files.pipes import about, file_beside
+
+_CELLS = {
+    1: "polyvertex", 2: "polyline", 3: "polygon", 4: "triangle3", 5: "quad4 quadrilateral4", 6: "tetra4 tetrahedron4",
+    7: "pyramid5", 8: "wedge6", 9: "hexahedron8", 34: "edge3", 35: "quad9 quadrilateral9",
+    36: "tri6 triangle6", 37: "quad8 quadrilateral8", 38: "tet10 tetrahedron10", 39: "pyramid13", 40: "wedge15",
+    41: "wedge18", 48: "hex20 hexahedron20", 50: "hex27 hexahedron27",
+}  # fmt: skip
+"""Kinds of cells by their numbers in mixed topologies: names, and how many points they have."""
+_SHORT = {"tri": "triangle", "tet": "tetra", "tetrahedron": "tetra", "quadrilateral": "quad", "hex": "hexahedron"}
+_COUNTED = (1, 2, 3)  # kinds with a number of points before these
+_KNOWN = ("Topology", "Geometry", "Attribute", "Time", "Information", "Grid", "DataItem")
+_TIME = {"List": lambda v: v, "HyperSlab": lambda v: v[0] + v[1] * np.arange(int(v[2])), "Single": lambda v: v}
+_WAY = "save it as .vtu, e.g. with ParaView"
+
+
+class _Document:
+    """The grids of a file, and the numbers that they name."""
+
+    def __init__(self, data: bytes, path: str | None, limits: Limits) -> None:
+        if path is None:
+            raise FormatError("this format is read from an uncompressed file with a name")
+        xml = imported("lxml.etree", "XDMF is read with lxml", "simulation")
+        self._folder, self._limits = Path(path).resolve().parent, limits
+        with as_library_error("lxml"):
+            self.root = xml.fromstring(
+                data, xml.XMLParser(resolve_entities=False, no_network=True, remove_comments=True)
+            )
+            for tag in ("Grid", "Topology", "Geometry", "Attribute", "DataItem"):
+                for element in [*self.root.iter(tag)]:
+                    self._resolve(element)
+
+    def _resolve(self, element: Any) -> None:
+        """Put what an element refers to in its place."""
+        for include in [child for child in element if str(child.tag).endswith("}include")]:
+            if include.get("href"):
+                raise FormatError(f"this XDMF includes {include.get('href')}; {_WAY}")
+            pointer = str(include.get("xpointer", "")).removeprefix("xpointer(").removesuffix(")")
+            element.extend([child.__deepcopy__({}) for child in self.root.xpath(pointer)])
+            element.remove(include)
+        if reference := element.get("Reference"):
+            found = self.root.xpath((element.text or "").strip() if reference == "XML" else reference)
+            if len(found) != 1 or found[0].get("Reference"):
+                raise FormatError(f"the reference {reference[:80]} does not lead to one element")
+            element[:], element.text = [child.__deepcopy__({}) for child in found[0]], found[0].text
+            element.attrib.update({**found[0].attrib, **element.attrib})
+
+    def numbers(self, parent: Any) -> Any:
+        """The numbers of the data item in an element."""
+        if len(items := parent.findall("DataItem")) != 1:
+            raise FormatError(f"{parent.tag} {parent.get('Name', '')} has {len(items)} data items; {_WAY}")
+        return self._item(items[0])
+
+    def _item(self, item: Any) -> Any:
+        kind, form = item.get("ItemType", "Uniform"), item.get("Format", "XML")
+        words = (item.text or "").strip()
+        shape = [int(word) for word in str(item.get("Dimensions", "")).split()]
+        if kind == "HyperSlab":
+            at, whole = (self._item(child) for child in item.findall("DataItem"))
+            rows = zip(*at.reshape(3, -1).astype(np.int64).tolist(), strict=True)
+            return whole[tuple(slice(first, first + step * count, step) for first, step, count in rows)]
+        if kind != "Uniform" or form not in ("XML", "HDF", "Binary"):
+            raise FormatError(f"this XDMF has data items of the kind {kind}, {form}; {_WAY}")
+        if form == "XML":
+            values = np.array(words.split(), np.float64)
+        else:
+            name, _, place = words.partition(":") if form == "HDF" else (words, "", "")
+            with about(name):
+                path = file_beside(self._folder, name.strip())
+            values = self._in_hdf(path, place) if form == "HDF" else self._in_file(path, item, shape)
+        return values.reshape(shape) if shape else values
+
+    def _in_hdf(self, path: Path, place: str) -> Any:
+        with as_library_error("h5py"), imported("h5py", "XDMF is read with h5py", "simulation").File(path, "r") as file:
+            table = file[place]
+            require_inflated(table.size * table.dtype.itemsize, path.stat().st_size, self._limits)
+            return table[()]
+
+    def _in_file(self, path: Path, item: Any, shape: Sequence[int]) -> Any:
+        kinds = {"Float": "f", "Int": "i", "UInt": "u", "Char": "i", "UChar": "u"}
+        kind, given = kinds.get(item.get("NumberType", item.get("DataType", "Float"))), item.get("Compression", "Raw")
+        size = item.get("Precision", "1" if "Char" in item.get("NumberType", "") else "4")
+        if kind is None or given != "Raw":
+            raise FormatError(f"this XDMF has binary numbers of an unknown kind; {_WAY}")
+        code = (">" if item.get("Endian") == "Big" else "<") + kind + size
+        found = np.fromfile(path, code, int(np.prod(shape)), offset=int(item.get("Seek", 0)))
+        return found.astype(found.dtype.newbyteorder("="))
+
+    # ------------------------------------------------------------------------------------------------------- grids
+
+    def steps(self) -> list[tuple[float, list[Any]]]:
+        """The times of steps, and the grids of each."""
+        grids = self.root.findall("Domain/Grid")
+        series = [grid for grid in grids if grid.get("CollectionType") == "Temporal"]
+        if not series:
+            return [(0.0, grids)]
+        others = [grid for grid in grids if grid not in series and grid.find("Attribute") is not None]
+        found = [[*zip(self._times(grid), grid.findall("Grid"), strict=True)] for grid in series]
+        times = [[time for time, _ in steps] for steps in found]
+        if others or any(other != times[0] for other in times):
+            name = (others or [s for s, t in zip(series, times) if t != times[0]])[0].get("Name", "")
+            raise FormatError(
+                f"the grid {name} does not have the times of the others; {_WAY}, or write one file for each"
+            )
+        whole = next((grid for grid in self.root.iter("Grid") if grid.find("Topology") is not None), None)
+        for _, grid in (step for steps in found for step in steps):
+            for tag in ("Topology", "Geometry"):
+                if whole is not None and grid.get("GridType", "Uniform") == "Uniform" and grid.find(tag) is None:
+                    grid.append(whole.find(tag).__deepcopy__({}))
+        together = zip(times[0], *([grid for _, grid in steps] for steps in found), strict=True)
+        return sorted(((time, grids) for time, *grids in together), key=lambda step: step[0])
+
+    def _times(self, series: Any) -> list[float]:
+        """When the steps of a series are."""
+        steps, time = series.findall("Grid"), series.find("Time")
+        if time is None:
+            given = [step.find("Time") for step in steps]
+            return [float(place) if one is None else float(one.get("Value")) for place, one in enumerate(given)]
+        kind = time.get("TimeType", "Single")
+        if kind not in _TIME:
+            raise FormatError(f"this XDMF has times of the kind {kind}; {_WAY}")
+        values = (
+            self.numbers(time).ravel() if time.find("DataItem") is not None else np.array([float(time.get("Value"))])
+        )
+        found: list[float] = np.asarray(_TIME[kind](values), np.float64).tolist()
+        if len(found) != len(steps):
+            raise FormatError(f"there are {len(found)} times for {len(steps)} steps")
+        return found
+
+    def surface(self, grids: Sequence[Any], size: int) -> Polygons:
+        """The surfaces of grids; those over the same mesh are one."""
+        every = [leaf for grid in grids for leaf in self._leaves(grid)]
+        shapes = [self._shape(leaf) for leaf in every]
+        merged: dict[int, list[int]] = {}
+        for place, (points, blocks) in enumerate(shapes):
+            same = (first for first in merged if _same(shapes[first], (points, blocks)) and len(grids) > 1)
+            merged.setdefault(next(same, place), []).append(place)
+        parts = [self._part(shapes[first], [every[place] for place in those]) for first, those in merged.items()]
+        if len(parts) == 1:
+            return parts[0]
+        names = [str(every[first].get("Name", "")) for first in merged]
+        made = [part_of(*one) for one in zip(parts, names, strict=True)]
+        counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for part in made]
+        lost = dict.fromkeys(name for part in parts for name in part.dropped)
+        return replace(joined_parts(made, counts, self._limits, size), dropped=tuple(lost))
+
+    def _leaves(self, grid: Any) -> list[Any]:
+        if unknown := next((str(child.tag) for child in grid if child.tag not in _KNOWN), None):
+            raise FormatError(f"this XDMF has the element {unknown}, which is not known here; {_WAY}")
+        kind, below = grid.get("GridType", "Uniform"), grid.findall("Grid")
+        if grid.get("CollectionType") == "Temporal" or kind not in ("Uniform", "Collection", "Tree"):
+            raise FormatError(f"this XDMF has grids of the kind {kind} in others; {_WAY}")
+        return [leaf for one in below for leaf in self._leaves(one)] if kind != "Uniform" else [grid]
+
+    def _shape(self, grid: Any) -> tuple[Any, list[tuple[str, Any]]]:
+        """The points of a grid, and its cells."""
+        topology, geometry = grid.find("Topology"), grid.find("Geometry")
+        if topology is None or geometry is None:
+            raise FormatError(f"the grid {grid.get('Name', '')} has no topology or geometry")
+        kind = geometry.get("GeometryType", geometry.get("Type", "XYZ")).upper()
+        if kind not in ("XYZ", "XY", "X_Y_Z", "X_Y"):
+            raise FormatError(f"this XDMF has a geometry {kind}; {_WAY}")
+        given = [self._item(item) for item in geometry.findall("DataItem")]
+        width = kind.replace("_", "").count("X") + kind.count("Y") + kind.count("Z")
+        points = np.column_stack([axis.ravel() for axis in given]) if "_" in kind else given[0].reshape(-1, width)
+        name = topology.get("TopologyType", topology.get("Type", "")).lower().replace("_", "")
+        flat = self.numbers(topology).astype(np.int64)
+        base = int(topology.get("BaseOffset", 0))
+        if name == "mixed":
+            return points, [(kind, rows - base) for kind, rows in _mixed(flat.ravel())]
+        known = {
+            word.rstrip("0123456789") if number < 10 else word: word
+            for number, words in _CELLS.items()
+            for word in words.split()
+        }
+        if name not in known:
+            raise FormatError(f"this XDMF has cells of the kind {name}; {_WAY}")
+        width = int(re.sub(r"\D", "", known[name]) or topology.get("NodesPerElement", flat.shape[-1]))
+        return points, [(_shape_of(known[name]), flat.reshape(-1, width) - base)]
+
+    def _part(self, shape: tuple[Any, list[tuple[str, Any]]], grids: Sequence[Any]) -> Polygons:
+        points, blocks = shape
+        counts = {"Node": len(points), "Cell": sum(len(rows) for _, rows in blocks)}
+        found: dict[str, dict[str, Any]] = {"Node": {}, "Cell": {}}
+        left = []
+        for attribute in (attribute for grid in grids for attribute in grid.findall("Attribute")):
+            center, name = attribute.get("Center", "Node"), attribute.get("Name", "")
+            if center not in found:
+                left.append(f"{name} (Center={center})")
+                continue
+            values = self.numbers(attribute)
+            if values.size % counts[center] or not counts[center]:
+                raise MeshError(f"{name} has {values.size} numbers for {counts[center]} rows")
+            if name in found[center]:
+                raise FormatError(f"two grids have values called {name}; {_WAY}")
+            found[center][name] = values.reshape(counts[center], -1)
+        return skin(points, blocks, found["Node"], found["Cell"], left)
+
+
+def _shape_of(word: str) -> str:
+    name = word.rstrip("0123456789")
+    return _SHORT.get(name, name)
+
+
+def _same(shape: tuple[Any, list[tuple[str, Any]]], other: tuple[Any, list[tuple[str, Any]]]) -> bool:
+    pairs = zip(shape[1], other[1], strict=False)
+    alike = len(shape[1]) == len(other[1]) and all(a[0] == b[0] and np.array_equal(a[1], b[1]) for a, b in pairs)
+    return alike and np.array_equal(shape[0], other[0])
+
+
+def _mixed(flat: Ints) -> list[tuple[str, Ints]]:
+    """The cells of a mixed topology, in runs of one kind."""
+
+    def shape(row: Ints) -> tuple[int, slice]:
+        kind = int(row[0])
+        if kind not in _CELLS or row[-1] < 0:
+            raise FormatError(f"this XDMF has cells of the kind {kind}; {_WAY}")
+        count = row[1] if kind in _COUNTED else re.sub(r"\D", "", _CELLS[kind].split()[0])
+        return 1 + (kind in _COUNTED) + int(count), slice(0, 1 + (kind in _COUNTED))
+
+    return [
+        (_shape_of(_CELLS[kind].split()[0]), table[:, 1 + (kind in _COUNTED) :])
+        for table in runs(flat, shape)
+        for kind in [int(table[0, 0])]
+    ]
+
+
+def read_xdmf_mesh(data: bytes, path: str | None, limits: Limits) -> Polygons:
+    """The mesh of a file, or the first of its steps."""
+    with as_library_error("lxml"):
+        document = _Document(data, path, limits)
+        steps = document.steps()
+        found = document.surface(steps[0][1], len(data))
+    return replace(found, dropped=(*found.dropped, *([f"later steps ({len(steps) - 1})"] if steps[1:] else [])))
+
+
+def read_xdmf(path: str, wanted: Wanted, limits: Limits) -> Frames | None:
+    """The steps of an XDMF as frames; None if it has none."""
+    data, cut = Path(path).read_bytes(), CutAlike()
+    with as_library_error("lxml"):
+        document = _Document(data, path, limits)
+        steps = document.steps()
+
+    def read(name: str) -> MeshFile:
+        with as_library_error("lxml"):
+            return document.surface(steps[int(name)][1], len(data)).checked(limits, len(data), cut)
+
+    asked = replace(wanted, times=[time for time, _ in steps])
+    return read_files([*map(str, range(len(steps)))], read, asked) if steps[1:] else None

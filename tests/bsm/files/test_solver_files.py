@@ -1,0 +1,231 @@
+"""Nastran, Abaqus and Gmsh: what is taken comes out as their own libraries have it, and all else is refused by name."""
+
+import re
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.files.motion.frames import Wanted
+from bsm.files.sequence import open_sequence
+
+SQUARE = ((1, 0, 0, 0), (2, 1, 0, 0), (3, 1, 1, 0), (4, 0, 1, 0))
+GRIDS = "".join(f"GRID,{n},,{x}.,{y}.,{z}.\n" for n, x, y, z in SQUARE)
+WIDE = "GRID*   {:16}                {:16.1f}{:16.1f}*\n*       {:16.1f}\n"
+NODES = "*Node\n" + "".join(f"{n}, {x}, {y}, {z}\n" for n, x, y, z in SQUARE)
+QUAD = "*Element, type=S4, elset=a\n1, 1, 2, 3, 4\n"
+
+
+def read(path, text):
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return bsm.read_mesh(path)
+
+
+def area_of(mesh):
+    a, b, c = mesh.positions[mesh.faces.T]
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+
+
+def box_of(mesh):
+    used = mesh.positions[np.unique(mesh.faces)]
+    return [*used.min(axis=0).round(6).tolist(), *used.max(axis=0).round(6).tolist()]
+
+
+NASTRAN = {
+    "free fields": (GRIDS + "CQUAD4,1,7,1,2,3,4\n", 1, [0, 0, 0, 1, 1, 0]),
+    "wide fields": (
+        "BEGIN BULK\n"
+        + "".join(WIDE.format(*row) for row in SQUARE)
+        + "CQUAD4  1       7       1       2       3       4       30.0    0.5\nENDDATA\nnothing\n",
+        1,
+        [0, 0, 0, 1, 1, 0],
+    ),
+    "tabs, comments, exponents": (
+        "sol 101\ncend\nbegin bulk $ here\n$GRID\n"
+        "GRID\t1\t\t-1.-1\t0.\t0.\nGRID\t2\t\t1.\t0.\t0.\nGRID\t3\t\t1.\t1.D0\t0.\n"
+        "CTRIA3\t1\t7\t1\t2\t3\t45.\n",
+        0.55,
+        [-0.1, 0, 0, 1, 1, 0],
+    ),
+    "coordinate systems in others": (
+        "CORD2R,5,,10.,0.,0.,10.,0.,1.,\n,10.,1.,0.\nCORD2R,6,5,1.,0.,0.,1.,0.,1.,\n,2.,0.,0.\n"
+        + GRIDS.replace(",,", ",6,", 4).replace("GRID,1,6", "GRID,1,6")
+        + "CQUAD4,1,7,1,2,3,4\n",
+        1,
+        [9, 1, 0, 10, 2, 0],
+    ),
+    "one card twice": (GRIDS + GRIDS + "CTRIA3,1,7,1,2,3\n", 0.5, [0, 0, 0, 1, 1, 0]),
+    "an edge without a node": (GRIDS + "CTRIA6,1,7,1,2,3\n", 0.5, [0, 0, 0, 1, 1, 0]),
+}
+
+
+@pytest.mark.parametrize("what", NASTRAN)
+def test_bulk_data_is_read_as_it_is_meant(what, tmp_path):
+    text, area, box = NASTRAN[what]
+    mesh = read(tmp_path / "a.bdf", text).mesh
+    assert area_of(mesh) == pytest.approx(area) and box_of(mesh) == pytest.approx(box)
+    assert mesh.attributes[0].name == "property" and set(mesh.attributes[0].values[:, 0]) == {7}
+
+
+ABAQUS = {
+    "blocks, blanks and long lines": (
+        "*HEADING\nas written\n" + NODES + "*node, nset=more\n9,,,2.\n*ELEMENT, TYPE=S3R,\nELSET=b\n1,1,2,\n9\n",
+        1,
+        1,
+    ),
+    "shells and solids": (
+        NODES
+        + "".join(f"{n + 4}, {x}, {y}, 1\n" for n, x, y, _ in SQUARE)
+        + "*Element, type=C3D8R\n1, 1,2,3,4,5,6,\n7,8\n"
+        "*Element, type=M3D4\n2, 5,6,7,8\n*Step\n*Static\n*End Step\n",
+        6,
+        1,
+    ),
+    "instances": (
+        "*Part, name=A\n" + NODES + QUAD + "*End part\n*Assembly, name=x\n*Instance, name=A-1, part=a\n*End instance\n"
+        "*Instance, name=A-2, part=A\n0, 0, 5\n*End Instance\n*Node\n1, 9,9,9\n*End Assembly\n",
+        2,
+        2,
+    ),
+    "a part that is in no assembly": ("*Part, name=A\n" + NODES + QUAD + "*End Part\n", 1, 1),
+    "beams and masses": (NODES + QUAD + "*Element, type=B31\n2, 1, 2\n*Element, type=MASS\n3, 1\n", 1, 1),
+}
+
+
+@pytest.mark.parametrize("what", ABAQUS)
+def test_input_of_abaqus_is_read_as_it_is_meant(what, tmp_path):
+    text, area, parts = ABAQUS[what]
+    mesh, notes, _ = vars(read(tmp_path / "a.inp", text)).values()
+    numbers = next((a.values for a in mesh.attributes if a.name == "part"), np.zeros(1))
+    assert area_of(mesh) == pytest.approx(area) and len(np.unique(numbers)) == parts
+    assert "beams" not in what or "left out: elements of the type B31 (1), elements of the type MASS (1)" in notes
+
+
+def test_sets_of_elements_are_groups(tmp_path):
+    found = read(tmp_path / "a.inp", NODES + "9, 2,0,0\n" + QUAD + "*Element, type=S3, elset=b\n2, 2,9,3\n").mesh
+    assert [found.metadata[f"group.{n}.name"] for n in range(2)] == ["a", "b"]
+    assert found.attributes[0].values[:, 0].tolist() == [0, 0, 1]
+
+
+REFUSED = {
+    "a.bdf": (
+        ("INCLUDE 'b.bdf'\n", "line 1: INCLUDE is not read here"),
+        ("GRDSET,,5\n", "GRDSET"),
+        ("CQUADX,1,1,1,2,3\n", "CQUADX"),
+        ("CORD2C,5,,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\n", "CORD2C"),
+        ("BEGIN BULK\nBEGIN SUPER=1\n", "BEGIN SUPER=1"),
+        (GRIDS + "GRID,1,,5.,5.,5.\nCTRIA3,1,7,1,2,3\n", "node 1 is there twice"),
+        (GRIDS + "CTRIA3,1,7,1,2,8\n", "node 8 is not there"),
+        ("GRID,1,8,0.,0.,0.\n" + GRIDS[17:] + "CTRIA3,1,7,1,2,3\n", "coordinate system 8"),
+        ("CORD2R,1,1,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,1,1,0.,0.,0.\n", "refers to itself"),
+        ("GRID,1,,x,0.,0.\n", "line 1"),
+        (GRIDS + "CTRIA6,1,7,1,2,3,4\n", "CTRIA6 with 4 of 6 nodes"),
+        ("1,2,3\n", "not a card"),
+    ),
+    "a.inp": (
+        ("*System\n1,0,0\n", "line 1: SYSTEM is not read"),
+        (NODES + QUAD + "*Elgen\n1,2,1,1\n", "ELGEN"),
+        ("*Ngen\n1,2\n", "NGEN"),
+        ("*Node, system=C\n1,1,90\n", "NODE with SYSTEM"),
+        ("*Include, input=b.inp\n", "INCLUDE with INPUT"),
+        (NODES + "*Element, type=U1\n1, 1,2,3,4\n", "U1"),
+        (NODES + "*Element, type=C3D15V\n1, 1\n", "C3D15V"),
+        (NODES + "*Element, type=S4\n1, 1,2,3\n", "do not have 4 nodes"),
+        (NODES + "1, 5,5,5\n" + QUAD, "node 1 is there twice"),
+        ("*Instance, library=x\n", "INSTANCE"),
+        ("# AVS UCD File\n", "not a file of Abaqus"),
+        ("*Imperfection, file=x\n", "IMPERF"),
+    ),
+    "a.msh": (
+        ("$NOD\n1\n1 0 0 0\n$ENDNOD\n", "NOD|no .MeshFormat"),
+        ("$MeshFormat\n4 0 8\n$EndMeshFormat\n", "format 4"),
+        ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Faces\n$EndFaces\n", "Faces"),
+        ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n$EndNodes\n", "cut short"),
+        ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Elements\n1\n1 92 0 1 2\n$EndElements\n", "type 92"),
+    ),
+}
+
+
+@pytest.mark.parametrize(("name", "text", "why"), [(name, *case) for name, cases in REFUSED.items() for case in cases])
+def test_what_may_change_the_mesh_is_refused_by_name(name, text, why, tmp_path):
+    with pytest.raises(bsm.BsmError) as error:
+        read(tmp_path / name, text)
+    assert re.search(why, str(error.value))
+    assert "not read here" not in str(error.value) or ".vtu" in str(error.value)
+
+
+# ------------------------------------------------------------------------------------------------- as the makers write
+
+
+@pytest.mark.parametrize("version", [2.2, 4.1])
+@pytest.mark.parametrize("binary", [0, 1])
+@pytest.mark.parametrize("order", [1, 2])
+def test_files_of_gmsh(version, binary, order, tmp_path, monkeypatch):
+    gmsh = pytest.importorskip("gmsh", reason="files are written with Gmsh: pip install gmsh")
+    path = str(tmp_path / "a.msh")
+    gmsh.initialize(interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addBox(0, 0, 0, 1, 2, 3)
+        gmsh.model.occ.addRectangle(5, 0, 0, 1, 1)
+        gmsh.model.occ.synchronize()
+        gmsh.model.addPhysicalGroup(3, [1], name="inside")
+        gmsh.model.addPhysicalGroup(2, [7], name="plate")
+        gmsh.option.setNumber("Mesh.MeshSizeMin", 0.7)
+        gmsh.model.mesh.generate(3)
+        gmsh.model.mesh.setOrder(order)
+        for option, value in (("MshFileVersion", version), ("Binary", binary)):
+            gmsh.option.setNumber(f"Mesh.{option}", value)
+        gmsh.write(path)
+        tags, places, _ = gmsh.model.mesh.getNodes()
+        view = gmsh.view.add("x")
+        numbers = np.unique(tags).astype(int)
+        of = dict(zip(tags.astype(int).tolist(), places[::3].tolist(), strict=True))
+        for step in range(2):
+            gmsh.view.addModelData(
+                view, step, "", "NodeData", numbers, [[of[n] + step] for n in numbers.tolist()], step / 2
+            )
+        gmsh.view.write(view, path, append=True)
+    finally:
+        gmsh.finalize()
+    mesh, _, dropped = vars(bsm.read_mesh(path)).values()
+    assert area_of(mesh) == pytest.approx(22 + 1) and box_of(mesh) == pytest.approx([0, 0, 0, 6, 2, 3])
+    values = {a.name: a for a in mesh.attributes}
+    assert np.allclose(values["x"].values[:, 0], mesh.positions[:, 0]) and "later steps (1)" in dropped
+    sides = mesh.positions[mesh.faces].mean(axis=1)[:, 0] > 4
+    names = [mesh.metadata[f"group.{n}.name"] for n in range(2)]
+    assert [names[number] for number in values["group"].values[:, 0]] == [
+        "plate" if side else "inside" for side in sides
+    ]
+    frames = open_sequence(path, wanted=Wanted())
+    assert frames.count == 2 and frames.frame_rate == 2
+    assert [np.allclose(m.attributes[0].values[:, 0], m.positions[:, 0] + n) for n, m in enumerate(frames.meshes)] == [
+        True
+    ] * 2
+
+
+def test_files_of_pynastran(tmp_path):
+    bdf = pytest.importorskip("pyNastran.bdf.bdf", reason="files are written with pyNastran: pip install pyNastran")
+    model, rng = bdf.BDF(debug=None), np.random.default_rng(3)
+    model.add_cord2r(5, [10.0, 1.0, 2.0], [10.0, 1.0, 3.0], [10.0, 2.0, 2.0])
+    places = rng.normal(size=(20, 3)).round(3)
+    for number, place in enumerate(places.tolist(), 1):
+        model.add_grid(number, place, cp=5 * (number % 2))
+    for number in range(1, 16):
+        model.add_ctria3(number, 7, [number, number + 1, number + 4], theta_mcid=30.0 * (number % 3))
+    model.add_chexa(99, 8, [*range(1, 9)])
+    model.add_pshell(7, 1, 0.1)
+    model.add_psolid(8, 1)
+    model.add_mat1(1, 3e7, None, 0.3)
+    model.cross_reference()
+    for size in (8, 16):
+        path = tmp_path / f"a{size}.bdf"
+        model.write_bdf(str(path), size=size)
+        mesh = bsm.read_mesh(path).mesh
+        theirs = np.array([model.nodes[number].get_position() for number in range(1, 21)])
+        numbers = np.array([[number, number + 1, number + 4] for number in range(1, 16)]) - 1
+        a, b, c = theirs[numbers].swapaxes(0, 1)
+        shells = mesh.attributes[0].values[:, 0] == 7
+        ours = np.linalg.norm(np.cross(*np.diff(mesh.positions[mesh.faces[shells]], axis=1).swapaxes(0, 1)), axis=1)
+        assert ours == pytest.approx(np.linalg.norm(np.cross(b - a, c - a), axis=1), rel=1e-4)
+        assert len(mesh.positions) == 19 and (~shells).sum() == 12
