@@ -35,7 +35,7 @@ _TIME = {"List": lambda v: v, "HyperSlab": lambda v: v[0] + v[1] * np.arange(int
 _WAY = "save it as .vtu, e.g. with ParaView"
 
 
-class _Document:
+class _Grids:
     """The grids of a file, and the numbers that they name."""
 
     def __init__(self, data: bytes, path: str | None, limits: Limits) -> None:
@@ -249,7 +249,7 @@ def _mixed(flat: Ints) -> list[tuple[str, Ints]]:
 def read_xdmf_mesh(data: bytes, path: str | None, limits: Limits) -> Polygons:
     """The mesh of a file, or the first of its steps."""
     with as_library_error("lxml"):
-        document = _Document(data, path, limits)
+        document = _Grids(data, path, limits)
         steps = document.steps()
         found = document.surface(steps[0][1], len(data))
     return replace(found, dropped=(*found.dropped, *([f"later steps ({len(steps) - 1})"] if steps[1:] else [])))
@@ -259,7 +259,7 @@ def read_xdmf(path: str, wanted: Wanted, limits: Limits) -> Frames | None:
     """The steps of an XDMF as frames; None if it has none."""
     data, cut = Path(path).read_bytes(), CutAlike()
     with as_library_error("lxml"):
-        document = _Document(data, path, limits)
+        document = _Grids(data, path, limits)
         steps = document.steps()
 
     def read(name: str) -> MeshFile:
