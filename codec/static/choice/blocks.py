@@ -22,7 +22,6 @@ BROADEST = 0.14
 BASE = 0.36  # the step of blocks below a layer, over the square root of the layer's step
 ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
-FOLDED = 0.2  # edges folded over, for each face, above which blocks do not suit a mesh, and mending takes long
 
 
 class Plain:
@@ -68,8 +67,7 @@ class Refined:
         base = self.base
         if self._settled:
             found = self._leveled(step, base, *self._evened(step))
-            many = self._bounds.measures.shaper.folded(found.positions) > FOLDED * len(self._prepared.mesh.faces)
-            return found if many else turned(found) or found
+            return turned(found) or found
         layer = Layer(single(step), RATIO)
         levels = self._shaped(base, layer)
         return self._leveled(step, base, layer, levels, base.known_steps(layer, levels))

@@ -142,10 +142,7 @@ class Bounds:
 
     def keeps(self, candidate: Trial, look: float | None = None) -> bool:
         """Whether all bounds are kept; `look`, where it is known otherwise."""
-        shares = self._shares(candidate, look)
-        if self._best is None or shares < self._best:
-            self._best = shares
-        return max(shares) <= 1.0
+        return max(self._shares(candidate, look)) <= 1.0
 
     def binding(self, candidate: Trial, look: float | None = None) -> str:
         """Return the bound that keeps a stream from being smaller; "step" where wider ones break one."""
@@ -188,14 +185,17 @@ class Bounds:
 
     def _shares(self, candidate: Trial, look: float | None = None) -> tuple[float, float, float, float]:
         """Shares of the bounds on distances, on the angle of normals, on the visual error, and on the look."""
-        if look is not None:
-            return *self._measured(candidate.positions), look / self.contract.look
-        if self._last is None or self._last[0] is not candidate:
-            look, decoded = 0.0, self._decoded(candidate)
-            if self.metric is not None and (look := self.metric.with_room(decoded)) <= self.contract.look:
-                look = max(look, self.measures.painted(decoded))
-            self._last = candidate, (*self._measured(candidate.positions), look / self.contract.look)
-        return self._last[1]
+        if look is None and self._last is not None and self._last[0] is candidate:
+            return self._last[1]
+        seen, decoded = 0.0 if look is None else look, self._decoded(candidate)
+        if look is None and self.metric is not None and (seen := self.metric.with_room(decoded)) <= self.contract.look:
+            seen = max(seen, self.measures.painted(decoded))
+        shares = (*self._measured(candidate.positions), seen / self.contract.look)
+        if look is None:
+            self._last = candidate, shares
+        if self._best is None or shares < self._best:
+            self._best = shares
+        return shares
 
     def _measured(self, positions: Matrix) -> tuple[float, float, float]:
         """Shares of the bounds that are not in pictures."""

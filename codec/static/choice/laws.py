@@ -7,8 +7,9 @@ the search ends when no stage is worth its price. (M. Weitzman, Optimal search f
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
 
@@ -22,6 +23,14 @@ from bsm.codec.static.targets import SLACK, TRIES
 DOUBT = 0.15  # of a first guess, in logarithms, and of a slope, over the slope
 TRUST = 2  # trials that the usual luck stands for
 Way = Gridded | Plain | Refined  # ways to code a mesh at one step after another: pure functions of the step
+
+
+class Aim(Protocol):
+    """What trials come to, in logarithms."""
+
+    def bytes(self, way: Way, made: Trial) -> float: ...
+    def error(self, made: Trial) -> float: ...
+    def kept(self, made: Trial) -> bool: ...
 
 
 class Law:
@@ -65,12 +74,19 @@ class Hopes:
     steps: Matrix
     bytes: Law
     errors: Law
-    fitting: bool
+    fitting: bool = False
     coded: dict[int, Trial] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.low, self.bound = (self.errors, self.bytes) if self.fitting else (self.bytes, self.errors)
         self.left = np.full(len(self.steps), 2)  # stages
+
+    @property
+    def low(self) -> Law:
+        return self.errors if self.fitting else self.bytes
+
+    @property
+    def bound(self) -> Law:
+        return self.bytes if self.fitting else self.errors
 
     def begin(self, made: Trial, size: float) -> None:
         """Take in a trial that is coded, and its bytes."""
@@ -101,13 +117,7 @@ def steps_of(way: Way) -> tuple[float, Matrix]:
     return first, np.union1d(SLACK * np.arange(math.ceil(low / SLACK), math.floor(high / SLACK)), first)
 
 
-def search(
-    queue: list[Hopes],
-    coded: Callable[[Way, Trial], float],
-    seen: Callable[[Trial], float],
-    price: float,
-    least: float = math.inf,
-) -> Iterator[tuple[Way, Trial]]:
+def search(queue: list[Hopes], aim: Aim, price: float, least: float = math.inf) -> Iterator[Trial]:
     """Open trials until none is worth its price; yield each one that is the best so far."""
     while queue:
         (gain, at), hopes = max(((hopes.next(least, price), hopes) for hopes in queue), key=lambda of: of[0][0])
@@ -116,13 +126,13 @@ def search(
         try:
             if hopes.left[at] > 1:
                 made = hopes.way.at(math.exp(hopes.steps[at]))
-                hopes.begin(made, coded(hopes.way, made))
+                hopes.begin(made, aim.bytes(hopes.way, made))
             else:
                 made, hopes.left[at] = hopes.coded.pop(at), 0
-                hopes.errors.learn(at, seen(made))
-                if hopes.bound.mean[at] <= 0.0 and hopes.low.mean[at] < least:
+                hopes.errors.learn(at, aim.error(made))
+                if hopes.bound.mean[at] <= 0.0 and hopes.low.mean[at] < least and aim.kept(made):
                     least = float(hopes.low.mean[at])
-                    yield hopes.way, made
+                    yield made
             if len(hopes.bytes.known) > 3 * TRIES or not hopes.left.any():
                 queue.remove(hopes)
         except LimitError:  # blocks that decoders would refuse

@@ -1,14 +1,18 @@
-"""The smallest stream that keeps a contract, and the best one of a size: one search over trials of all ways.
+"""The smallest stream that keeps a contract, and the best one of a size.
 
-A trial is a way to code a mesh at a step. Coding it and drawing its pictures have a price, and `laws.py` says what it
-may save, by the trials before it. The search opens the trial that promises most, and ends when none is worth its price.
-If a size is given, bytes and look change their roles. The efforts differ in the price.
+A trial is a way to code a mesh at a step. There are few ways: positions on a grid, rounded or chosen for the normals;
+blocks; and blocks with a layer of levels. Where no look is asked for, errors grow with the step. A secant then finds
+the widest step of each way that keeps the contract, and gives the way up where it takes more bytes than another one.
+Looks need pictures, which have a price, and depend on luck: `laws.py` expects of the next trial as much as those before
+it tell, and the search ends when none is worth its price. So it does with grids where parts repeat: there, luck decides
+about bytes. If a size is given, bytes and look change their roles. The efforts differ in the price.
 """
 
 import math
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from functools import partial
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.blocks import Plain, Refined
@@ -18,11 +22,56 @@ from bsm.codec.static.choice.laws import DOUBT, Hopes, Law, Way, search, steps_o
 from bsm.codec.static.choice.settling import RATIO
 from bsm.codec.static.options import LARGE_BLOCKS, WORTH, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
-from bsm.codec.static.targets import ANY_ANGLE, SLACK, Contract
+from bsm.codec.static.targets import ANY_ANGLE, SLACK, TRIES, Contract, secant
 
 PRICES = {"quick": 2e-3, "normal": 6e-4, "best": 8e-5}
 """Prices of a stage of a trial, as shares of the bytes, over the fourth root of the number of vertices."""
 BYTES = 3.0 / math.log(256.0)  # of a vertex, that a step e times as wide saves where most levels are not 0
+
+
+@dataclass(eq=False)
+class Smallest:
+    """Few bytes are wanted; those that attributes save by positions on a grid are counted where they are not saved."""
+
+    bounds: Bounds
+    saved: Callable[[Trial], int]
+    most: int
+    _losses: dict[Way, int] = field(default_factory=dict)
+
+    def size(self, way: Way, size: float) -> float:
+        return max(size + self._losses.get(way, 0 if isinstance(way, Gridded) else self.most), 1.0)
+
+    def bytes(self, way: Way, made: Trial) -> float:
+        if way not in self._losses:
+            self._losses[way] = self.most - (self.saved(made) if isinstance(way, Gridded) else 0)
+        return math.log(self.size(way, made.draft.size))
+
+    def error(self, made: Trial) -> float:
+        over, folded = self.bounds.excess(made), 0.0
+        if self.bounds.contract.look < math.inf:  # what else nobody has asked for
+            folded = self.bounds.folded(made.positions)
+        return max(over, math.log(folded) / 2.0) if folded > 1.0 else over  # they grow about as squares of steps
+
+    def kept(self, made: Trial) -> bool:
+        return self.bounds.keeps(made)
+
+
+@dataclass(eq=False)
+class Best:
+    """A good look is wanted, within a size."""
+
+    promised: Bounds
+    size: Callable[[Draft], int]
+    most: float
+
+    def bytes(self, way: Way, made: Trial) -> float:
+        return math.log(self.size(made.congruent) / self.most)
+
+    def error(self, made: Trial) -> float:
+        return self.promised.quality(made)
+
+    def kept(self, made: Trial) -> bool:
+        return self.promised.keeps(made)
 
 
 class Search:
@@ -42,52 +91,73 @@ class Search:
         bounds = Bounds(self._measures, contract)
         plain = Gridded(self._prepared, bounds)
         grid = plain.in_frame()
-        usual, refined = grid.at(grid.first), Refined(self._prepared, self._options, bounds)
-        ways, saved = self._ways(bounds, grid, refined), self._saved(usual)
-
-        def total(way: object, size: float) -> float:
-            return size if isinstance(way, Gridded | Trial) else size + saved  # positions on grids predict attributes
-
-        losses: dict[object, int] = {}  # of what the first places save, which chosen ones may not
-
-        def coded(way: Way, made: Trial) -> float:
-            if way not in losses:
-                losses[way] = saved - (self._saved(made) if isinstance(way, Gridded) else 0)
-            return math.log(max(made.draft.size + losses[way], 1.0))
-
-        def excess(made: Trial) -> float:
-            over, _ = bounds.excess(made), bounds.keeps(made)
-            folded = bounds.folded(made.positions)
-            return max(over, math.log(folded) / 2.0) if folded > 1.0 else over  # they grow about as squares of steps
-
-        begun: dict[Way, Trial] = {}
-        sizes: dict[Way, float] = {}
-        with suppress(LimitError):  # blocks that decoders would refuse
-            if refined in ways:
-                made = begun[refined] = refined.at(min(max(refined.first, refined.least), refined.most))
-                if (larger := self._larger(refined, made, bounds)) is not None:
-                    ways.append(larger)
-                    sizes[larger] = made.draft.size - refined.base.coded + larger.base.coded
-        about = usual.about() if begun else 0.0
-        if begun and total(refined, begun[refined].draft.size) < (1.0 - DOUBT) * about:  # no grid is coded in full
-            first, other = begun[refined], about
+        usual = grid.at(grid.first)
+        aim, ways = Smallest(bounds, self._saved, self._saved(usual)), self._ways(bounds, grid)
+        hopeful = (made for made in plain.made() if made.about() < 2 * (usual.about() or usual.draft.size))
+        kept = [made for made in hopeful if bounds.keeps(made)]
+        if contract.look < math.inf:
+            queue = self._queue(ways, grid, aim, usual)
         else:
-            begun[grid] = first = grid.repeat(usual)
-            other = max(first.draft.size, (1.0 - DOUBT) * usual.draft.size)  # few chosen places are images of others
-        hopeful = (made for made in plain.made() if made.about() < 2 * first.draft.size)
-        kept: dict[object, Trial] = {made: made for made in hopeful if bounds.keeps(made)}
-        queue = []
-        for way in ways:
-            made = begun.get(way, first)
-            size = sizes.get(way, made.draft.size if way in begun else other)
-            queue.append(self._hopes(way, bounds, made, total(way, size)))
-            if way in begun:
-                queue[-1].begin(made, queue[-1].bytes.known[0][1])
-        least = math.log(min((made.draft.size for made in kept.values()), default=math.inf))
-        kept.update(search(queue, coded, excess, self._price, least))
+            kept += self._widest(ways, aim)
+            queue = self._lucky(grid, aim, usual, kept)
+        least = math.log(min((made.draft.size for made in kept), default=math.inf))
+        kept += search(queue, aim, self._price, least)
         if not kept:
             raise TargetError(f"{contract} cannot be kept on this mesh; the best possible is {bounds.had}")
-        return paying(self._prepared, min((made.congruent for made in kept.values()), key=self._size))
+        return paying(self._prepared, min((made.congruent for made in kept), key=self._size))
+
+    def _widest(self, ways: list[Way], aim: Smallest) -> list[Trial]:
+        """Of each way the widest steps that keep the bounds, until finer ones would take more bytes than another."""
+        sizes: dict[Trial, float] = {}
+        promise: dict[Way, float] = {}
+
+        def excess(way: Way, step: float) -> float:
+            made = way.at(step)
+            size, over = aim.bytes(way, made), aim.error(made)
+            promise.setdefault(way, size + max(over, 0.0))
+            if over <= 0.0 and aim.kept(made):
+                sizes[made] = size
+            return over if over <= 0.0 or size < min(sizes.values(), default=math.inf) else -SLACK / 4.0
+
+        for tries in (1, TRIES):
+            for way in sorted(ways, key=lambda way: promise.get(way, 0.0)):
+                with suppress(LimitError):  # blocks that decoders would refuse
+                    secant(partial(excess, way), way.first, way.least, way.most, tries, slack=SLACK / 2.0)
+        return [*sizes]
+
+    def _lucky(self, grid: Gridded, aim: Smallest, usual: Trial, kept: list[Trial]) -> list[Hopes]:
+        """What to expect of grids where parts repeat, and luck decides about bytes."""
+        about, least = usual.about(), min((made.draft.size for made in kept), default=math.inf)
+        first = usual if least < (1.0 - DOUBT) * about else grid.repeat(usual)
+        if not grid.repeats:
+            return []
+        hopes = self._hopes(grid, aim.bounds, first, aim.size(grid, first.draft.size))
+        hopes.begin(first, math.log(aim.size(grid, first.draft.size)))
+        return [hopes]
+
+    def _queue(self, ways: list[Way], grid: Gridded, aim: Smallest, usual: Trial) -> list[Hopes]:
+        """What to expect of ways whose looks count, of which some have begun."""
+        begun: dict[Way, Trial] = {}
+        sizes: dict[Way, float] = {}
+        for refined in [way for way in ways if isinstance(way, Refined)][:1]:
+            with suppress(LimitError):  # blocks that decoders would refuse
+                made = begun[refined] = refined.at(min(max(refined.first, refined.least), refined.most))
+                sizes[refined] = aim.size(refined, made.draft.size)
+                if (larger := self._larger(refined, made, aim.bounds)) is not None:
+                    ways.append(larger)
+                    sizes[larger] = sizes[refined] - refined.base.coded + larger.base.coded
+        about = usual.about() if begun else 0
+        if begun and min(sizes.values()) < (1.0 - DOUBT) * about:  # no grid is coded in full
+            first, other = next(iter(begun.values())), aim.size(grid, about)
+        else:
+            begun[grid] = first = grid.repeat(usual)
+            sizes[grid] = aim.size(grid, first.draft.size)
+            other = max(sizes[grid], aim.size(grid, (1.0 - DOUBT) * usual.draft.size))  # few chosen places are images
+        queue = [self._hopes(way, aim.bounds, begun.get(way, first), sizes.get(way, other)) for way in ways]
+        for hopes in queue:
+            if hopes.way in begun:
+                hopes.begin(begun[hopes.way], math.log(sizes[hopes.way]))
+        return queue
 
     def _larger(self, way: Refined, found: Trial, bounds: Bounds) -> Refined | None:
         """The way with larger blocks, where these may take fewer bytes than those that it has come to."""
@@ -113,19 +183,17 @@ class Search:
         bounds = Bounds(self._measures, replace(contract, look=2.0**octaves))
         grid = Gridded(self._prepared, bounds, turn=usual.turn) if abs(octaves) > 1.0 else usual
         grid.repeats = usual.repeats
-        found, ways = [first, *grid.made()], self._ways(bounds, grid, Refined(self._prepared, self._options, bounds))
+        found, ways = [first, *grid.made()], self._ways(bounds, grid)
         queue = [self._hopes(way, bounds, first, most_bytes, most_bytes) for way in ways]
 
-        def coded(way: Way, made: Trial) -> float:
-            return math.log(self._size(made.congruent) / most_bytes)
-
+        aim = Best(kept, self._size, most_bytes)
         if grid is usual:
             queue[0] = self._hopes(grid, near, first, first.draft.size, most_bytes)
-            queue[0].begin(first, coded(grid, first))
+            queue[0].begin(first, aim.bytes(grid, first))
         fitting = (made for made in found if self._size(paying(self._prepared, made.congruent)) <= most_bytes)
         least = min(map(kept.quality, fitting), default=math.inf)
         price = self._price / -queue[0].bytes.slope  # of bytes, in looks
-        found += [made for _, made in search(queue, coded, kept.quality, price, least)]
+        found += search(queue, aim, price, least)
         best = sorted(filter(kept.keeps, found), key=kept.quality)
         drafts = (paying(self._prepared, made.congruent) for made in best)
         return next((draft for draft in drafts if self._size(draft) <= most_bytes), None)
@@ -144,7 +212,7 @@ class Search:
         metric = self._measures.look
         return "nothing is visible" if metric is None else f"look {metric.distance(draft.decoded):.3g}"
 
-    def _ways(self, bounds: Bounds, grid: Gridded, refined: Refined) -> list[Way]:
+    def _ways(self, bounds: Bounds, grid: Gridded) -> list[Way]:
         """Ways that may be smallest."""
         prepared, options = self._prepared, self._options
         if options.effort == "quick":
@@ -152,7 +220,7 @@ class Search:
         ways: list[Way] = [grid, Gridded(prepared, bounds, 1.0, grid.turn)]
         if not prepared.has_low_frequencies:
             return ways
-        ways.append(refined)
+        ways.append(Refined(prepared, options, bounds))
         if bounds.contract.angle < ANY_ANGLE:
             ways.append(Refined(prepared, options, bounds, settled=False))
         if bounds.contract.visual < math.inf:  # it counts errors in all directions

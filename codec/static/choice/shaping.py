@@ -17,6 +17,7 @@ from bsm.codec.static.choice.settling import PULL
 
 RATES = np.log1p(np.arange(4096.0))
 """Bits, but for a factor, of a place on a grid that is so far from where a parallelogram would have it."""
+FOLDED = 0.2  # edges folded over, for each face, above which mending takes long and is of no use
 
 
 class Shaper:
@@ -63,7 +64,9 @@ class Shaper:
         return chosen
 
     def unfold(self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix) -> Levels | None:
-        """Levels, shape (n, 3), that fold fewer edges, along `directions`, shape (n or 1, 9); None: few are folded."""
+        """Levels, shape (n, 3), that fold fewer edges, along `directions`, shape (n or 1, 9); None: few or most are."""
+        if self.folded(positions) > FOLDED * len(self._original.faces):
+            return None
         chosen, most = np.array(levels, np.int32, order="C"), -(-len(self._original.faces) // 10_000)
         given = np.array(positions), chosen, np.ascontiguousarray(directions), *self._flaps, most
         wrong = np.empty(len(self._flaps[0]), np.uint8)

@@ -48,7 +48,7 @@ BROKEN = {
     "an angle": (MESH, {"target": Target("theta_deg", 0.5)}, Search, "smallest", rounded),
     "a visual error": (MESH, {"target": Target("nmsve_db", -60.0)}, Search, "smallest", rounded),
     "a bound": (MESH, {"contract": Contract(1e-4)}, Search, "smallest", rounded),
-    "whether bounds are kept": (MESH, {}, search, "search", lambda queue, *_: [(way := queue[0].way, way.at(0.05))]),
+    "whether bounds are kept": (MESH, {}, search, "search", lambda queue, *_: [queue[0].way.at(0.05)]),
     "normals": (shaded(MESH), {}, attributes, "bisect_left", lambda values, *_, **__: 0),
     "colors": (colored(patch(20, 20)), {}, attributes, "bisect_left", lambda values, *_, **__: 0),
     "a step": (

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from bsm import Attribute, Contract, EncodeOptions, Encoder, TargetError, TriangleMesh, read_mesh
-from bsm.codec.static.choice.blocks import Refined
 from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.choice.search import Search, Way
@@ -52,8 +51,8 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "no
     found = [Encoder(mesh, options).draft().size]
     for alone in range(len(everything(*_asked(mesh, options)))):
 
-        def size(search: Search, bounds: Bounds, grid: Gridded, refined: Refined, alone: int = alone) -> list[Way]:
-            return [everything(search, bounds, grid, refined)[alone]]
+        def size(search: Search, bounds: Bounds, grid: Gridded, alone: int = alone) -> list[Way]:
+            return [everything(search, bounds, grid)[alone]]
 
         monkeypatch.setattr(Search, "_ways", size)
         with suppress(TargetError):  # no step of this way alone keeps the promise
@@ -62,11 +61,11 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "no
     return found[0], found[1:]
 
 
-def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds, Gridded, Refined]:
+def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds, Gridded]:
     encoder, contract = Encoder(mesh, options), options.promise
     search = encoder._input.search
     bounds = Bounds(search._measures, contract)
-    return search, bounds, Gridded(search._prepared, bounds), Refined(search._prepared, options, bounds)
+    return search, bounds, Gridded(search._prepared, bounds)
 
 
 @pytest.mark.parametrize(("mesh", "rough"), [(torus(40, 24), 0.0), (patch(24, 24), 0.002)], ids=["torus", "patch"])

@@ -24,8 +24,10 @@ from bsm import (
 )
 from bsm.codec.geometry.metrics import compare
 from bsm.codec.static.targets import SLACK, search_step
+from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh
 from tests.shapes import torus
+from tools.measure.targets import measured as rows
 
 
 @dataclass
@@ -158,6 +160,23 @@ def test_an_easier_target_takes_no_more_bytes_and_a_stricter_one_bends_no_more(m
     for (size, angle), (size_of_stricter, angle_of_stricter) in pairwise(found):
         assert size <= size_of_stricter and angle_of_stricter <= 1.1 * angle
     assert found[0][1] < 30.0, "blocks, and not a grid too coarse for any normal"
+
+
+@pytest.mark.parametrize(
+    ("what", "values"), [("theta_deg", (10.0, 3.0)), ("nmsve_db", (-40.0, -52.0)), ("max_error", (0.005, 0.0005))]
+)
+def test_coarse_targets_are_used_up_and_take_fewer_bytes(what: str, values: tuple[float, float]) -> None:
+    """Errors without a look: blocks are opened as well as grids, and steps up to the widest one."""
+    easier, stricter = (next(rows(knot(2000), {what: (value,)})) for value in values)
+    assert min(easier.used, stricter.used) > 1.0 - 2.0 * SLACK
+    assert easier.size < 0.55 * stricter.size
+
+
+@pytest.mark.real
+def test_a_coarse_angle_is_kept_by_blocks_alone(meshes: Path) -> None:
+    mesh = read_mesh(str(meshes / "static" / "c3d_spot.ply")).mesh.bare
+    result = Encoder(mesh, replace(PRESETS["none"], target=Target("theta_deg", 10.0))).result()
+    assert result.size < 700 and not result.header.grid
 
 
 @pytest.mark.real
