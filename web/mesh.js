@@ -1,11 +1,17 @@
 #!/usr/bin/env node
 /**
- * Reads OBJ, PLY, STL or GLB with three.js, or a folder of these, the frames of a sequence, and writes a BSM stream:
+ * Reads OBJ, PLY, STL or GLB, or a folder of these, the frames of a sequence, and writes a BSM stream:
  * npx -p bsm-decoder -p three bsm-encode mesh.obj mesh.bsm
  */
 import { readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 
+const USAGE = `usage: bsm-encode MESH.obj|ply|stl|glb MESH.bsm [BITS|lossless]
+       bsm-encode FOLDER SEQUENCE.bsm [BITS [FRAMES PER SECOND]]`;
+if (process.argv.includes("--help") || process.argv.includes("-h")) {
+    console.log(USAGE);
+    process.exit(0);
+}
 const FILES = /\.(obj|ply|stl|glb)$/i;
 const [source = "", target, bits = "14", rate = "24", ...more] = process.argv.slice(2);
 const isFolder = statSync(source, { throwIfNoEntry: false })?.isDirectory() ?? false;
@@ -16,9 +22,7 @@ if (
     !(isFolder || FILES.test(source)) ||
     !(Number(rate) > 0)
 ) {
-    console.error(
-        "usage: bsm-encode MESH.obj|ply|stl|glb MESH.bsm [BITS|lossless]\n       bsm-encode FOLDER SEQUENCE.bsm [BITS [FRAMES PER SECOND]]",
-    );
+    console.error(USAGE);
     process.exit(2);
 }
 
@@ -26,7 +30,7 @@ if (
 const fileAt = (path) => new File([readFileSync(path)], basename(path));
 
 try {
-    const { readFrames, readMesh, encodeHere } = await import("./built/reading.js");
+    const { readFrames, readMesh, inSingle, encodeHere } = await import("./built/reading.js");
     const files = isFolder
         ? readdirSync(source)
               .filter((name) => FILES.test(name))
@@ -35,7 +39,9 @@ try {
     if (isFolder && files.length === 0) throw new Error("there are no OBJ, PLY, STL or GLB files in it");
     const { mesh, notes } = await (isFolder ? readFrames(files, Number(rate)) : readMesh(fileAt(source)));
     for (const note of notes) console.error(`bsm-encode: ${source}: ${note}`);
-    writeFileSync(target, await encodeHere(mesh, bits === "lossless" ? { lossless: true } : { bits: Number(bits) }));
+    const encoded =
+        bits === "lossless" ? encodeHere(inSingle(mesh), { lossless: true }) : encodeHere(mesh, { bits: Number(bits) });
+    writeFileSync(target, await encoded);
 } catch (error) {
     console.error(`bsm-encode: ${source}: ${error.message}`);
     process.exit(1);

@@ -3,17 +3,25 @@
  * Reads a BSM stream and writes OBJ or GLB: npx bsm-decoder mesh.bsm > mesh.obj; or a sequence, as a folder of OBJ, as
  * PC2, MDD, NPZ or GLB: npx bsm-decoder horse.bsm horse.glb
  */
-import { closeSync, existsSync, mkdirSync, openSync, readFileSync, writeSync } from "node:fs";
+import { closeSync, existsSync, mkdirSync, openSync, readFileSync, statSync, writeSync } from "node:fs";
 import { basename, join } from "node:path";
 import zlib from "node:zlib";
 import { Decoder, END_OF_STREAM, loadKernels, NEED_DATA } from "bsm-decoder";
 import { glbOf } from "./glb.js";
 
-const [path, target = "", ...more] = process.argv.slice(2);
-if (!path || more.length > 0) {
-    console.error(
-        "usage: bsm-decoder MESH.bsm > MESH.obj\n       bsm-decoder IN.bsm OUT.obj|.glb|.pc2|.mdd|.npz, or OUT, a folder of OBJ files for a sequence",
-    );
+const USAGE = `usage: bsm-decoder MESH.bsm > MESH.obj
+       bsm-decoder IN.bsm OUT.obj|.glb|.pc2|.mdd|.npz
+       bsm-decoder SEQUENCE.bsm FOLDER         (an OBJ file for each frame)
+IN - reads the standard input, OUT - writes an OBJ to the standard output.`;
+const given = process.argv.slice(2);
+if (given.includes("--help") || given.includes("-h")) {
+    console.log(USAGE);
+    process.exit(0);
+}
+const [path, ...targets] = given;
+const target = targets[0] === "-" ? "" : (targets[0] ?? "");
+if (!path || targets.length > 1 || given.some((word) => /^-./.test(word))) {
+    console.error(USAGE);
     process.exit(2);
 }
 
@@ -104,9 +112,14 @@ function npzOf(arrays) {
 
 try {
     const kind = /\.(obj|glb|pc2|mdd|npz)$/i.exec(target)?.[1].toLowerCase();
+    const isFolder = statSync(target || ".", { throwIfNoEntry: false })?.isDirectory() ?? false;
+    if (!kind && !isFolder && /\.[a-z]\w{1,4}$/i.test(target))
+        throw new Error(
+            `${target}: its suffix is not written here; use .obj, .glb, .pc2, .mdd or .npz, or name a folder`,
+        );
     const [frames, colors, attributes, metadata] = [[], [], [], new Map()];
     let [faces, positions, header, runs] = [undefined, undefined, undefined, 0];
-    for (const event of eventsOf(await loadKernels(), new Uint8Array(readFileSync(path)))) {
+    for (const event of eventsOf(await loadKernels(), new Uint8Array(readFileSync(path === "-" ? 0 : path)))) {
         if (event.type === "header") ({ header } = event);
         if (event.type === "metadata") for (const [name, value] of event.entries) metadata.set(name, value);
         if (event.type === "connectivity") [faces, runs] = [event.faces, runs + 1];
@@ -115,7 +128,8 @@ try {
         if (event.type !== "frame") continue;
         if (!target || kind === "obj")
             throw new Error(
-                `this is a sequence${header.frames ? ` of ${header.frames} frames` : ""}: name a folder, or a .glb, .npz, .pc2 or .mdd file, behind it`,
+                `this is a sequence${header.frames ? ` of ${header.frames} frames` : ""}: ` +
+                    "name a folder, or a .glb, .npz, .pc2 or .mdd file, after it",
             );
         if (kind) {
             frames.push(event.positions);

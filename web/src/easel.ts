@@ -10,6 +10,8 @@ export interface Pictured {
     readonly camera: Camera;
     /** Whether it can be seen now. */
     readonly inView: boolean;
+    /** Hear that the context is lost, or there again. */
+    lose(isLost: boolean): void;
     /** Move on by some seconds; returns whether the picture is another one then. */
     step(seconds: number): boolean;
 }
@@ -26,7 +28,10 @@ export function hang(picture: Pictured): void {
     if (!renderer) {
         renderer = new WebGLRenderer({ antialias: true, alpha: true });
         renderer.setScissorTest(true);
-        renderer.domElement.addEventListener("webglcontextrestored", () => pictured.forEach((each) => stale.add(each)));
+        renderer.domElement.addEventListener("webglcontextlost", () => pictured.forEach((each) => each.lose(true)));
+        renderer.domElement.addEventListener("webglcontextrestored", () =>
+            pictured.forEach((each) => each.lose(false)),
+        );
         before = performance.now();
         renderer.setAnimationLoop(drawAll);
     }

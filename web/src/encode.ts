@@ -2,7 +2,7 @@
 import type { BufferGeometry, Object3D } from "three";
 import { EncodeError, encodeWith, type Answer, type EncodeOptions, type MeshInput } from "./encoding";
 import { compiled, once } from "./fetched";
-import { started } from "./threads";
+import { sayAlone, started } from "./threads";
 
 export {
     EncodeError,
@@ -15,6 +15,8 @@ export {
 
 /** A `BufferGeometry` or an `Object3D` of three.js. */
 export type Drawn = { readonly isBufferGeometry: true } | { readonly isObject3D: true };
+
+const [THREAD, HERE] = ["encode-worker.js", import.meta.url];
 
 const load = once((url: string) => compiled(new URL(url)));
 
@@ -53,8 +55,12 @@ export async function encode(input: MeshInput | Drawn, options: EncodeOptions = 
     signal?.throwIfAborted();
     const mesh = await wholeOf(input, options);
     const module = await loadEncoder(wasm, Boolean(mesh.frames));
-    const worker = started(() => new Worker(new URL("./encode-worker.js", import.meta.url), { type: "module" }));
-    if (!worker) return encodeWith(module, mesh, options);
+    const alone = (): Uint8Array<ArrayBuffer> => (sayAlone(), encodeWith(module, mesh, options));
+    const worker = started(
+        () => new Worker(new URL("./encode-worker.js", import.meta.url), { type: "module" }),
+        () => new URL(THREAD, HERE),
+    );
+    if (!worker) return alone();
     try {
         const bytes = await new Promise<Uint8Array<ArrayBuffer> | undefined>((resolve, reject) => {
             signal?.addEventListener("abort", () => reject(signal.reason as Error), { once: true });
@@ -71,7 +77,7 @@ export async function encode(input: MeshInput | Drawn, options: EncodeOptions = 
             };
             worker.postMessage({ module, mesh, options: plain });
         });
-        return bytes ?? encodeWith(module, mesh, options);
+        return bytes ?? alone();
     } finally {
         worker.terminate();
     }

@@ -20,12 +20,9 @@ export function turnOf(metadata: Metadata): [number, number, number] {
 
 /** What metadata call a part or a material. */
 export function nameOf(metadata: Metadata, kind: "part" | "material", number: number): string {
-    const names = metadata.get(`${kind}.names`);
-    return String(
-        metadata.get(`${kind}.${number}.name`) ??
-            (typeof names === "string" ? names.split("\n")[number] : undefined) ??
-            `${kind} ${number}`,
-    );
+    const called = (what: string): unknown =>
+        metadata.get(`${what}.${number}.name`) ?? String(metadata.get(`${what}.names`) ?? "").split("\n")[number];
+    return String(called(kind) || (kind === "part" && called("object")) || `${kind} ${number}`);
 }
 
 type Words = Map<string, string | number>;
@@ -45,12 +42,14 @@ const TEXTURES: Record<string, Slot[]> = {
 const COLORED = ["map", "emissiveMap"];
 
 /** The images of metadata, by their numbers. */
-async function imagesOf(metadata: Metadata): Promise<Map<number, Texture>> {
+async function imagesOf(metadata: Metadata, tell: (unshown: string) => void): Promise<Map<number, Texture>> {
     const found = [...metadata].flatMap(([key, value]) => {
         const match = /^image\.(\d+)\.data$/.exec(key);
         return match && value instanceof Uint8Array ? [[Number(match[1]), value] as const] : [];
     });
     const textures = await Promise.all(found.map(async ([number, data]) => [number, await textureOf(data)] as const));
+    for (const [number, texture] of textures)
+        if (!texture) tell(`the image ${metadata.get(`image.${number}.name`) ?? number}, which browsers do not read`);
     return new Map(textures.flatMap(([number, texture]) => (texture ? [[number, texture] as const] : [])));
 }
 
@@ -72,9 +71,12 @@ async function textureOf(data: Uint8Array): Promise<Texture | undefined> {
     }
 }
 
-/** The materials of a geometry by their numbers; plain ones where it has none. */
-export async function materialsOf({ metadata, pieces, color }: BSMGeometry): Promise<MeshStandardMaterial[]> {
-    const images = await imagesOf(metadata);
+/** The materials of a geometry by their numbers; plain ones where it has none. `tell` hears of what is not shown. */
+export async function materialsOf(
+    { metadata, pieces, color }: BSMGeometry,
+    tell: (unshown: string) => void = (what) => console.warn(`BSM: not shown: ${what}`),
+): Promise<MeshStandardMaterial[]> {
+    const images = await imagesOf(metadata, tell);
     const words = Array.from(
         { length: 1 + Math.max(0, ...pieces.map(({ material }) => material)) },
         (): Words => new Map(),

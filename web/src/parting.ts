@@ -3,16 +3,15 @@ import type { Attribute } from "./attributes";
 import { cornersOf, spread, type DrawnFaces, type Piece } from "./drawn";
 
 /** Attributes of faces that say what belongs together, and are not drawn. */
-const [MATERIAL, PART] = ["material", "part"];
+const LABELS = [["part", "object"], ["material"]]; // by the first of the names that there is
 const LINEAR = "COLOR_0"; // what streams in glTF call colors: others are sRGB
 const BASES = { texcoord: "uv", color: "color", normal: "normal" } as const;
 
 /** Faces `whole`, which are sorted, of a mesh of `size` vertices, with all that it carries. */
 export function drawnFaces(faces: Int32Array, whole: Int32Array, carried: Attribute[], size: number): DrawnFaces {
-    const labels = [PART, MATERIAL].map((name) =>
-        carried.find(
-            (attribute) => attribute.name === name && attribute.domain === "face" && attribute.components === 1,
-        ),
+    const ofFaces = carried.filter(({ domain, components }) => domain === "face" && components === 1);
+    const labels = LABELS.map((names) =>
+        names.map((known) => ofFaces.find(({ name }) => name === known)).find(Boolean),
     );
     const [part, material] = labels.map(
         (attribute) =>

@@ -13,6 +13,7 @@ import {
     Vector3,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Bar, BAR_STYLE } from "./bar";
 import { hang, redraw, takeDown } from "./easel";
 import type { BSMGeometry } from "./geometry";
 import { BSMLoader, BSMSequence, sceneOf } from "./three";
@@ -20,14 +21,16 @@ import { turnBy } from "./turning";
 
 /** Pages may style the element as they like; the text lies in front of the picture. */
 const STYLE = `
-:host { display: block; position: relative; background: radial-gradient(circle at 50% 40%, #eef0f3, #aeb6c2); }
-canvas { display: block; width: 100%; height: 100%; touch-action: none; }
+:host { display: block; position: relative; touch-action: pan-y;
+    background: radial-gradient(circle at 50% 40%, #eef0f3, #aeb6c2); }
+canvas { display: block; width: 100%; height: 100%; touch-action: inherit; }
 img { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: contain; pointer-events: none; }
 img:not([src]) { display: none; }
 p { position: absolute; inset: auto 0 45% 0; margin: 0; padding: 0 1em; text-align: center;
     font: 14px system-ui, sans-serif; color: #222; }`;
 /** What a sequence says, and the element says again. */
 const PASSED = ["play", "pause", "frame", "loop", "ended", "waiting"] as const;
+const TAP = 6; // pixels that a finger may move while it taps
 /** How far outside of the window a player is drawn already. */
 const NEAR = "20%";
 /** From where it is looked at first, in front and a little above, and how much farther away than would do. */
@@ -36,12 +39,13 @@ const [FRONT, ROOM] = [new Vector3(0.4, 0.3, 1).normalize(), 1.02];
 const Base = (globalThis.HTMLElement ?? Object) as typeof HTMLElement;
 
 /**
- * Attributes `src`, `autoplay`, `loop`, `rate` (times as fast), and `poster`, a picture until something is drawn. Events: `loadeddata`
+ * A mesh as `<video>` has films. Attributes `src`, `autoplay` (not where the reader prefers reduced motion), `controls`,
+ * `loop`, `rate` (times as fast), `disable-zoom`, and `poster`, a picture until something is drawn. Events: `loadeddata`
  * once something is drawn, `load` once all is there, an `ErrorEvent`, and `play`, `pause`, `frame`, `loop`, `ended`, `waiting` of a
  * sequence. Arrow keys turn it, plus and minus zoom, the space bar plays and pauses. All players of a page draw with one context.
  */
 export class BSMPlayer extends Base {
-    static readonly observedAttributes = ["src", "loop", "rate", "poster"];
+    static readonly observedAttributes = ["src", "loop", "rate", "poster", "controls", "disable-zoom"];
     readonly loader = new BSMLoader();
     readonly scene = new Scene();
     readonly camera = new PerspectiveCamera(35);
@@ -56,12 +60,13 @@ export class BSMPlayer extends Base {
     private fitted = 0;
     /** Whether the reader has moved the camera. */
     private touched = false;
-    private controls?: OrbitControls;
+    private orbit?: OrbitControls;
+    private bar?: Bar;
     private resizes?: ResizeObserver;
     private scrolls?: IntersectionObserver;
     /** What is loading, or wrong. */
     private readonly note = globalThis.document?.createElement("p");
-    private readonly poster = globalThis.document?.createElement("img");
+    private readonly picture = globalThis.document?.createElement("img");
     /** Stops the load; what has been stopped is not shown. */
     private loading = new AbortController();
 
@@ -91,6 +96,30 @@ export class BSMPlayer extends Base {
         this.setAttribute("rate", `${rate}`);
     }
 
+    get controls(): boolean {
+        return this.hasAttribute("controls");
+    }
+
+    set controls(controls: boolean) {
+        this.toggleAttribute("controls", controls);
+    }
+
+    get autoplay(): boolean {
+        return this.hasAttribute("autoplay");
+    }
+
+    set autoplay(autoplay: boolean) {
+        this.toggleAttribute("autoplay", autoplay);
+    }
+
+    get poster(): string {
+        return this.getAttribute("poster") ?? "";
+    }
+
+    set poster(url: string) {
+        this.setAttribute("poster", url);
+    }
+
     get paused(): boolean {
         return !this.sequence?.playing;
     }
@@ -117,20 +146,31 @@ export class BSMPlayer extends Base {
     }
 
     connectedCallback(): void {
-        const { camera, canvas, note, poster, scene } = this;
-        const style = Object.assign(document.createElement("style"), { textContent: STYLE });
-        poster.alt = "";
+        const { camera, canvas, note, picture, scene } = this;
+        const style = Object.assign(document.createElement("style"), { textContent: STYLE + BAR_STYLE });
+        picture.alt = "";
+        this.bar = new Bar(this);
+        canvas.setAttribute("part", "canvas");
         canvas.tabIndex = 0;
         canvas.setAttribute("role", "img");
         canvas.setAttribute(
             "aria-label",
             this.getAttribute("aria-label") ?? "A mesh in three dimensions. Arrow keys turn it, plus and minus zoom.",
         );
-        (this.shadowRoot ?? this.attachShadow({ mode: "open" })).replaceChildren(style, canvas, poster, note);
-        this.controls = new OrbitControls(camera, canvas);
-        this.controls.addEventListener("change", () => this.redraw());
-        this.controls.addEventListener("start", () => (this.touched = true));
+        (this.shadowRoot ?? this.attachShadow({ mode: "open" })).replaceChildren(
+            style,
+            canvas,
+            picture,
+            note,
+            this.bar.element,
+        );
+        this.orbit = new OrbitControls(camera, canvas);
+        this.orbit.addEventListener("change", () => this.redraw());
+        this.orbit.addEventListener("start", () => (this.touched = true));
+        canvas.style.touchAction = ""; // which the element has: a page scrolls over it
         canvas.onkeydown = (event) => this.act(event);
+        this.listenToTaps();
+        this.steer();
         const sun = new DirectionalLight(0xffffff, 2);
         sun.position.set(1, 1, 1);
         camera.clear().add(sun);
@@ -155,19 +195,27 @@ export class BSMPlayer extends Base {
         this.empty();
         this.resizes?.disconnect();
         this.scrolls?.disconnect();
-        this.controls?.dispose();
-        this.controls = undefined;
+        this.orbit?.dispose();
+        this.orbit = undefined;
     }
 
     attributeChangedCallback(name: string): void {
         if (name === "src") this.open();
         if (name === "poster") this.hold();
+        if (name === "controls" || name === "disable-zoom") this.steer();
         if (this.sequence) [this.sequence.loop, this.sequence.speed] = [this.loop, this.rate];
     }
 
     /** Draw again, after a change of `scene` or `camera`. */
     redraw(): void {
         redraw(this);
+    }
+
+    /** Say that nothing can be drawn for a while, or no longer that. */
+    lose(isLost: boolean): void {
+        if (isLost) return this.fail(new Error("The graphics card has dropped this picture (WebGL context lost)."));
+        this.note.textContent = "";
+        this.redraw();
     }
 
     /** Move on by some seconds; returns whether the picture is another one then. */
@@ -177,20 +225,43 @@ export class BSMPlayer extends Base {
         return this.sequence?.frame !== frame;
     }
 
+    /** Show what a reader may do: without controls, where motion is not wished for, they start a sequence. */
+    private steer(): void {
+        if (!this.bar || !this.orbit) return;
+        this.bar.element.hidden = !this.controls && !(this.autoplay && this.isCalm);
+        this.orbit.enableZoom = !this.hasAttribute("disable-zoom");
+        this.bar.show();
+    }
+
+    /** Whether the reader prefers reduced motion. */
+    private get isCalm(): boolean {
+        return matchMedia("(prefers-reduced-motion: reduce)").matches;
+    }
+
+    /** A tap or click on the picture plays and pauses where there are controls, as in videos. */
+    private listenToTaps(): void {
+        const { canvas } = this;
+        let from = [NaN, NaN];
+        canvas.onpointerdown = ({ clientX, clientY }) => (from = [clientX, clientY]);
+        canvas.onclick = ({ clientX, clientY }) => {
+            const isTap = Math.hypot(clientX - from[0], clientY - from[1]) < TAP;
+            if (isTap && this.sequence && this.bar?.element.hidden === false) this.bar.toggle();
+        };
+    }
+
     private act(event: KeyboardEvent): void {
         if (event.key === " " && this.sequence) this.paused ? this.play() : this.pause();
-        else if (!this.controls || !turnBy(event.key, this.camera, this.controls.target)) return;
+        else if (!this.orbit || !turnBy(event.key, this.camera, this.orbit.target)) return;
         else this.touched = true;
         event.preventDefault();
-        this.controls?.update();
+        this.orbit?.update();
         this.redraw();
     }
 
     /** Show the poster as long as there is nothing else. */
     private hold(): void {
-        const poster = this.content ? null : this.getAttribute("poster");
-        if (poster) this.poster.src = poster;
-        else this.poster.removeAttribute("src");
+        if (this.poster && !this.content) this.picture.src = this.poster;
+        else this.picture.removeAttribute("src");
     }
 
     private fail(error: unknown): void {
@@ -199,7 +270,7 @@ export class BSMPlayer extends Base {
     }
 
     private open(): void {
-        if (!this.controls) return;
+        if (!this.orbit) return;
         this.empty();
         this.hold();
         this.note.textContent = "";
@@ -252,7 +323,9 @@ export class BSMPlayer extends Base {
         this.sequence = sequence;
         [sequence.loop, sequence.speed] = [this.loop, this.rate];
         for (const type of PASSED) sequence.addEventListener(type, (event) => this.say(type, event));
-        if (this.hasAttribute("autoplay")) sequence.play();
+        sequence.addEventListener("frame", () => this.say("timeupdate"));
+        if (this.autoplay && !this.isCalm) sequence.play();
+        this.steer();
     }
 
     /** Look at all of it, in all frames that are there. */
@@ -270,14 +343,14 @@ export class BSMPlayer extends Base {
         const {
             ball: { center, radius },
             camera,
-            controls,
+            orbit,
         } = this;
         const half = Math.atan(Math.tan((Math.PI / 360) * camera.fov) * Math.min(camera.aspect, 1));
         const far = (ROOM * radius) / Math.sin(half) || 1;
         [camera.near, camera.far] = [far / 100, 10 * far];
         camera.position.copy(FRONT).multiplyScalar(far).add(center);
-        controls?.target.copy(center);
-        controls?.update();
+        orbit?.target.copy(center);
+        orbit?.update();
     }
 
     private fit(): void {
@@ -307,6 +380,7 @@ export class BSMPlayer extends Base {
     }
 
     private say(type: string, detail?: unknown): void {
+        if (this.bar?.element.hidden === false) this.bar.show();
         this.dispatchEvent(new CustomEvent(type, { detail }));
     }
 }

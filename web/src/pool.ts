@@ -6,7 +6,7 @@ import type { Limits } from "./limits";
 import { needOf, type Build, type Need } from "./peek";
 import { isPage, PAGE } from "./fetched";
 import { here, type Source } from "./source";
-import { processors, WORTHWHILE } from "./threads";
+import { processors, sayAlone, WORTHWHILE } from "./threads";
 
 export { here, placeOf, type Source } from "./source";
 export type { Build } from "./peek";
@@ -194,8 +194,7 @@ export class Pool {
     }
 
     private settle(): void {
-        if (!this.alone && typeof Worker !== "undefined")
-            console.warn("BSM: this page may have no threads of its own, it decodes in the one that draws");
+        sayAlone();
         this.alone = true;
     }
 

@@ -19,6 +19,9 @@ const WORKERS: Record<Build, () => Worker> = {
     quick: () => new Worker(new URL("./quick-worker.js", import.meta.url), { type: "module", name: "BSM-quick" }),
     moving: () => new Worker(new URL("./moving-worker.js", import.meta.url), { type: "module", name: "BSM-moving" }),
 };
+/** Where this file is, for those that are not found by bundlers. */
+const HERE = import.meta.url;
+const threadOf = (build: Build): string => (build === "whole" ? "worker.js" : `${build}-worker.js`);
 const KERNELS: Record<Build, () => URL> = {
     whole: () => new URL("./kernels.wasm", import.meta.url),
     small: () => new URL("./small.wasm", import.meta.url),
@@ -42,7 +45,7 @@ const local: Source["local"] = (build) => (build === "quick" ? import("./quick")
 
 /** The files beside this one. */
 export const here: Source = {
-    worker: (build) => started(WORKERS[build]),
+    worker: (build) => started(WORKERS[build], () => new URL(threadOf(build), HERE)),
     kernels: once(async (build) => compiled(beside(KERNELS[build]))),
     local,
 };
@@ -53,14 +56,12 @@ export function placeOf(path: string): Source {
         path.endsWith("/") ? path : `${path}/`,
         globalThis.document?.baseURI ?? globalThis.location?.href,
     );
+    const address = (build: Build): URL => new URL(threadOf(build), base);
     return {
         worker: (build) =>
             started(
-                () =>
-                    new Worker(new URL(build === "whole" ? "worker.js" : `${build}-worker.js`, base), {
-                        type: "module",
-                        name: "BSM",
-                    }),
+                () => new Worker(address(build), { type: "module", name: "BSM" }),
+                () => address(build),
             ),
         kernels: once((build) => compiled(new URL(`${build === "whole" ? "kernels" : build}.wasm`, base))),
         local,

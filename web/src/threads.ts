@@ -8,11 +8,39 @@ export function processors(): number {
     return globalThis.navigator?.hardwareConcurrency ?? 1;
 }
 
-/** A thread; undefined where there are none, or the page's policy forbids it. */
-export function started(start: () => Worker): Worker | undefined {
+/**
+ * A thread, in the first of three ways that works: of its file; of a script of the page that imports the file, which may
+ * come from another origin (a CDN) then; none, so that this thread does the work. Where the policy of the page forbids
+ * blobs, the second way fails later, by an error event. `start` is for bundlers, which look for the name of a file in it.
+ */
+export function started(start: () => Worker, address?: () => URL): Worker | undefined {
     try {
         return start();
     } catch {
-        return undefined;
+        return address && imported(address);
     }
 }
+
+/** A thread of a blob that imports the module at an address. */
+function imported(address: () => URL): Worker | undefined {
+    let blob = "";
+    try {
+        const text = `import ${JSON.stringify(address().href)};`;
+        blob = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
+        return new Worker(blob, { type: "module", name: "BSM" });
+    } catch {
+        return undefined;
+    } finally {
+        URL.revokeObjectURL(blob);
+    }
+}
+
+/** Say once that the work is done in the thread that draws, and what that means. */
+export function sayAlone(): void {
+    if (isSaid || typeof Worker === "undefined") return; // where there are none, nobody expects any
+    isSaid = true;
+    console.warn(
+        "BSM: no thread can be started here, so the page waits while it decodes; see worker-src of its policy",
+    );
+}
+let isSaid = false;

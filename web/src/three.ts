@@ -1,6 +1,7 @@
 /** BSM streams in three.js: a loader that is used as DRACOLoader is, and one of whole scenes. */
 import { BufferGeometry, Group, Loader, Mesh, type MeshStandardMaterial } from "three";
 import { BsmError, errorLike } from "./errors";
+import { fetchPieces } from "./flights";
 import { BSMGeometry, type Progress } from "./geometry";
 import type { Limits } from "./index";
 import { materialsOf, nameOf, turnOf } from "./materials";
@@ -190,20 +191,16 @@ export class BSMLoader extends Loader<BSMGeometry> {
         signal?: AbortSignal,
     ): Promise<void> {
         const address = this.manager.resolveURL(this.path + url);
-        const response = await fetch(new URL(address, globalThis.document?.baseURI ?? globalThis.location?.href), {
+        const request: RequestInit = {
             headers: this.requestHeader,
             credentials: this.withCredentials ? "include" : "same-origin",
+        };
+        await fetchPieces(new URL(address, globalThis.document?.baseURI ?? globalThis.location?.href), request, {
             signal,
+            onPiece: (piece) => stream.receiveData(piece),
+            onProgress: (loaded, total) =>
+                onProgress?.(new ProgressEvent("progress", { lengthComputable: total > 0, loaded, total })),
         });
-        if (!response.ok || !response.body) throw new Error(`${response.status} ${response.statusText}`);
-        const total = Number(response.headers.get("content-length") ?? 0);
-        const reader = response.body.getReader();
-        let loaded = 0;
-        for (let piece; !(piece = await reader.read()).done;) {
-            loaded += piece.value.length;
-            stream.receiveData(piece.value);
-            onProgress?.(new ProgressEvent("progress", { lengthComputable: total > 0, loaded, total }));
-        }
         stream.receiveEof();
     }
 }

@@ -1,53 +1,96 @@
 /**
  * Files that are given together: meshes with the files that they name, or the frames of a sequence; and the encoder in
- * this thread.
+ * this thread. A sequence is a folder of meshes with the same faces, in the order of the numbers in their names, or a
+ * cache of points (PC2, MDD) beside the mesh that has its faces.
  */
+import { compact } from "./files/polygons";
 import { rateOf } from "./poses";
-import { moving, readMesh, suffixOf, type Given, type Reading } from "./reading";
+import { moving, readMesh, suffixOf, type Decoding, type Given, type Reading } from "./reading";
 
 export { encodeHere } from "./encode";
 export { readMesh } from "./reading";
 
 const [MESHES, CACHES, STREAMS] = [/^(obj|ply|stl|glb|gltf)$/, /^(pc2|mdd)$/, /^bsm$/];
 const RATE = 24; // frames per second of files that do not say
+const LEAST = 32; // bytes of a cache
 const order = new Intl.Collator("en", { numeric: true });
 const those = (files: Given[], kind: RegExp): Given[] => files.filter((file) => kind.test(suffixOf(file)));
 
-/**
- * What files show: caches of points, or meshes and the streams that are compared with them; the others belong to these.
- */
+/** What files show: caches of points, or meshes and the streams that are compared with them; the others belong to these. */
 export function shownAmong(files: Given[]): Given[] {
     const caches = those(files, CACHES);
     return caches.length > 0 ? caches : [...those(files, MESHES), ...those(files, STREAMS)];
 }
 
 /** The mesh or sequence of a file, which names others. */
-export function readOne(file: Given, files: Given[]): Promise<Reading> {
-    return CACHES.test(suffixOf(file)) ? readCache(file, those(files, MESHES)) : readMesh(file, files);
+export function readOne(file: Given, files: Given[], decoding?: Decoding): Promise<Reading> {
+    return CACHES.test(suffixOf(file)) ? readCache(file, those(files, MESHES)) : readMesh(file, files, decoding);
+}
+
+/** A mesh in single precision, which streams without loss have, where that moves no vertex visibly. */
+export function inSingle<Mesh extends Reading["mesh"]>(mesh: Mesh): Mesh {
+    const { positions } = mesh;
+    return positions instanceof Float64Array ? { ...mesh, positions: compact(positions, 3) } : mesh;
 }
 
 /** The frames of files, by the numbers in their names; attributes, but for normals, are those of the first. */
-export async function readFrames(files: Given[], rate = RATE, report?: (share: number) => void): Promise<Reading> {
+export async function readFrames(
+    files: Given[],
+    rate = RATE,
+    report?: (share: number) => void,
+    decoding?: Decoding,
+): Promise<Reading> {
     const ordered = files.toSorted((a, b) => order.compare(a.name, b.name));
-    const read = (file: Given): Promise<Reading> =>
-        readMesh(file).catch((error: Error) => Promise.reject(new Error(`${file.name}: ${error.message}`)));
+    const read = async (file: Given): Promise<Reading> => {
+        try {
+            return await readMesh(file, [], decoding);
+        } catch (error) {
+            throw new Error(`${file.name}: ${(error as Error).message}`);
+        }
+    };
     const first = await read(ordered[0]);
-    const [faces, { length }] = [Uint32Array.from(first.mesh.faces), first.mesh.positions];
-    const positions = new (first.mesh.positions.constructor as Float64ArrayConstructor)(length * files.length);
+    const { faces } = first.mesh;
+    const size = first.mesh.positions.length;
+    const positions = new Float64Array(size * files.length);
     for (const [frame, file] of ordered.entries()) {
         const { mesh } = frame > 0 ? await read(file) : first;
-        if (
-            mesh.faces.length !== faces.length ||
-            mesh.positions.length !== length ||
-            !faces.every((vertex, i) => vertex === mesh.faces[i])
-        )
+        const isSame = mesh.faces.length === faces.length && mesh.positions.length === size;
+        if (!isSame || !Array.prototype.every.call(faces, (vertex, i) => vertex === mesh.faces[i]))
             throw new Error(
                 `${file.name}: it has other faces than ${ordered[0].name}; bsm encode --runs takes such frames`,
             );
-        positions.set(mesh.positions, frame * length);
+        positions.set(mesh.positions, frame * size);
         report?.((frame + 1) / files.length);
     }
-    return { ...first, mesh: moving(first.mesh, positions, files.length, rate), used: ordered.map(({ name }) => name) };
+    const mesh = inSingle(moving(first.mesh, positions, files.length, rate));
+    return { ...first, mesh, used: ordered.map(({ name }) => name) };
+}
+
+/** The head of a cache of points: how many in how many frames, from which byte on, in which order of bytes. */
+interface Cache {
+    points: number;
+    frames: number;
+    start: number;
+    isLittle: boolean;
+    rate: number;
+}
+
+function headOf(file: Given, view: DataView): Cache {
+    if (view.byteLength < LEAST) throw new Error(`${file.name} is cut short`);
+    const isPc2 = suffixOf(file) === "pc2";
+    const points = isPc2 ? view.getInt32(16, true) : view.getInt32(4);
+    const frames = isPc2 ? view.getInt32(28, true) : view.getInt32(0);
+    const start = isPc2 ? LEAST : 8 + 4 * frames;
+    if (points < 1 || frames < 1 || view.byteLength < start + 12 * points * frames)
+        throw new Error(`${file.name} claims ${frames} frames of ${points} points, and has ${view.byteLength} bytes`);
+    const timeOf = (_: unknown, frame: number): number => view.getFloat32(8 + 4 * frame);
+    return {
+        points,
+        frames,
+        start,
+        isLittle: isPc2,
+        rate: isPc2 ? RATE : rateOf(Array.from({ length: frames }, timeOf)),
+    };
 }
 
 /** The points of a PC2 or MDD file, and the faces of the mesh that has its name, or is there. */
@@ -58,19 +101,14 @@ async function readCache(cache: Given, meshes: Given[]): Promise<Reading> {
         throw new Error(
             `Missing: ${stem(cache.name)}.obj. ${cache.name} holds points and no faces; drop its mesh, too.`,
         );
-    const [isPc2, view] = [suffixOf(cache) === "pc2", new DataView(await cache.arrayBuffer())];
-    if (view.byteLength < 32) throw new Error(`${cache.name} is cut short`);
-    const [points, frames] = isPc2
-        ? [view.getInt32(16, true), view.getInt32(28, true)]
-        : [view.getInt32(4), view.getInt32(0)];
-    const start = isPc2 ? 32 : 8 + 4 * frames;
-    if (points < 1 || frames < 1 || view.byteLength < start + 12 * points * frames)
-        throw new Error(`${cache.name} claims ${frames} frames of ${points} points, and has ${view.byteLength} bytes`);
-    const rate = isPc2 ? RATE : rateOf(Array.from({ length: frames }, (_, frame) => view.getFloat32(8 + 4 * frame)));
+    const view = new DataView(await cache.arrayBuffer());
+    const { points, frames, start, isLittle, rate } = headOf(cache, view);
     const reading = await readMesh(given, meshes);
-    const [{ length }, count] = [reading.mesh.positions, points * frames];
-    if (length !== 3 * points)
-        throw new Error(`${cache.name} has ${points} points, and ${given.name} has ${length / 3} vertices`);
-    const positions = Float32Array.from({ length: 3 * count }, (_, i) => view.getFloat32(start + 4 * i, isPc2));
-    return { ...reading, mesh: moving(reading.mesh, positions, frames, rate), used: [cache.name, ...reading.used] };
+    const vertices = reading.mesh.positions.length / 3;
+    if (vertices !== points)
+        throw new Error(`${cache.name} has ${points} points, and ${given.name} has ${vertices} vertices`);
+    const positions = new Float32Array(3 * points * frames);
+    for (let i = 0; i < positions.length; i++) positions[i] = view.getFloat32(start + 4 * i, isLittle);
+    const used = [cache.name, ...reading.used];
+    return { ...reading, mesh: moving(reading.mesh, positions, frames, rate), used };
 }

@@ -194,7 +194,7 @@ describe("encoding", () => {
             assert.equal(decode(kernels, new Uint8Array(readFileSync(target))).faces.length, 3);
         }
         writeFileSync(source, "v 0 0 0\n");
-        assert.match(String(run(source, target).stderr), /two\.obj: there are no meshes/);
+        assert.match(String(run(source, target).stderr), /two\.obj: the file has no faces that can be read/);
         assert.equal(run(join(folder, "a.step"), target).status, 2);
         assert.equal(run(join(folder, "none.ply"), target).status, 1);
     });

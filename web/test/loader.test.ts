@@ -639,12 +639,12 @@ describe(
             const posters = [shown()];
             await loaded;
             posters.push(shown());
-            const { canvas, camera, controls } = player;
+            const { canvas, camera, orbit } = player;
             const press = (key) => {
                 const event = new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true });
-                const [from, far] = [camera.position.clone(), camera.position.distanceTo(controls.target)];
+                const [from, far] = [camera.position.clone(), camera.position.distanceTo(orbit.target)];
                 canvas.dispatchEvent(event);
-                const now = camera.position.distanceTo(controls.target);
+                const now = camera.position.distanceTo(orbit.target);
                 return [event.defaultPrevented, camera.position.distanceTo(from) > 1e-6 * far, Math.abs(now / far - 1) < 1e-6 ? 0 : Math.sign(now - far), player.paused];
             };
             const keys = Object.fromEntries(["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "+", "-", " ", "x"].map((key) => [key, press(key)]));

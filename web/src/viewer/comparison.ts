@@ -162,8 +162,10 @@ export class Comparison {
         if (index === this.content.main) this.form.part("fields").replaceChildren(...fields);
         const named = [...metadata.keys()].some((key) => key.startsWith("material."));
         if (named) {
-            const materials = await materialsOf(geometry);
+            const unshown: string[] = [];
+            const materials = await materialsOf(geometry, (what) => unshown.push(what));
             if (geometry !== this.geometries[index]) return; // another mesh has taken its place
+            if (unshown.length > 0) this.content.facts.unshown = unshown;
             this.stage.setMaterials(index, materials);
             this.withMaterials.add(index);
         }

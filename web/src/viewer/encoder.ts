@@ -2,8 +2,10 @@
 import { Drawing, type Picture } from "../drawing";
 import { EncodeError, kindOf, type EncodeOptions } from "../encoding";
 import type { Header } from "../header";
+import { openDesk } from "../index";
+import { Pool } from "../pool";
 import { suffixOf, type Reading } from "../reading";
-import { encodeHere, readFrames, readOne, shownAmong } from "../together";
+import { encodeHere, inSingle, readFrames, readOne, shownAmong } from "../together";
 import type { Content, Layer } from "./facts";
 
 const FINEST = { still: 20, moving: 16 }; // bits of a grid
@@ -12,6 +14,8 @@ const FINEST = { still: 20, moving: 16 }; // bits of a grid
 export interface Job {
     files: File[];
     preset: string;
+    /** The decoder, for scenes whose geometry is streams. */
+    kernels: WebAssembly.Module;
 }
 export type Status = { stage: string; share: number } | { error: string } | { content: Content };
 
@@ -80,18 +84,23 @@ function drawn({ positions, faces, frames = 0, attributes = [], metadata = {} }:
 
 /** Encode to the bit or, where single precision is coarser and of sequences that are compared, on the finest grid. */
 async function exact(
-    { frames }: Reading["mesh"],
-    encode: (options: EncodeOptions) => Promise<Uint8Array>,
+    mesh: Reading["mesh"],
+    encode: (options: EncodeOptions, mesh?: Reading["mesh"]) => Promise<Uint8Array>,
     compares: boolean,
 ): Promise<Uint8Array> {
-    if (frames && compares) return encode({ bits: FINEST.moving });
-    return encode({ lossless: true }).catch((error) =>
+    if (mesh.frames && compares) return encode({ bits: FINEST.moving });
+    return encode({ lossless: true }, inSingle(mesh)).catch((error) =>
         error instanceof EncodeError && error.status === 10 ? encode({ bits: FINEST.still }) : Promise.reject(error),
     );
 }
 
-async function work({ files, preset }: Job, report: (report: Status, moved?: Transferable[]) => void): Promise<void> {
+async function work(
+    { files, preset, kernels }: Job,
+    report: (report: Status, moved?: Transferable[]) => void,
+): Promise<void> {
     const [begin, all] = [performance.now(), shownAmong(files) as File[]];
+    const source = { worker: () => undefined, kernels: async () => kernels, local: async () => ({ openDesk }) };
+    const decoding = { pool: new Pool(source) };
     if (all.length === 0)
         throw new Error("There is no PLY, OBJ, STL, GLB or glTF file, and no PC2 or MDD file with its mesh.");
     const [isPair, transfer, notes, used] = [all.length === 2, [] as Transferable[], [] as string[], new Set<string>()];
@@ -108,10 +117,10 @@ async function work({ files, preset }: Job, report: (report: Status, moved?: Tra
             };
         report({ stage: "reading", share: 0 });
         const { mesh, ...rest } = await (all.length > 2
-            ? readFrames(all, undefined, (share) => report({ stage: "reading", share }))
-            : readOne(file, files));
-        const encode = (options: EncodeOptions): Promise<Uint8Array> =>
-            encodeHere(mesh, { ...options, onProgress: (share) => report({ stage: "encoding", share }) });
+            ? readFrames(all, undefined, (share) => report({ stage: "reading", share }), decoding)
+            : readOne(file, files, decoding));
+        const encode = (options: EncodeOptions, own = mesh): Promise<Uint8Array> =>
+            encodeHere(own, { ...options, onProgress: (share) => report({ stage: "encoding", share }) });
         const bytes =
             isPair && file === all[0]
                 ? undefined

@@ -6,6 +6,9 @@ import type { Inlined } from "./inlined";
 const SECOND = 1000;
 const CLOSE = 2; // look distance up to which two meshes are close
 const MOST_NAMES = 6;
+/** What a file may have that nobody sees, as notes name it. */
+const UNSEEN =
+    /^(cameras?|(punctual )?lights?|(other )?(scenes|animations)|extras|comments?|.*metadata.*)( of .*)?( \(.*\))?$/i;
 const PIXEL = 1e-3; // of the diagonal: what a pixel is of a mesh that fills a large picture
 
 /** A mesh: its stream or pictures, the size of the file, and the error of each vertex, if it is known. */
@@ -52,6 +55,8 @@ export interface Content {
         /** What reader and encoder say, and whether they left something of the file out. */
         notes?: string[];
         less?: boolean;
+        /** What the stream has and the page cannot draw. */
+        unshown?: string[];
         /** Files that were given together, those that they name and are not there, and those that nothing names. */
         used?: string[];
         missing?: string[];
@@ -120,9 +125,21 @@ function verdictOf({ look, farthest, diagonal = 1 }: Content["facts"], unit: unk
     return farthest <= PIXEL ? [`Close: differences up to ${far}`, "good"] : [`Differences up to ${far}`, "poor"];
 }
 
+/** The names in notes of what is left out. */
+function leftOut(notes: string[]): string[] {
+    const found = notes.flatMap((note) => /^(?:.*: )?left out: (.*?)(?:\.( |$)|$)/i.exec(note)?.[1] ?? []);
+    return [...new Set(found.flatMap((names) => names.split(/, (?!because)/)))];
+}
+
+/** Those whose absence can be seen; notes that name nothing may mean anything. */
+function visibleIn(notes: string[]): string[] {
+    const names = leftOut(notes);
+    return names.length > 0 ? names.filter((name) => !UNSEEN.test(name)) : ["parts of the file"];
+}
+
 /**
  * Sizes of the given file and the stream, what is claimed of them, and the rows below; sizes are compared only if all
- * of the file is in the stream.
+ * of the file that can be seen is in the stream.
  */
 export function factsOf(
     { layers, main, facts }: Content,
@@ -132,10 +149,11 @@ export function factsOf(
 ): { plain?: number; size: number; claim: string; tone: Tone; rows: Row[] } {
     const size = layers[main].size || length;
     const [vertices, faces] = [header?.vertices ?? 0, header?.faces ?? 0];
-    const plain = main > 0 && !facts.less ? layers[0].size : undefined;
+    const missed = facts.less ? visibleIn(facts.notes ?? []) : [];
+    const plain = main > 0 && missed.length === 0 ? layers[0].size : undefined;
     const ratio = (plain ?? 0) / Math.max(size, 1);
     const { look, drawn, farthest, apart, before, angle, seconds, promised = {}, draco, notes = [] } = facts;
-    const { used = [], missing, unused } = facts;
+    const { used = [], missing, unused, unshown = [] } = facts;
     const rows: Row[] = [
         ...(used.length > 1 || unused?.length ? filesOf("Files used", used) : []),
         ...filesOf("Files missing", missing),
@@ -181,8 +199,12 @@ export function factsOf(
     if (others.length > 0) rows.push(["Attributes", others.map(({ name }) => name).join(", ")]);
     if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);
     const [words, tone] = verdictOf(facts, metadata.get("unit"));
-    const note = notes.find((each) => /left out/i.test(each)) ?? "Left out: parts of the file";
-    const left = facts.less ? `${note.split(/\.( |$)/)[0].replace(/^.*?left out/i, "Left out")}. ` : "";
+    const all = leftOut(notes);
+    const said = [
+        facts.less ? `Left out: ${all.join(", ") || "parts of the file"}. ` : "",
+        unshown.length > 0 ? `Not shown: ${unshown.join(", ")}. ` : "",
+    ].join("");
+    const isLess = missed.length > 0 || unshown.length > 0;
     const smaller = size > 0 && ratio > 1 && /good|fair/.test(tone) ? `, ${times(ratio)} times smaller` : "";
-    return { plain, size, claim: `${left}${words}${smaller}`, tone: left && tone === "good" ? "fair" : tone, rows };
+    return { plain, size, claim: `${said}${words}${smaller}`, tone: isLess && tone === "good" ? "fair" : tone, rows };
 }

@@ -31,7 +31,8 @@ export async function bytesOf({ url, data, bytes }: Inlined): Promise<Uint8Array
     return new Uint8Array(await (await fetched(url!)).arrayBuffer());
 }
 
-const load = once(async (build: Build) =>
+/** The decoder, compiled. */
+export const load = once(async (build: Build) =>
     WebAssembly.compile(await bytesOf((build === "small" && KERNELS.small) || KERNELS.kernels)),
 );
 

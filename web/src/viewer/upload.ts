@@ -1,7 +1,7 @@
 /** Show a file that is opened or dropped on the page, or compare two of them: its server or a thread encodes meshes. */
 import type { Content } from "./facts";
 import type { Form } from "./form";
-import { bytesOf } from "./inlined";
+import { bytesOf, served } from "./inlined";
 
 /** Encode a file, or compare two; `report` is called with each stage and the share done. */
 export type Encode = (
@@ -67,7 +67,11 @@ export class Upload {
     ) {
         const { root } = form;
         form.on("cancel", "click", () => this.cancel());
-        form.on("file", "change", ({ files }) => files?.length && void this.take([...files]));
+        form.on("file", "change", (input) => {
+            const files = [...(input.files ?? [])];
+            input.value = ""; // the same file, changed meanwhile, may be opened again
+            if (files.length > 0) void this.take(files);
+        });
         const drop = form.part("drop");
         root.addEventListener("dragover", (event) => {
             event.preventDefault();
@@ -133,7 +137,7 @@ export class Upload {
             if (share > 0) bar.value = share;
             else bar.removeAttribute("value");
         };
-        report("sending", 0);
+        report(served ? "sending" : "reading", 0);
         return this.encode(files, form.control<HTMLSelectElement>("preset").value, report, signal);
     }
 }

@@ -10,6 +10,7 @@ import { Comparison } from "./comparison";
 import { counted, element, factsOf, sized, type Content, type Row } from "./facts";
 import { Form } from "./form";
 import { listenToKeys } from "./keys";
+import { joinNormals } from "./seams";
 import { SequenceBar } from "./sequence";
 import { Stage } from "./stage";
 import { TileSet } from "./tiles";
@@ -17,6 +18,8 @@ import { Upload, type Encode } from "./upload";
 import template from "./view.html";
 
 const RULER = 120; // pixels of the longest bar
+const LOST =
+    "The picture is gone: the graphics card has dropped it (WebGL context lost). If it stays so, load the page again.";
 const NARROW = 480; // pixels of a page that has no room for it
 
 /** Middle and diagonal of the box that a mesh fills, about, in its own unit. */
@@ -186,6 +189,10 @@ export class View {
         );
         form.on("keep", "click", () => this.save(new Blob([this.arrival.bytes as BlobPart]), "bsm"));
         root.querySelector("form")!.addEventListener("submit", (event) => event.preventDefault());
+        stage.canvas.addEventListener("webglcontextlost", () => form.say("problem", LOST));
+        stage.canvas.addEventListener("webglcontextrestored", () => {
+            if (form.part("problem").textContent === LOST) form.say("problem", "");
+        });
         listenToKeys(form, stage, meshes);
         if (matchMedia("(min-width: 45rem) and (min-height: 30rem)").matches)
             form.part("more").setAttribute("open", "");
@@ -212,6 +219,7 @@ export class View {
         if (first) stage.place(tiles.extent.center, tiles.extent.diagonal);
         else tiles.look(eye, pixels);
         const shown = tiles.shown;
+        joinNormals(shown);
         stage.show(0, ...shown);
         const faces = shown.reduce((sum, geometry) => sum + geometry.getIndex()!.count / 3, 0);
         const { shards, levels } = tiles.manifest;
@@ -332,7 +340,8 @@ export class View {
                 "problem",
                 `The original cannot be compared. ${error instanceof Error ? error.message : error}`,
             );
-        void (meshes.accompanied ? meshes.showMaterials() : this.accompany()).catch(complain);
+        const rest = meshes.accompanied ? meshes.showMaterials().then(() => this.headline()) : this.accompany();
+        void rest.catch(complain);
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
     }
 

@@ -2,7 +2,7 @@
 import { Pool } from "../pool";
 import type { Job, Status } from "./encoder";
 import type { Content } from "./facts";
-import { bytesOf, encoder, fetched, inlined, served } from "./inlined";
+import { bytesOf, encoder, fetched, inlined, load, served } from "./inlined";
 import { bytesIn, contentOf, type Encode, isStream, pathOf } from "./upload";
 import { View } from "./view";
 
@@ -77,7 +77,8 @@ function inThread(job: Job, report: (stage: string, share: number) => void, sign
 /** Encode a mesh or a sequence, or compare two. */
 const encodeHere: Encode = async (files, preset, report, signal) => {
     if (files.every(isStream)) return contentOf(files, await Promise.all(files.map(bytesIn)), {});
-    return inThread({ files: files.map((file) => new File([file], pathOf(file))), preset }, report, signal);
+    const named = files.map((file) => new File([file], pathOf(file)));
+    return inThread({ files: named, preset, kernels: await load("whole") }, report, signal);
 };
 
 async function fillPage(list: HTMLElement): Promise<void> {

@@ -494,7 +494,8 @@ def _filled(found: Ints, size: int) -> Ints:
     """Add the corners on a straight line between others, which are left out: faces beside it may have them."""
     if len(found) >= size - 2:
         return found
-    sides = {side for i, j, k in found.tolist() for side in ((i, j), (j, k), (k, i))}
+    # In the order of the triangles, which JavaScript has, too: that of a set is Python's own.
+    sides = dict.fromkeys(side for i, j, k in found.tolist() for side in ((i, j), (j, k), (k, i)))
     more = [
         (i, (i + k) % size, (i + k + 1) % size)
         for i, j in sides

@@ -1,0 +1,259 @@
+"""Mesh files in pages: JavaScript reads vertices, triangles, attributes and notes as Python does."""
+
+import gzip
+import hashlib
+import json
+import os
+import re
+import shutil
+import struct
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bsm import BsmError
+from bsm.files.mesh import read_mesh, written_mesh
+from tests.shapes import ply_head, tetrahedron, torus
+
+ROOT = Path(__file__).parents[3]
+WEB = ROOT / "web"
+ABOUT_FILES = re.compile(r"no such file|not in the folder|Left out: colors and textures of materials")
+READ = ("obj", "ply", "stl")
+
+pytestmark = pytest.mark.skipif(
+    shutil.which("node") is None or not (WEB / "node_modules/three").is_dir(), reason="needs node, and npm ci in web"
+)
+
+
+def hashed(values):
+    return hashlib.sha256((np.asarray(values, np.float64) + 0.0).tobytes()).hexdigest()
+
+
+def area(mesh):
+    a, b, c = (mesh.positions[mesh.faces[:, k]] for k in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+
+
+def by_python(path):
+    try:
+        read = read_mesh(path)
+    except BsmError as error:
+        return {"error": str(error)}
+    mesh = read.mesh
+    attributes = [
+        {
+            "name": a.name,
+            "domain": a.domain,
+            "semantic": a.semantic,
+            "kind": a.values.dtype.name,
+            "shape": list(a.values.shape),
+            "values": hashed(a.values),
+            "indices": None if a.indices is None else hashed(a.indices),
+        }
+        for a in mesh.attributes
+    ]
+    return {
+        "counts": [len(mesh.positions), len(mesh.faces)],
+        "positions": hashed(mesh.positions),
+        "faces": hashed(mesh.faces),
+        "attributes": attributes,
+        "metadata": dict(mesh.metadata),
+        "notes": sorted(note for note in read.notes if not ABOUT_FILES.search(note)),
+    }
+
+
+def by_javascript(paths):
+    done = subprocess.run(
+        ["node", Path(__file__).with_name("reading.mjs"), WEB, *paths], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    found = [json.loads(line) for line in done.stdout.splitlines()]
+    for each in found:
+        if "error" not in each:
+            each["notes"] = sorted(note for note in each["notes"] if not ABOUT_FILES.search(note))
+    return found
+
+
+def require_same(paths):
+    """Require that both read each file alike, or that both refuse it."""
+    read = 0
+    for path, theirs in zip(paths, by_javascript(paths), strict=True):
+        ours = by_python(path)
+        assert ("error" in ours) == ("error" in theirs), f"{path}: {ours.get('error')} {theirs.get('error')}"
+        if "error" not in ours:
+            read += 1
+            assert theirs | ours == theirs, path
+    return read
+
+
+def written(folder, files):
+    paths = []
+    for name, content in files.items():
+        paths.append(folder / name)
+        paths[-1].write_bytes(content if isinstance(content, bytes) else content.encode())
+    return paths
+
+
+CORNERS = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .25 0\n"
+TEXTS = {
+    "concave": "v 0 0 0\nv 3 0 0\nv 3 3 0\nv 2 3 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4 5 6\n",
+    "bowtie": CORNERS + "f 1 3 2 4\n",
+    "line": "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 2 2 0\nv 1.5 .5 0\nv 0 2 0\nf 1 2 3 4 5 6\n",
+    "negative": CORNERS + "vt 0 0\nvt 1 0\nf -5/-2 -4/-1 -3/-1\nv 9 9 9\nf -1 1 2\n",
+    "texcoords": CORNERS + "vt 0 0 .5\nvt .25\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/1 4//1\nf 1/1 2/2 5\nf 1//1 2 5\n",
+    "colors": "v 0 0 0 1 0 0\nv 1 0 0 0 .2 0\nv 0 1 0 0 0 1\nf 1 2 3\n",
+    "bytes": "v 0 0 0 255 0 0\nv 1 0 0 0 51 0\nv 0 1 0 0 0 7\nf 1 2 3\n",
+    "alpha": "v 0 0 0 1 0 0 .5\nv 1 0 0 0 .213 0 1\nv 0 1 0 0 0 1 1\nf 1 2 3\n",
+    "weights": "v 0 0 0 1\nv 1 0 0 .5\nv 0 1 0 1\nf 1 2 3\n",
+    "states": "mtllib a b.mtl\no one\ng x y\n"
+    + CORNERS
+    + "usemtl r\nf 1 2 3\ns 1\nf 1 3 4\no two\nusemtl g\nf 1 2 5\n",
+    "many": CORNERS + "".join(f"o part {i}\nf 1 2 {3 + i % 3}\n" for i in range(20)),
+    "remarks": '# meta unit: "mm"\n#meta x\n' + CORNERS + "f 1 2 3 # the first\nl 1 2\ncurv 1\n#MRGB 00\n",
+    "continued": "v 0 0 \\\n0\r\nv 1 0 0\rv 0 1 0\n\n# no \\\nf 1 2 \\\n 3\n",
+    "thin": CORNERS + "f 1 2\nf 1\nf 1 2 3\n",
+    "numbers": "v 0 0 0\nv 1e-3 +.5 1.\nv 0 1 1E2\nf 1 2 3\n",
+    "special": "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 1\nvn 0 0 1\nf 1//1 2//2 3//2\n",
+    "all special": "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 1\nf 1//1 2//1 3//1\n",
+    "fine": "v 0.1 0.2 0.3\nv 1000000.123456 0 0\nv 0 1 0\nf 1 2 3\n",
+    "infinite": "v 0 0 inf\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    "hexadecimal": "v 0 0 0x10\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    "underscore": "v 0 0 1_0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    "short": "v 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    "outside": CORNERS + "f 1 2 6\n",
+    "zero": CORNERS + "f 0 1 2\n",
+    "half": CORNERS + "f 1.5 1 2\n",
+    "slash": CORNERS + "f /1 1 2\n",
+    "empty corner": CORNERS + "vt 0 0\nf 1/ 2/1 3/1\n",
+    "no faces": CORNERS,
+    "values outside": CORNERS + "vt 0 0\nf 1/1 2/2 3/1\n",
+    "latin": "g \u00e9t\u00e9\n" + CORNERS + "f 1 2 3\n",
+}
+
+
+def test_texts(tmp_path):
+    files = {f"{name.replace(' ', '_')}.obj": text for name, text in TEXTS.items()}
+    files["latin1.obj"] = TEXTS["latin"].encode("latin-1")
+    files["mark.obj"] = TEXTS["latin"].encode("utf-8-sig")
+    files["wide.obj"] = TEXTS["latin"].encode("utf-16")
+    assert require_same(written(tmp_path, files)) > 20
+
+
+def test_random_polygons(tmp_path):
+    """Stars around the origin, most of them not convex, in planes of all directions."""
+    random, files = np.random.default_rng(5), {}
+    for number in range(12):
+        lines, count = [], 0
+        for _ in range(20):
+            size = int(random.integers(4, 100))
+            angles = np.sort(random.random(size)) * 2 * np.pi
+            flat = np.column_stack([np.cos(angles), np.sin(angles)]) * (0.2 + random.random((size, 1)))
+            if number % 2:
+                flat = np.rint(8 * flat)
+            points = flat @ random.normal(size=(2, 3))
+            lines += ["v {!r} {!r} {!r}\n".format(*row) for row in points.tolist()]
+            lines.append(f"f {' '.join(str(count + i + 1) for i in range(size))}\n")
+            count += size
+        files[f"{number}.obj"] = "".join(lines)
+    assert require_same(written(tmp_path, files)) == 12
+
+
+def plys():
+    more = "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float w_0\nproperty float w_1\n"
+    rows = "0 0 0 255 0 0 .5 1\n1 0 0 0 9 0 .25 0\n1 1 0 0 0 300 0 0\n0 1 0 1 1 1 1 1\n"
+    yield "colors", ply_head(4, 1, more=more) + rows + "4 0 1 2 3\n"
+    yield "fits", ply_head(4, 1, more=more) + rows.replace("300", "30") + "4 0 1 2 3\n"
+    faces = "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty list uchar float texcoord\n"
+    head = ply_head(4, 2).replace("end_header", faces + "property int flag\nend_header")
+    square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+    yield "faces", head + square + "3 0 1 2 9 8 7 6 0 0 1 0 1 1 5\n3 0 2 3 0 0 0 0 -1\n"
+    yield "extra", head + square + "3 0 1 2 9 8 7 0 5\n3 0 2 3 0 0 0 0 -1 7\n"
+    yield "wrong", head + square + "3 0 1 2 9 8 7 1 0 5\n3 0 2 3 0 0 0 0 -1\n"
+    yield "fans", ply_head(5, 1) + square + ".5 .25 0\n" + "5 0 1 2 4 3\n"
+    comments = 'comment by me\ncomment meta unit: "mm"\nobj_info x\ncomment TextureFile a.png\nelement vertex'
+    yield "comments", ply_head(3, 1).replace("element vertex", comments) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+    yield "points", ply_head(3, 0) + "0 0 0\n1 0 0\n0 1 0\n"
+    yield "short", ply_head(3, 2) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+    yield (
+        "edges",
+        ply_head(3, 1).replace("end_header", "element edge 1\nproperty int a\nend_header")
+        + ("0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n4\n"),
+    )
+    for order, kind in (("binary_little_endian", "<"), ("binary_big_endian", ">")):
+        head = ply_head(4, 2, order).replace("list uchar int", "list ushort uint")
+        body = struct.pack(f"{kind}12f", 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0.1)
+        body += struct.pack(f"{kind}H3I", 3, 0, 1, 2) + struct.pack(f"{kind}H4I", 4, 0, 1, 2, 3)
+        yield f"{kind == '<'}", head.encode() + body
+        yield f"cut_{kind == '<'}", head.encode() + body[:-5]
+    yield "mac", (ply_head(3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").replace("\n", "\r")
+    yield "windows", (ply_head(3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").replace("\n", "\r\n")
+
+
+def test_plys(tmp_path):
+    assert require_same(written(tmp_path, {f"{name}.ply": data for name, data in plys()})) > 10
+
+
+def test_stls(tmp_path):
+    facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 {}\nendloop\nendfacet\n"
+    two = f"solid a\n{facet.format(0)}endsolid a\nsolid b c\n{facet.format(-0.0)}{facet.format(2)}endsolid\n"
+    binary = written_mesh(torus(), "stl").data
+    colored = bytearray(binary)
+    colored[84 + 48] = 7
+    files = {
+        "two": two,
+        "one": f"solid\n{facet.format(0.1)}endsolid",
+        "upper": two.upper(),
+        "cut": two[:-80],
+        "lines": two.replace("\n", " ").replace("solid a", "solid a\n"),
+        "binary": binary,
+        "colored": bytes(colored),
+        "more": binary + b"1234567",
+        "unknown": binary[:80] + bytes(4) + binary[84:],
+        "less": binary[:-30],
+        "header": b"solid by me".ljust(80, b"\0") + binary[80:],
+        "nothing": b"",
+    }
+    assert require_same(written(tmp_path, {f"{name}.stl": data for name, data in files.items()})) >= 8
+
+
+@pytest.mark.parametrize("kind", READ)
+def test_what_is_written(kind, tmp_path):
+    files = {f"{i}.{kind}": written_mesh(mesh, kind).data for i, mesh in enumerate((tetrahedron(), torus()))}
+    assert require_same(written(tmp_path, files)) == 2
+
+
+@pytest.mark.parametrize("kind", READ)
+def test_garbage(kind, tmp_path):
+    """Bytes changed at random: both read the same, or both refuse."""
+    random, data = np.random.default_rng(7), written_mesh(tetrahedron(), kind).data
+    files = {}
+    for number in range(60):
+        changed = bytearray(data)
+        for place in random.integers(0, len(data), 1 + number % 3):
+            changed[place] = random.integers(32, 127) if kind != "stl" else random.integers(0, 256)
+        files[f"{number}.{kind}"] = bytes(changed)
+    require_same(written(tmp_path, files))
+
+
+@pytest.mark.real
+def test_assets():
+    folder = Path(os.environ.get("BSM_MESHES", ROOT.parent / "shared/meshes"))
+    most = 10_000_000  # bytes: of larger ones there are some alike
+    found = [path for kind in READ for path in sorted(folder.rglob(f"*.{kind}")) if path.stat().st_size < most]
+    if not found:
+        pytest.skip("needs real meshes")
+    assert require_same(found) > 10
+    scenes = sorted(folder.rglob("*.glb"))
+    for path, theirs in zip(scenes, by_javascript(scenes), strict=True):
+        mesh = read_mesh(path).mesh
+        assert theirs["counts"] == [len(mesh.positions), len(mesh.faces)], path
+        assert theirs["area"] == pytest.approx(area(mesh), rel=1e-6), path
+
+
+def test_compressed_meshes_are_read_by_python_alone(tmp_path):
+    """A page is told that .gz is not read there, in place of nonsense."""
+    (path,) = written(tmp_path, {"a.obj.gz": gzip.compress(TEXTS["concave"].encode())})
+    (theirs,) = by_javascript([path])
+    assert "Only PLY, OBJ, STL" in theirs["error"]

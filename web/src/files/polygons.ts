@@ -1,0 +1,328 @@
+/**
+ * The contents of mesh files, polygons with columns of attributes, and their conversion to a mesh.
+ *
+ * This is `bsm.files.formats.polygons` in TypeScript: a file gives the same vertices, triangles, attributes and notes in
+ * a page as in Python, and `test/readers.test.ts` compares them for all files that there are. Polygons become fans from
+ * the first corner from which no triangle of them is folded, or else ears are clipped, by the library that Python uses,
+ * too. A polygon whose sides cross stays a fan, and a note says so.
+ */
+import earcut from "earcut";
+import type { AttributeInput, MeshInput } from "../encoding";
+
+export type Values =
+    Int8Array | Uint8Array | Int16Array | Uint16Array | Int32Array | Uint32Array | Float32Array | Float64Array;
+
+/** A value for each point, each polygon, or each corner of the polygons; it may be wrong. */
+export interface Column {
+    name: string;
+    values: Values;
+    components: number;
+    domain: "vertex" | "corner" | "face";
+    semantic?: AttributeInput["semantic"];
+    /** Which value each corner has; undefined: corner i has value i. */
+    indices?: ArrayLike<number>;
+}
+
+/** The points of a file in full precision, and its polygons over them. */
+export interface Polygons {
+    positions: Float64Array;
+    sizes: ArrayLike<number>;
+    corners: ArrayLike<number>;
+    columns: Column[];
+    metadata: Record<string, string | number>;
+    notes: string[];
+    dropped: string[];
+}
+
+export type PlainMesh = MeshInput & { positions: Float32Array | Float64Array; faces: Uint32Array };
+
+export const PLURALS: Record<string, string> = { color: "colors", normal: "normals", texcoord: "texture coordinates" };
+const MOST_TURNS = 16; // fans that are tried for a polygon
+const MOST_CORNERS = 2 ** 15; // of a polygon whose ears are clipped: that can take the square of it
+const SINGLE = 1e-6; // of its range, by which single precision may move a value
+const NAMED_APART = 16; // names that have an entry of metadata each
+
+/** A mesh of triangles, and a sentence for each change of the file's contents. */
+export function meshOfPolygons(polygons: Polygons): { mesh: PlainMesh; notes: string[]; dropped: string[] } {
+    const { positions, sizes, corners, columns, metadata } = polygons;
+    const [notes, dropped, count] = [[...polygons.notes], [...polygons.dropped], positions.length / 3];
+    const every = Array.from(sizes);
+    if (!every.some((size) => size > 0))
+        throw new Error(
+            `the file has no faces that can be read; ` +
+                (dropped.length > 0 ? `it has ${dropped.join(", ")}` : "point clouds are not supported"),
+        );
+    for (let i = 0; i < corners.length; i++)
+        if (!(corners[i] >= 0 && corners[i] < count))
+            throw new Error(`a face refers to vertex ${corners[i]}, outside 0..${count - 1}`);
+    const infinite = positions.findIndex((number) => !Number.isFinite(number));
+    if (infinite >= 0)
+        throw new Error(`vertex ${Math.floor(infinite / 3)} has a coordinate that is not finite; remove or repair it`);
+    const [thin, large] = [every.filter((size) => size < 3).length, every.filter((size) => size > 3).length];
+    if (thin > 0) dropped.push(`faces with fewer than three corners (${thin})`);
+    if (large > 0) notes.push(`polygons were cut into triangles: ${large}`);
+    const { places, owners, crossing } = triangulated(positions, every, corners);
+    if (crossing > 0) notes.push(`polygons whose sides cross, so that their triangles overlap: ${crossing}`);
+    const finite = columns.map((column) => withoutInfinite(column, notes));
+    const rows = { vertex: count, face: every.length };
+    const attributes: AttributeInput[] = [];
+    const refused: [string, string][] = [];
+    for (const column of finite) {
+        const { components, domain, semantic = "generic", values } = column;
+        const name = unusedName(column.name, domain, new Set(attributes.map((each) => each.name)));
+        const wrong = faultOf(column, rows, places);
+        if (wrong) {
+            refused.push([PLURALS[column.name] ?? column.name, wrong]);
+            continue;
+        }
+        const { indices } = column;
+        if (domain === "vertex") attributes.push({ name, values, components, semantic });
+        else if (domain === "face")
+            attributes.push({ name, values: picked(values, components, owners), components, domain, semantic });
+        else
+            attributes.push({
+                name,
+                values,
+                components,
+                domain,
+                semantic,
+                indices: Int32Array.from(places, (place) => (indices ? indices[place] : place)),
+            });
+    }
+    if (dropped.length > 0) notes.push(`left out: ${dropped.join(", ")}`);
+    for (const [name, why] of refused) notes.push(`left out: ${name}, because ${why}`);
+    const faces = Uint32Array.from(places, (place) => corners[place]);
+    if (faces.length === 0) throw new Error("the mesh has no faces; point clouds are not supported");
+    const single = Float32Array.from(positions);
+    const isSingle = single.every((number, i) => number === positions[i]);
+    const mesh = { positions: isSingle ? single : positions, faces, attributes, metadata };
+    return { mesh, notes, dropped: [...dropped, ...refused.map(([name]) => name)] };
+}
+
+/** Why a column cannot be an attribute of triangles whose corners are those at some places; undefined: it can. */
+function faultOf(
+    { name, components, domain, indices, values }: Column,
+    rows: { vertex: number; face: number },
+    places: Uint32Array,
+): string | undefined {
+    const there = values.length / components;
+    if (Array.prototype.some.call(values, (value: number) => !Number.isFinite(value)))
+        return `a value of the attribute '${name}' is not finite`;
+    if (domain !== "corner")
+        return there === rows[domain] ? undefined : `there are ${there} of them for ${rows[domain]}`;
+    const corners = indices?.length ?? there;
+    const most = places.reduce((high, place) => Math.max(high, place), -1);
+    if (most >= corners) return `there are ${corners} of them for ${most + 1} corners`;
+    const outside = places.find((place) => !((indices?.[place] ?? place) >= 0 && (indices?.[place] ?? place) < there));
+    return outside === undefined ? undefined : `a corner refers to value ${indices?.[outside] ?? outside}`;
+}
+
+/** A column with zeros for values that are not finite, where others are. */
+function withoutInfinite(column: Column, notes: string[]): Column {
+    const { name, values } = column;
+    const lost = values instanceof Float32Array || values instanceof Float64Array ? countOf(values) : 0;
+    if (lost === 0 || lost === values.length) return column;
+    notes.push(`values of ${PLURALS[name] ?? name} that are not finite were set to zero: ${lost}`);
+    const kept = (values as Float64Array).map((value) => (Number.isFinite(value) ? value : 0));
+    return { ...column, values: kept };
+}
+
+const countOf = (values: Float32Array | Float64Array): number =>
+    (values as Float64Array).reduce((count, value) => count + Number(!Number.isFinite(value)), 0);
+
+export function unusedName(name: string, domain: string, taken: Set<string>): string {
+    const longer = name.startsWith(domain) ? name : `${domain}_${name}`;
+    for (const candidate of [name, longer]) if (!taken.has(candidate)) return candidate;
+    for (let number = 2; ; number++) if (!taken.has(`${name}${number}`)) return `${name}${number}`;
+}
+
+/** Rows of a table, by their numbers. */
+export function picked<Kind extends Values>(values: Kind, width: number, rows: ArrayLike<number>): Kind {
+    const found = new (values.constructor as new (size: number) => Kind)(width * rows.length);
+    for (let i = 0; i < found.length; i++) found[i] = values[width * rows[Math.floor(i / width)] + (i % width)];
+    return found;
+}
+
+/** Floats in single precision where that moves none by more than a millionth of their range. */
+export function compact(values: Float64Array, width: number): Float32Array | Float64Array {
+    const low = new Float64Array(width).fill(Infinity);
+    const high = new Float64Array(width).fill(-Infinity);
+    let off = 0;
+    for (let i = 0; i < values.length; i++) {
+        const d = i % width;
+        low[d] = Math.min(low[d], values[i]);
+        high[d] = Math.max(high[d], values[i]);
+        off = Math.max(off, Math.abs(Math.fround(values[i]) - values[i]));
+    }
+    const range = Math.hypot(...high.map((most, d) => most - low[d]));
+    return values.length > 0 && Number.isFinite(range) && off <= SINGLE * range ? Float32Array.from(values) : values;
+}
+
+/** Colors as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known. */
+export function colorColumn(values: Values, components: number, domain: Column["domain"]): Column {
+    const column = { name: "color", values, components, domain };
+    if (!(values instanceof Float32Array || values instanceof Float64Array))
+        return {
+            ...column,
+            semantic: values instanceof Uint8Array || values instanceof Uint16Array ? "color" : "generic",
+        };
+    if (values.length === 0 || countOf(values) > 0) return column;
+    const [low, high] = (values as Float64Array).reduce(
+        ([least, most], value) => [Math.min(least, value), Math.max(most, value)],
+        [Infinity, -Infinity],
+    );
+    const exact = high > 1 ? values : (values as Float64Array).map((value) => 255 * value);
+    const isWhole = (value: number): boolean => {
+        const byte = Math.round(value);
+        return byte >= 0 && byte <= 255 && Math.abs(byte - value) <= 255e-6;
+    };
+    if ((exact as Float64Array).every(isWhole))
+        return { ...column, values: Uint8Array.from(exact, Math.round), semantic: "color" };
+    const plain = values instanceof Float64Array ? compact(values, components) : values;
+    return { ...column, values: plain, semantic: low >= 0 && high <= 1 ? "color" : "generic" };
+}
+
+/** The meaning of values by their name, if as many components can mean that. */
+export function meaningOf(name: string, components: number): Column["semantic"] {
+    const widths = { color: [3, 4], normal: [3], texcoord: [2, 3] };
+    const found = /^(?:(?:vertex|corner|face)_)?(color|normal|texcoord)s?(?![a-z])/.exec(name.toLowerCase());
+    const meaning = found?.[1] as keyof typeof widths | undefined;
+    return meaning && widths[meaning].includes(components) ? meaning : "generic";
+}
+
+/** The metadata that call the things 0, 1, ... so: an entry each, or, of many, one text. */
+export function named(names: string[], what: string): Record<string, string> {
+    if (names.length <= NAMED_APART)
+        return Object.fromEntries(names.map((name, number) => [`${what}.${number}.name`, name]));
+    return { [`${what}.names`]: names.map((name) => name.replace(/[\0-\x1f\x7f]/g, " ")).join("\n") };
+}
+
+/** The groups of faces: numbers if there are several, and their names as metadata; `ofFace` counts the names so far. */
+export function grouped(
+    what: string,
+    names: string[],
+    ofFace: number[],
+): { columns: Column[]; metadata: Record<string, string> } {
+    const used = [...new Set(ofFace)].sort((a, b) => a - b);
+    const numbers = new Map<string, number>();
+    for (const change of used) if (!numbers.has(names[change])) numbers.set(names[change], numbers.size);
+    const values = Int32Array.from(ofFace, (change) => numbers.get(names[change])!);
+    const own = [...numbers.keys()];
+    return {
+        columns: own.length > 1 ? [{ name: what, values, components: 1, domain: "face" }] : [],
+        metadata: own.some(Boolean) ? named(own, what) : {},
+    };
+}
+
+type Vector = [x: number, y: number, z: number];
+
+/** Twice the area of a triangle, along its normal. */
+function areaOf(points: Float64Array, a: number, b: number, c: number): Vector {
+    const edge = (to: number): Vector => [
+        points[3 * to] - points[3 * a],
+        points[3 * to + 1] - points[3 * a + 1],
+        points[3 * to + 2] - points[3 * a + 2],
+    ];
+    const [u, v] = [edge(b), edge(c)];
+    return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+}
+
+const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+/** The unit normal of a polygon; zeros without one. */
+export function polygonNormal(positions: Float64Array, corners: ArrayLike<number>): Vector {
+    const sum: Vector = [0, 0, 0];
+    for (let i = 1; i + 1 < corners.length; i++)
+        areaOf(positions, corners[0], corners[i], corners[i + 1]).forEach((part, d) => (sum[d] += part));
+    const length = Math.hypot(...sum);
+    return length > 0 ? [sum[0] / length, sum[1] / length, sum[2] / length] : [0, 0, 0];
+}
+
+/** Cut polygons into triangles, in the order of the polygons: the corners of each, and whose they are. */
+function triangulated(
+    positions: Float64Array,
+    sizes: number[],
+    corners: ArrayLike<number>,
+): { places: Uint32Array; owners: Uint32Array; crossing: number } {
+    const most = positions.reduce((far, number) => Math.max(far, Math.abs(number)), 1e-300);
+    const scaled = positions.map((number) => number / most); // so that no product overflows
+    const count = sizes.reduce((sum, size) => sum + Math.max(size - 2, 0), 0);
+    const [places, owners] = [new Uint32Array(3 * count), new Uint32Array(count)];
+    let [first, at, crossing] = [0, 0, 0];
+    sizes.forEach((size, polygon) => {
+        owners.fill(polygon, at, at + Math.max(size - 2, 0));
+        const { cut, crosses } = cutOf(scaled, corners, first, size);
+        crossing += Number(crosses);
+        for (let i = 0; i < cut.length; i++) places[3 * at + i] = first + cut[i];
+        at += Math.max(size - 2, 0);
+        first += size;
+    });
+    return { places, owners, crossing };
+}
+
+/** The triangles of one polygon: a fan from the first corner from which none is folded, or ears. */
+function cutOf(
+    points: Float64Array,
+    corners: ArrayLike<number>,
+    first: number,
+    size: number,
+): { cut: ArrayLike<number>; crosses: boolean } {
+    if (size < 3) return { cut: [], crosses: false };
+    if (size === 3) return { cut: [0, 1, 2], crosses: false };
+    const fan = (turn: number): number[] =>
+        Array.from({ length: size - 2 }, (_, i) => [turn, (i + 1 + turn) % size, (i + 2 + turn) % size]).flat();
+    const vectorsOf = (cut: number[]): Vector[] =>
+        Array.from({ length: cut.length / 3 }, (_, i) =>
+            areaOf(
+                points,
+                corners[first + cut[3 * i]],
+                corners[first + cut[3 * i + 1]],
+                corners[first + cut[3 * i + 2]],
+            ),
+        );
+    const normal: Vector = [0, 0, 0];
+    for (const vector of vectorsOf(fan(0))) vector.forEach((part, d) => (normal[d] += part));
+    for (let turn = 0; turn < Math.min(size, MOST_TURNS); turn++) {
+        const cut = fan(turn);
+        if (!vectorsOf(cut).some((vector) => dot(vector, normal) < 0)) return { cut, crosses: false };
+    }
+    if (size > MOST_CORNERS)
+        throw new Error(`a polygon that is not convex has ${size} corners; cut it into triangles before`);
+    const ears = earsOf(points, corners, first, size, normal);
+    return ears.length === 3 * (size - 2) ? { cut: ears, crosses: false } : { cut: fan(0), crosses: true };
+}
+
+/** Clip the ears of a polygon that is not convex; one whose sides cross gets too few or many. */
+function earsOf(
+    points: Float64Array,
+    corners: ArrayLike<number>,
+    first: number,
+    size: number,
+    normal: Vector,
+): number[] {
+    const sizes = normal.map(Math.abs);
+    const axis = sizes.indexOf(Math.max(...sizes));
+    const [u, v] = [
+        [1, 2],
+        [0, 2],
+        [0, 1],
+    ][axis];
+    const sign = normal[axis] < 0 !== (axis === 1) ? -1 : 1; // counterclockwise as seen from there
+    const flat = Array.from({ length: size }, (_, i) => {
+        const at = 3 * corners[first + i];
+        return [sign * points[at + u], points[at + v]];
+    }).flat();
+    const found = earcut(flat);
+    if (found.length >= 3 * (size - 2)) return found;
+    // Corners on a straight line between others are left out; faces beside it may have them.
+    const sides = new Map<number, [number, number]>();
+    for (let i = 0; i < found.length; i += 3)
+        for (let k = 0; k < 3; k++) {
+            const [a, b] = [found[i + k], found[i + ((k + 1) % 3)]];
+            sides.set(a * size + b, [a, b]);
+        }
+    for (const [a, b] of [...sides.values()])
+        if (!sides.has(b * size + a))
+            for (let k = 1; k < (b - a + size) % size; k++) found.push(a, (a + k) % size, (a + k + 1) % size);
+    return found;
+}

@@ -1,0 +1,114 @@
+/** STL: triangles without common vertices, binary or text. */
+import { named, type Column, type Polygons } from "./polygons";
+import { Rows, textOf, wordsOf } from "./text";
+
+const [HEAD, RECORD] = [84, 50]; // bytes before the first triangle, and of one
+const UNKNOWN = [0, 0xffffffff]; // numbers of triangles by programs that did not know it yet
+const trimmed = (bytes: Uint8Array): string => new TextDecoder("latin1").decode(bytes).replace(/[\0 ]+$/, "");
+
+/** Whether an STL is text; binary files that begin with "solid" have zeros or the right size. */
+function isText(bytes: Uint8Array, claimed: number): boolean {
+    const head = bytes.subarray(0, 1024);
+    if (bytes.length === HEAD + RECORD * claimed || head.includes(0)) return false;
+    return /^\s*solid|\b(facet\s+normal|outer\s+loop|vertex)\b/i.test(textOf(head.slice()));
+}
+
+/** Read a binary or a text STL; corners with equal coordinates are one vertex, in order of appearance. */
+export function readStl(data: ArrayBuffer): Polygons {
+    const bytes = new Uint8Array(data);
+    const view = new DataView(data);
+    const claimed = bytes.length >= HEAD ? view.getUint32(HEAD - 4, true) : -1;
+    const read = isText(bytes, claimed) ? ofText(textOf(bytes)) : ofBytes(bytes, view, claimed);
+    const { soup, columns = [], metadata = {}, dropped = [] } = read;
+    const { corners, positions } = joined(soup);
+    const notes = [
+        `STL knows no vertices: ${corners.length} corners with equal coordinates were joined to ${positions.length / 3} vertices`,
+    ];
+    return { positions, sizes: new Uint8Array(corners.length / 3).fill(3), corners, columns, metadata, notes, dropped };
+}
+
+type Soup = { soup: Float64Array } & Partial<Pick<Polygons, "columns" | "metadata" | "dropped">>;
+
+function ofBytes(bytes: Uint8Array, view: DataView, claimed: number): Soup {
+    if (bytes.length < HEAD)
+        throw new Error(`this is not an STL file: it has ${bytes.length} bytes, and the header alone has ${HEAD}`);
+    const [held, rest] = [Math.floor((bytes.length - HEAD) / RECORD), (bytes.length - HEAD) % RECORD];
+    const isKnown = !UNKNOWN.includes(claimed);
+    if (held < claimed && isKnown)
+        throw new Error(`the STL file is cut short (or is not one): it has ${held} of ${claimed} triangles`);
+    const count = isKnown && rest ? claimed : held === claimed ? claimed : held;
+    const beyond = bytes.length - HEAD - RECORD * count;
+    const dropped =
+        count === claimed
+            ? beyond > 0
+                ? [`${beyond} bytes after the last triangle`]
+                : []
+            : [`the number of triangles in the header (${claimed}; by its size, the file has ${held})`];
+    const [soup, colors] = [new Float64Array(9 * count), new Uint16Array(count)];
+    for (let i = 0; i < count; i++) {
+        const at = HEAD + RECORD * i;
+        for (let k = 0; k < 9; k++) soup[9 * i + k] = view.getFloat32(at + 12 + 4 * k, true);
+        colors[i] = view.getUint16(at + 48, true);
+    }
+    const header = trimmed(bytes.subarray(0, HEAD - 4));
+    const said = header.startsWith("bsm ") ? "provenance" : "stl_header";
+    return {
+        soup,
+        dropped,
+        metadata: header.replace(/[\0 ]/g, "") ? { [said]: header } : {},
+        columns: colors.some(Boolean) ? [{ name: "attribute", values: colors, components: 1, domain: "face" }] : [],
+    };
+}
+
+/** The corners of a text, and its solids as groups, of which several may have the same name. */
+function ofText(given: string): Soup {
+    let text = given.replace(/\r\n?/g, "\n").replace(/\bend[ \t]+(solid|facet|loop)\b/gi, "end$1");
+    if (/\b(outer[ \t]+loop[ \t]+vertex|endloop[ \t]+endfacet)\b/i.test(text))
+        // lines of several words
+        text = text.replace(/(?<=[ \t])((?:end)?facet|outer|(?:end)?loop|vertex)(?=\s)/gi, "\n$1");
+    const corners = new Rows("corner");
+    for (const [, line] of text.matchAll(/^[ \t]*vertex[ \t]+([^\n]*)/gim)) corners.add(wordsOf(line));
+    const [names, facets] = [[""], [] as number[]];
+    for (const [, end, name] of text.matchAll(/^[ \t]*(?:(endfacet)|solid\b([^\n]*))/gim)) {
+        if (end) facets.push(names.length - 1);
+        else names.push(name.trim());
+    }
+    if (corners.counts.length !== 3 * facets.length || (facets.length === 0 && !/endsolid/i.test(text)))
+        throw new Error(
+            `the STL file is cut short: ${corners.counts.length} corners in ${facets.length} finished triangles`,
+        );
+    const used = [...new Set(facets)].sort((a, b) => a - b);
+    const values = Int32Array.from(facets, (solid) => used.indexOf(solid));
+    const columns: Column[] = used.length > 1 ? [{ name: "group", values, components: 1, domain: "face" }] : [];
+    const called = used.map((solid) => names[solid]);
+    return { soup: corners.columns(0, 3), columns, metadata: called.some(Boolean) ? named(called, "group") : {} };
+}
+
+/** Corners with the same coordinates as one vertex each, found by a table of their bits. */
+function joined(soup: Float64Array): { corners: Uint32Array; positions: Float64Array } {
+    const count = soup.length / 3;
+    const whole = soup.map((number) => number + 0); // -0 is 0
+    const bits = new Uint32Array(whole.buffer);
+    const size = 2 ** Math.ceil(Math.log2(2 * count + 2));
+    const [table, corners] = [new Int32Array(size).fill(-1), new Uint32Array(count)];
+    const firsts: number[] = [];
+    for (let i = 0; i < count; i++) {
+        let hash = 0;
+        for (let k = 6 * i; k < 6 * i + 6; k++) hash = Math.imul(hash ^ bits[k] ^ (hash >>> 15), 0x9e3779b1);
+        let slot = (hash ^ (hash >>> 13)) & (size - 1);
+        const isSame = (first: number): boolean => {
+            for (let d = 0; d < 3; d++) if (whole[3 * first + d] !== whole[3 * i + d]) return false;
+            return true;
+        };
+        while (table[slot] >= 0 && !isSame(firsts[table[slot]])) slot = (slot + 1) & (size - 1);
+        if (table[slot] < 0) table[slot] = firsts.push(i) - 1;
+        corners[i] = table[slot];
+    }
+    return {
+        corners,
+        positions: Float64Array.from(
+            { length: 3 * firsts.length },
+            (_, i) => soup[3 * firsts[Math.floor(i / 3)] + (i % 3)],
+        ),
+    };
+}

@@ -1,0 +1,86 @@
+/** Numbers in text, read as Python reads them: what is not a number is an error that says where. */
+
+const WORD = /^[+-]?(?:nan|inf(?:inity)?|(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)$/i;
+const NUMBERS = { nan: NaN, inf: Infinity, infinity: Infinity };
+
+/** The words of a line. */
+export function wordsOf(line: string): string[] {
+    const found = line.trim();
+    return found === "" ? [] : found.split(/\s+/);
+}
+
+function numberOf(word: string): number | undefined {
+    const number = Number(word);
+    if (number - number === 0 && (word.length < 3 || !/[xob]/i.test(word))) return number;
+    if (!WORD.test(word)) return undefined;
+    const sign = word.startsWith("-") ? -1 : 1;
+    const named = NUMBERS[word.replace(/^[+-]/, "").toLowerCase() as keyof typeof NUMBERS] as number | undefined;
+    return named === undefined ? number : sign * named;
+}
+
+/** The number that a word is; `what` is named where it is none. */
+export function numberIn(word: string, what: string): number {
+    const number = numberOf(word);
+    if (number !== undefined) return number;
+    const fault = word.includes("_") ? "it has an underscore" : `'${word.slice(0, 60)}'`;
+    throw new Error(`${what} is not made of numbers: ${fault}`);
+}
+
+/** Text in UTF-8 or, after its mark, UTF-16; else in Latin-1, which any bytes are. */
+export function textOf(bytes: ArrayBuffer | Uint8Array): string {
+    const [first, second] = bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes);
+    if (first + second === 0x1fd) return new TextDecoder(first === 0xff ? "utf-16le" : "utf-16be").decode(bytes);
+    try {
+        return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+    } catch {
+        return new TextDecoder("latin1").decode(bytes);
+    }
+}
+
+/** Lines of numbers: all values in one list, and how many each line has. */
+export class Rows {
+    readonly values: number[] = [];
+    readonly starts: number[] = [];
+    readonly counts: number[] = [];
+
+    constructor(private readonly what: string) {}
+
+    add(words: string[]): void {
+        this.starts.push(this.values.length);
+        for (const word of words) this.values.push(numberIn(word, `${this.what} ${this.counts.length}`));
+        this.counts.push(words.length);
+    }
+
+    /** The numbers `first` to `first + count` of every line. */
+    columns(first: number, count: number): Float64Array {
+        const short = this.counts.findIndex((has) => has < first + count);
+        if (short >= 0) throw new Error(`${this.what} ${short} has ${this.counts[short]} numbers, too few`);
+        const found = new Float64Array(count * this.counts.length);
+        this.starts.forEach((start, row) => {
+            for (let d = 0; d < count; d++) found[count * row + d] = this.values[start + first + d];
+        });
+        return found;
+    }
+
+    /** The most numbers of a line, and the fewest. */
+    get range(): [fewest: number, most: number] {
+        return this.counts.reduce(([low, high], count) => [Math.min(low, count), Math.max(high, count)], [100, 0]);
+    }
+}
+
+/** Metadata in remarks of files that were written by `bsm`, "meta NAME: JSON". */
+export function metadataIn(remarks: Iterable<string>): Record<string, string | number> {
+    const found: Record<string, string | number> = {};
+    for (const remark of remarks) {
+        const [, name, value] = /^meta ([\p{L}\p{N}_.-]{1,255}): (.+)$/u.exec(remark.trim()) ?? [];
+        if (!name) continue;
+        try {
+            const parsed: unknown = JSON.parse(value);
+            const isText = typeof parsed === "string" && !/\p{Surrogate}/u.test(parsed);
+            if (isText || (typeof parsed === "number" && Math.abs(parsed) < 2 ** 63)) found[name] = parsed as string;
+        } catch {
+            continue; // a remark of someone else
+        }
+    }
+    return found;
+}

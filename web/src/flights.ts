@@ -1,0 +1,86 @@
+/**
+ * Streams that are fetched: one request for all who ask for an address at the same time, and none for those who ask when
+ * THREE.Cache has it.
+ *
+ * FileLoader gives a file when all of it is there, and streams are decoded while they come. So requests are made here:
+ * each keeps the pieces that came, for who joins later, and puts the whole into the cache that FileLoader uses, under its
+ * key. It stops when the last of those who wait for it has gone.
+ */
+import { Cache } from "three";
+
+/** What is heard of a request: pieces, how much of how much was received (0: not known), and the end. */
+export interface Passenger {
+    /** A piece, which several may have: nobody changes it. */
+    onPiece: (piece: Uint8Array) => void;
+    onProgress?: (loaded: number, total: number) => void;
+    signal?: AbortSignal;
+}
+
+interface Flight {
+    pieces: Uint8Array<ArrayBuffer>[];
+    passengers: Set<Passenger>;
+    stop: AbortController;
+    over: Promise<void>;
+}
+
+const flights = new Map<string, Flight>();
+const keyOf = (address: URL): string => `file:${address.href}`;
+
+/** Fetch what is at an address; resolves when all pieces were handed over. */
+export async function fetchPieces(address: URL, request: RequestInit, passenger: Passenger): Promise<void> {
+    const cached: unknown = Cache.enabled ? Cache.get(keyOf(address)) : undefined;
+    if (cached instanceof ArrayBuffer) {
+        passenger.onPiece(new Uint8Array(cached));
+        return passenger.onProgress?.(cached.byteLength, cached.byteLength);
+    }
+    const key = JSON.stringify([address.href, request.credentials, request.headers]);
+    const flight = flights.get(key) ?? begun(key, address, request);
+    for (const piece of flight.pieces) passenger.onPiece(piece);
+    flight.passengers.add(passenger);
+    const { signal } = passenger;
+    let leave: () => void = () => {};
+    const left = new Promise<never>((_, fail) => {
+        leave = () => fail(signal!.reason);
+        if (signal?.aborted) leave();
+        signal?.addEventListener("abort", leave, { once: true });
+    });
+    try {
+        await Promise.race([flight.over, left]);
+    } finally {
+        signal?.removeEventListener("abort", leave);
+        flight.passengers.delete(passenger);
+        if (flight.passengers.size === 0) flight.stop.abort();
+    }
+}
+
+function begun(key: string, address: URL, request: RequestInit): Flight {
+    const flight: Flight = { pieces: [], passengers: new Set(), stop: new AbortController(), over: Promise.resolve() };
+    flight.over = received(flight, address, request).finally(() => flights.delete(key));
+    flight.stop.signal.addEventListener("abort", () => flights.delete(key));
+    flight.over.catch(() => {}); // those who wait hear of it
+    flights.set(key, flight);
+    return flight;
+}
+
+/** How many bytes will come, as they are counted here: those of a compressed answer are not known before its end. */
+function totalOf({ headers }: Response): number {
+    const length = headers.has("content-encoding") ? null : headers.get("content-length");
+    return Number(headers.get("x-file-size") ?? length ?? 0);
+}
+
+async function received(flight: Flight, address: URL, request: RequestInit): Promise<void> {
+    const response = await fetch(address, { ...request, signal: flight.stop.signal });
+    if (!response.ok || !response.body) throw new Error(`${response.status} ${response.statusText}`);
+    const total = totalOf(response);
+    const reader = response.body.getReader();
+    let loaded = 0;
+    for (let piece; !(piece = await reader.read()).done;) {
+        loaded += piece.value.length;
+        flight.pieces.push(piece.value);
+        for (const { onPiece, onProgress } of [...flight.passengers]) {
+            onPiece(piece.value);
+            onProgress?.(loaded, loaded <= total ? total : 0);
+        }
+    }
+    if (Cache.enabled) Cache.add(keyOf(address), await new Blob(flight.pieces).arrayBuffer());
+}
