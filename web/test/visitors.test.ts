@@ -36,7 +36,7 @@ async function serve(origin: () => string): Promise<{ address: string; asked: st
             stream: VECTORS,
         };
         const place = join(root[folder as keyof typeof root] ?? "", ...rest);
-        if (!existsSync(place)) return response.writeHead(404).end();
+        if (!(folder in root) || !existsSync(place)) return response.writeHead(404).end();
         const bytes = folder === "gzip" ? gzipSync(readFileSync(place)) : readFileSync(place);
         response.writeHead(200, {
             "Content-Type": TYPES[extname(path)] ?? "application/octet-stream",
