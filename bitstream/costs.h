@@ -34,6 +34,14 @@ INLINE double twins_work(double n, double images) { return (1500 + 200 * images)
 static const double LOOK_WORK = 100; /* at a place that no cache has */
 INLINE double twins_bytes(double n, double images) { return (4 * images + 41) * n + (1 << 20); }
 INLINE double layer_work(double n, double m, double axes) { return n * (400 + 230 * axes) + 130 * m; }
+/* Cells and their places spread to vertices, each round (M 18). */
+INLINE double cells_work(double n, double ends, double m, double reach) {
+    return 30 * n + 40 * m + (3 + 2 * reach) * ends;
+}
+INLINE double cells_memory(double n, double ends, double m, double cells) {
+    return 60 * n + 8 * ends + 32 * m + 60 * cells;
+}
+INLINE double prolong_work(double n, double ends) { return 6 * n + 2 * ends; }
 static const double VALUE_MODEL_BYTES = 4.0 * (6 * 512 * 66 + 7 * (32 + 2 * 512)),
                     LEVEL_MODEL_BYTES = 4.0 * (2 * 5 * 512 * 32);
 INLINE double grid_field_bytes(double n, double m) { return 84 * n + 48 * m + VALUE_MODEL_BYTES + (1 << 20); }

@@ -7,6 +7,7 @@
 #include "bitstream/kernel.hpp"
 
 extern "C" {
+#include "codec/blocks/blocks.h"
 #include "codec/denoise/denoise.h"
 #include "codec/geometry/geometry.h"
 #include "codec/look/look.h"
@@ -152,6 +153,34 @@ inline bool label_components(ConstInts offsets, ConstInts neighbors, Ints, Ints)
 }
 inline bool smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2, double, Doubles, Doubles2) {
     return fits_rows(offsets, neighbors, offsets.size - 1, offsets.size - 1);
+}
+inline bool edges(ConstInts offsets, ConstInts neighbors) {
+    return offsets.size > 0 && fits_rows(offsets, neighbors, offsets.size - 1, offsets.size - 1);
+}
+inline bool find_cells(ConstInts offsets, ConstInts neighbors, int64_t reach, Bytes far, Ints waiting, Ints own) {
+    int64_t n = offsets.size - 1;
+    return edges(offsets, neighbors) && reach >= 0 && reach < 255 && far.size == n && waiting.size == n
+        && own.size == n;
+}
+inline bool link_cells(ConstInts offsets, ConstInts neighbors, ConstInts own, Ints bounds, Ints order, Ints filled,
+    Ints found, Ints links, Ints ends) {
+    int64_t n = offsets.size - 1, cells = links.size - 1;
+    return edges(offsets, neighbors) && own.size == n && below(own, cells) && bounds.size == cells + 1
+        && order.size == n && filled.size == cells && found.size > neighbors.size && ends.size > neighbors.size;
+}
+inline bool cell_faces(
+    ConstInts2 faces, ConstInts own, Ints counts, Ints2 found, Ints order, Ints sorted, Ints2 kept) {
+    int64_t m = faces.rows;
+    return faces.columns == 3 && below(faces, own.size) && below(own, counts.size - 1) && found.rows == m
+        && found.columns == 3 && order.size == m && sorted.size == m && kept.rows == m && kept.columns == 3;
+}
+inline bool prolong(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstDoubles2 places, int64_t, Singles,
+    Doubles2) {
+    return edges(offsets, neighbors) && below(own, places.rows);
+}
+inline bool fit_cells(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstInts links, ConstInts linked,
+    ConstDoubles2, int64_t, int64_t, Singles, Doubles2) {
+    return edges(offsets, neighbors) && edges(links, linked) && below(own, links.size - 1);
 }
 inline bool local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2) { return below(faces, positions.rows); }
 inline bool tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double, double, Doubles2, Doubles) {

@@ -110,7 +110,7 @@ static void find_levels(Ahead *ahead, int64_t next_block) {
     LevelsAhead *levels = &ahead->levels;
     const Header *header = &decoder->mesh.header;
     double n = (double)header->vertices, m = (double)decoder->mesh.faces.rows;
-    int64_t place = 0, capacity = 0, vertex = 0;
+    int64_t place = 0, capacity = 0, vertex = 0, cells = header->base.cells;
     Packet packet;
     const Context *context = &decoder->context;
     levels->moves = reader->moves;
@@ -119,8 +119,11 @@ static void find_levels(Ahead *ahead, int64_t next_block) {
         return;
     for (; next_block < header->blocks; next_block++)
         if (!peek_packet(reader, &place, &packet) || packet.type != BLOCK_FRAME || packet.index != next_block) return;
-    while (vertex < header->vertices && peek_packet(reader, &place, &packet) && packet.type == REFINEMENT_FRAME
-           && packet.first == vertex && packet.count > 0 && packet.count <= header->vertices - vertex) {
+    while (vertex < levels_size(header) && peek_packet(reader, &place, &packet) && packet.type == REFINEMENT_FRAME
+           && packet.first == vertex && packet.count > 0 && packet.count <= levels_size(header) - vertex) {
+        vertex += packet.count;
+        packet.first -= cells;
+        if (packet.first < 0) continue;
         if (levels->count == capacity) {
             capacity = 2 * capacity + 16;
             Packet *chunk;
@@ -132,7 +135,6 @@ static void find_levels(Ahead *ahead, int64_t next_block) {
             levels->chunk = chunk;
         }
         levels->chunk[levels->count++] = packet;
-        vertex += packet.count;
     }
 }
 
@@ -164,8 +166,8 @@ static void read_levels_ahead(Ahead *ahead) {
     bool more = true;
     if (levels->progress == NOT_BEGUN) {
         levels->progress = UNDER_WAY;
-        ConstInts2 faces = const_ints2(mesh->faces);
-        more = begin_levels(&levels->layer, &levels->context, &mesh->header, faces, &levels->scratch);
+        LayerPlan plan = plan_of_layer(&mesh->header, const_ints2(mesh->faces));
+        more = begin_levels(&levels->layer, &levels->context, plan, &levels->scratch);
     }
     while (more && !__atomic_load_n(&ahead->is_done, __ATOMIC_ACQUIRE)) more = read_stretch(levels);
     if (failed(&levels->context)) give_up_levels(levels);
@@ -258,7 +260,7 @@ static bool open_lanes(Ahead *ahead, int64_t count) {
         Lane *lane = ahead->lane + ahead->lanes;
         lane->context = beside(decoder);
         lane->known = lane->scratch = lane->results = arena_of(&lane->context);
-        if (!begin_chains(&lane->chains, &lane->context, &mesh->header, &mesh->graph, &mesh->blocks, &lane->known)) {
+        if (!begin_chains(&lane->chains, &lane->context, &mesh->header, ground_of(mesh), &mesh->blocks, &lane->known)) {
             release_all(&lane->known);
             return false;
         }

@@ -232,6 +232,28 @@ static bool read_blocks(bsmdec *decoder, bsmdec_changes *answer) {
             answer);
 }
 
+/* Cells that are there, spread to vertices: after the first block, twice as many each time, and the last. */
+static bool read_cells(bsmdec *decoder, bsmdec_changes *answer) {
+    const Mesh *mesh = &decoder->mesh;
+    Changes *changes = &decoder->changes;
+    bool over = mesh->next_block == mesh->header.blocks;
+    int64_t count = 0, n = mesh->next_block < 2 * changes->blocks && !over ? 0 : mesh->graph.size;
+    if (changes->blocks == mesh->next_block) n = 0;
+    Ints vertices;
+    Doubles2 positions = {NULL, 0, 3};
+    if (!take_ints(&changes->answer, n, &vertices) || (n > 0 && !place_base(decoder, &changes->answer, &positions)))
+        return false;
+    if (n > 0) changes->blocks = mesh->next_block;
+    for (int64_t v = 0; v < n; v++) {
+        if (!is_placed(mesh, v)) continue;
+        for (int d = 0; d < 3; d++) positions.data[3 * count + d] = positions.data[3 * v + d];
+        vertices.data[count++] = (int32_t)v;
+    }
+    vertices.size = positions.rows = count;
+    return into_unit(&decoder->context, &mesh->header, positions)
+        && answer_with(decoder, const_ints(vertices), const_doubles2(positions), over ? 0 : count, answer);
+}
+
 static bool has_unread_blocks(const bsmdec *decoder) {
     const Mesh *mesh = &decoder->mesh;
     int64_t i = decoder->changes.blocks;
@@ -244,7 +266,7 @@ static bool read_layer(bsmdec *decoder, bsmdec_changes *answer) {
     const Mesh *mesh = &decoder->mesh;
     const Layer *layer = &mesh->layer;
     Changes *changes = &decoder->changes;
-    bool all = has_unread_blocks(decoder);
+    bool all = (has_base(mesh) && !changes->spread) || has_unread_blocks(decoder);
     int64_t end = all ? layer->positions.rows : layer->coded, count = 0;
     int64_t start = all || layer->coded == layer->positions.rows ? 0 : changes->reached;
     Bytes whole = layer->refined.whole;
@@ -253,8 +275,9 @@ static bool read_layer(bsmdec *decoder, bsmdec_changes *answer) {
     if (!take_ints(&changes->answer, end - start, &vertices)) return false;
     changes->blocks = mesh->header.blocks;
     changes->reached = layer->coded;
+    changes->spread = true;
     for (int64_t v = start; v < end; v++) {
-        bool known = all ? mesh->assembly.blend.weights.data[v] > 0.0 : whole.size == 0 || whole.data[v];
+        bool known = all ? is_placed(mesh, v) : whole.size == 0 || whole.data[v];
         if (known) vertices.data[count++] = (int32_t)v;
     }
     vertices.size = count;
@@ -290,6 +313,7 @@ EXACTLY(bsmdec_status, bsmdec_read_changes, (bsmdec *decoder, bsmdec_changes *ch
     release_all(&decoder->changes.answer);
     bool done = mesh->has_grid ? read_grid(decoder, changes)
         : mesh->has_layer      ? read_layer(decoder, changes)
+        : has_base(mesh)       ? read_cells(decoder, changes)
                                : read_blocks(decoder, changes);
     int64_t block = done || mesh->has_grid || mesh->has_layer ? -1 : mesh->next_block - 1;
     if (!done) locate(&decoder->context.error, decoder->reader.last_offset, decoder->reader.last_frame, block);
@@ -320,13 +344,14 @@ static bool judge_blocks(bsmdec *decoder, Bytes states) {
     Arena *answer = &decoder->changes.answer;
     Bytes whole = {NULL, 0}, fit = {NULL, 0};
     int64_t n = mesh->graph.size;
-    if (!mark_whole(&mesh->assembly, &mesh->header, &mesh->graph, answer, &decoder->scratch, 0, &whole)
+    if (!mark_base(decoder, 0, answer, &whole)
         || (mesh->has_layer && mesh->layer.coded == n && !fit_vertices(&mesh->layer, answer, &fit)))
         return false;
-    bool unrefined = mesh->has_layer && mesh->layer.coded > 0 && mesh->layer.coded < n;
+    bool unrefined = (mesh->has_layer && mesh->layer.coded > 0 && mesh->layer.coded < n)
+        || (mesh->has_cell_layer && mesh->cell_layer.coded < mesh->header.base.cells);
     for (int64_t v = 0; v < n; v++) {
         bool degraded = unrefined || (whole.size > 0 && !whole.data[v]) || (fit.size > 0 && !fit.data[v]);
-        states.data[v] = !(mesh->assembly.blend.weights.data[v] > 0.0) ? MISSING : degraded ? DEGRADED : SOUND;
+        states.data[v] = !is_placed(mesh, v) ? MISSING : degraded ? DEGRADED : SOUND;
     }
     return true;
 }

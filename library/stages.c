@@ -8,13 +8,14 @@
 static bool is_too_late(const Mesh *mesh, FrameType type) {
     const uint32_t early = 1u << CONNECTIVITY_FRAME | 1u << PARTITION_FRAME | 1u << ORDER_FRAME | 1u << BLOCK_FRAME;
     const uint32_t positions = mesh->values_begun ? 1u << GRID_FRAME | 1u << REFINEMENT_FRAME : 0;
-    return (mesh->has_layer || mesh->values_begun) && (early | positions) >> type & 1;
+    return (mesh->has_cell_layer || mesh->has_layer || mesh->values_begun) && (early | positions) >> type & 1;
 }
 
 void end_mesh(Mesh *mesh) {
     end_ahead(mesh);
     if (mesh->has_chains) end_chains(&mesh->chains);
     if (mesh->has_attributes) end_attributes(&mesh->attributes);
+    end_layer(&mesh->cell_layer);
     end_layer(&mesh->layer);
     end_gops(&mesh->gops);
     release_all(&mesh->arena);
@@ -116,25 +117,66 @@ static bool accept_grid(bsmdec *decoder, const Packet *packet) {
     return tolerate_error(decoder, -1, true);
 }
 
+/* No more blocks come. */
+static bool end_blocks(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    if (!build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
+    end_chains(&mesh->chains);
+    end_chains_ahead(mesh);
+    return true;
+}
+
+static bool ensure_cell_layer(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    Refined refined;
+    Arena *arena = &mesh->arena, *scratch = &decoder->scratch;
+    if (mesh->has_cell_layer) return true;
+    if (!end_blocks(decoder)) return false;
+    ConstInts2 faces = const_ints2(mesh->cells.faces);
+    mesh->has_cell_layer =
+        blend_all(&mesh->assembly, &mesh->header, &mesh->cells.graph, arena, scratch, &refined.base)
+        && mark_whole(&mesh->assembly, &mesh->header, &mesh->cells.graph, arena, scratch, 1, &refined.whole)
+        && find_frames(&decoder->context, faces, arena, &refined)
+        && begin_layer(&mesh->cell_layer, &decoder->context, plan_of_cells(&mesh->header, faces), refined, arena,
+            scratch);
+    return mesh->has_cell_layer;
+}
+
 static bool ensure_layer(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     Refined refined;
     if (mesh->has_layer) return true;
-    if (!build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
-    end_chains(&mesh->chains);
-    end_chains_ahead(mesh);
+    if (has_base(mesh)
+            ? !ensure_cell_layer(decoder) || !close_layer(&mesh->cell_layer, &mesh->arena, &decoder->scratch)
+            : !end_blocks(decoder))
+        return false;
+    LayerPlan plan = plan_of_layer(&mesh->header, const_ints2(mesh->faces));
     mesh->has_layer = blend_beside(decoder, &refined)
-        && begin_layer(&mesh->layer, &decoder->context, &mesh->header, const_ints2(mesh->faces), refined, &mesh->arena,
-            &decoder->scratch);
+        && begin_layer(&mesh->layer, &decoder->context, plan, refined, &mesh->arena, &decoder->scratch);
     return mesh->has_layer;
+}
+
+/* Levels of cells; the last ones give the whole shape. */
+static bool accept_cell_levels(bsmdec *decoder, const Packet *packet) {
+    Mesh *mesh = &decoder->mesh;
+    Layer *layer = &mesh->cell_layer;
+    if (!ensure_cell_layer(decoder)) return false;
+    if (!decode_layer(layer, packet->first, packet->count, packet->data, &decoder->scratch)) {
+        layer->lossy = true;
+        return tolerate_error(decoder, -1, true);
+    }
+    return layer->coded < mesh->header.base.cells
+        || (ensure_layer(decoder) && emit_event(decoder, BSMDEC_REFINEMENT, 0, 0));
 }
 
 static bool accept_refinement(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     if (ends_with_blocks(decoder)) return end_with_blocks(decoder);
+    int64_t first = packet->first - mesh->header.base.cells;
+    if (first < 0) return accept_cell_levels(decoder, packet);
     if (!ensure_layer(decoder)) return false;
-    if (decode_layer(&mesh->layer, packet->first, packet->count, packet->data, &decoder->scratch))
-        return emit_event(decoder, BSMDEC_REFINEMENT, packet->first + packet->count, 0);
+    if (decode_layer(&mesh->layer, first, packet->count, packet->data, &decoder->scratch))
+        return emit_event(decoder, BSMDEC_REFINEMENT, first + packet->count, 0);
     mesh->layer.lossy = true;
     return tolerate_error(decoder, -1, true);
 }
@@ -180,8 +222,8 @@ static bool find_solid(bsmdec *decoder, ConstDoubles2 *solid) {
         if (!mesh->grid.broken && mesh->grid.coded == mesh->header.vertices) positions = mesh->grid.positions;
     } else if (!mesh->assembly.lossy && mesh->has_layer) {
         if (!mesh->layer.lossy) positions = mesh->layer.positions;
-    } else if (!mesh->assembly.lossy
-        && !blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &decoder->shown, &decoder->scratch, &positions)) {
+    } else if (!mesh->assembly.lossy && !mesh->cell_layer.lossy
+        && !place_base(decoder, &decoder->shown, &positions)) {
         return false;
     }
     *solid = const_doubles2(positions);
@@ -237,6 +279,7 @@ bool accept_damage_in_mesh(bsmdec *decoder) {
     bool tolerable = started || (mesh->has_faces && (type == BLOCK_FRAME || type == ATTRIBUTE_FRAME));
     if (mesh->has_grid) mesh->grid.broken = true;
     if (mesh->has_layer && !mesh->values_begun && type != VALUES_FRAME) mesh->layer.lossy = true;
+    if (mesh->has_cell_layer && !mesh->has_layer && type != VALUES_FRAME) mesh->cell_layer.lossy = true;
     return tolerable && tolerate_error(decoder, -1, true);
 }
 
@@ -251,14 +294,13 @@ static bool finish_positions(bsmdec *decoder) {
     if (mesh->has_layer) {
         if (!take_doubles2(&decoder->shown, mesh->graph.size, 3, &positions)) return false;
         memcpy(positions.data, mesh->layer.positions.data, (size_t)(3 * mesh->graph.size) * sizeof(double));
-    } else if (!blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &decoder->shown, &decoder->scratch,
-                   &positions)) {
+    } else if (!place_base(decoder, &decoder->shown, &positions)) {
         return false;
     }
     decoder->positions = const_doubles2(positions);
     if (!into_unit(&decoder->context, &mesh->header, positions)) return false;
     for (int64_t v = 0; v < positions.rows; v++)
-        for (int d = 0; d < 3 && !(mesh->assembly.blend.weights.data[v] > 0.0); d++)
+        for (int d = 0; d < 3 && !is_placed(mesh, v); d++)
             positions.data[3 * v + d] = __builtin_nan("");
     return true;
 }
@@ -280,7 +322,7 @@ bool check_sum(bsmdec *decoder, uint32_t found) {
 /* Whether nothing of the positions is lost. */
 static bool is_whole(const Mesh *mesh) {
     if (mesh->has_grid) return !mesh->grid.broken && mesh->grid.coded == mesh->header.vertices;
-    return !mesh->assembly.lossy && !(mesh->has_layer && mesh->layer.lossy);
+    return !mesh->assembly.lossy && !mesh->cell_layer.lossy && !(mesh->has_layer && mesh->layer.lossy);
 }
 
 bool finish_mesh(bsmdec *decoder) {

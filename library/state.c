@@ -69,19 +69,50 @@ bool build(bsmdec *decoder) {
     Context *context = &decoder->context;
     Mesh *mesh = &decoder->mesh;
     if (mesh->has_chains) return true;
+    const Graph *ground = ground_of(mesh);
     if (!graph_of(decoder)
-        || !make_blocks(context, &mesh->header, &mesh->graph, mesh->labels, &mesh->arena, &decoder->scratch,
-            &mesh->blocks)
-        || !begin_assembly(&mesh->assembly, mesh->graph.size, mesh->blocks.count, &mesh->arena))
+        || (has_base(mesh)
+            && !make_cells(context, &mesh->header.base, &mesh->graph, const_ints2(mesh->faces), &mesh->arena,
+                &decoder->scratch, &mesh->cells))
+        || !make_blocks(context, &mesh->header, ground, mesh->labels, &mesh->arena, &decoder->scratch, &mesh->blocks)
+        || !begin_assembly(&mesh->assembly, ground->size, mesh->blocks.count, &mesh->arena))
         return false;
-    mesh->has_chains = begin_chains(&mesh->chains, context, &mesh->header, &mesh->graph, &mesh->blocks, &mesh->arena);
+    mesh->has_chains = begin_chains(&mesh->chains, context, &mesh->header, ground, &mesh->blocks, &mesh->arena);
     return mesh->has_chains && announce(decoder);
+}
+
+bool place_base(bsmdec *decoder, Arena *arena, Doubles2 *positions) {
+    Mesh *mesh = &decoder->mesh;
+    const Assembly *assembly = &mesh->assembly;
+    Arena *scratch = &decoder->scratch;
+    Doubles2 places = mesh->cell_layer.positions;
+    if (!has_base(mesh)) return blend_all(assembly, &mesh->header, &mesh->graph, arena, scratch, positions);
+    if (!mesh->has_cell_layer && !blend_all(assembly, &mesh->header, &mesh->cells.graph, arena, scratch, &places))
+        return false;
+    return fill_unknown(&mesh->cells.graph, const_doubles(assembly->blend.weights), scratch, places)
+        && prolong_cells(&mesh->cells, &mesh->graph, const_doubles2(places), mesh->header.base.rounds, arena, scratch,
+            positions);
+}
+
+bool mark_base(bsmdec *decoder, int beyond, Arena *arena, Bytes *whole) {
+    Mesh *mesh = &decoder->mesh;
+    const Graph *ground = ground_of(mesh);
+    Bytes fit;
+    if (!has_base(mesh) || !mesh->has_cell_layer) {
+        if (!mark_whole(&mesh->assembly, &mesh->header, ground, arena, &decoder->scratch, has_base(mesh) ? 0 : beyond,
+                whole))
+            return false;
+    } else if (!fit_vertices(&mesh->cell_layer, arena, whole)) {
+        return false;
+    }
+    fit = *whole;
+    return !has_base(mesh)
+        || mark_prolonged(&mesh->cells, &mesh->graph, const_bytes(fit), mesh->header.base.rounds + beyond, arena,
+            &decoder->scratch, whole);
 }
 
 bool blend(bsmdec *decoder, Refined *refined) {
     Mesh *mesh = &decoder->mesh;
-    const Assembly *assembly = &mesh->assembly;
-    return blend_all(assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &refined->base)
-        && mark_whole(assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, 1, &refined->whole)
+    return place_base(decoder, &mesh->arena, &refined->base) && mark_base(decoder, 1, &mesh->arena, &refined->whole)
         && find_frames(&decoder->context, const_ints2(mesh->faces), &mesh->arena, refined);
 }

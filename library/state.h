@@ -17,16 +17,17 @@ typedef struct {
     bool has_faces, has_graph, announced, over;
     Ints2 faces;
     Graph graph;
+    Cells cells;         /* of a base: blocks are on their graph, and a first layer on their faces */
     Ints labels;         /* of PARTITION, empty without */
     Numbering numbering;
     Blocks blocks;
-    bool has_chains, has_grid, has_layer, values_begun;
+    bool has_chains, has_grid, has_cell_layer, has_layer, values_begun;
     Chains chains;
     Assembly assembly;
     Ahead *ahead;         /* what other threads decoded, or NULL */
     int64_t next_block, chunks;
     GridField grid;
-    Layer layer;
+    Layer cell_layer, layer;
     bool has_attributes;
     Attributes attributes;
     /* Of a sequence: */
@@ -36,6 +37,13 @@ typedef struct {
     int moving_count;
     Gops gops;
 } Mesh;
+
+INLINE bool has_base(const Mesh *mesh) { return mesh->header.base.cells > 0; }
+/* The graph that blocks are on, and whether a block has brought a vertex, or its cell. */
+INLINE const Graph *ground_of(const Mesh *mesh) { return has_base(mesh) ? &mesh->cells.graph : &mesh->graph; }
+INLINE bool is_placed(const Mesh *mesh, int64_t v) {
+    return mesh->assembly.blend.weights.data[has_base(mesh) ? mesh->cells.own.data[v] : v] > 0.0;
+}
 
 /* A mesh that runs have had, the memory that is counted for it, and its vertices. */
 enum { MOST_CACHED = 8 };
@@ -95,6 +103,7 @@ enum { BLOCK_OF_HELPER = BSMDEC_VALUES + 1 };
 typedef struct {
     Arena memory, answer;
     bool begun, late;        /* `late`: vertices that may be final wait for the last block */
+    bool spread;             /* whether the vertices were read to which levels of cells bring them */
     double work;             /* of all answers */
     Ints missing;            /* copies of each vertex that have not come */
     Bytes final, marks;
@@ -151,7 +160,11 @@ bool emit_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count
 /* Build the graph of the faces, or the blocks with their chains and assembly, unless that was done. */
 bool graph_of(bsmdec *decoder);
 bool build(bsmdec *decoder);
-/* What levels refine, of all blocks. */
+/* Where all blocks, and levels of cells, bring the vertices; unknown ones are anywhere. */
+bool place_base(bsmdec *decoder, Arena *arena, Doubles2 *positions);
+/* Mark the vertices that they bring where the encoder had them, they and those at most `beyond` edges away. */
+bool mark_base(bsmdec *decoder, int beyond, Arena *arena, Bytes *whole);
+/* What levels of vertices refine. */
 bool blend(bsmdec *decoder, Refined *refined);
 /* Report once that faces are known. Without tolerance, attributes must have as many rows as the faces ask for. */
 bool announce(bsmdec *decoder);

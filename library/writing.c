@@ -85,7 +85,8 @@ bool begin_refinement(CodedField *field, Context *context, Source given) {
     static const int32_t MOST[] = {1 << 20, 1 << 20, 1 << 20};
     begin(field, context, given);
     field->kind = OF_LEVELS;
-    return begin_levels(&field->layer, context, &field->header, const_ints2(field->faces), &field->scratch)
+    LayerPlan plan = {.faces = const_ints2(field->faces), .vertices = given.rows};
+    return begin_levels(&field->layer, context, plan, &field->scratch)
         && fill(context, field->layer.levels.levels, given, 0, MOST, true);
 }
 

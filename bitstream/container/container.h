@@ -66,7 +66,7 @@ Value take_single(Cursor *cursor, uint8_t tag);
 /* The entries of a payload, whose bytes they point to. */
 bool parse_map(Context *context, Span payload, Map *map);
 
-enum { MOST_KEY = 25, MOST_LIST = 8 };
+enum { MOST_KEY = 28, MOST_LIST = 8 };
 /* By key: numbers, how many; and the text of the one field that may have one. */
 typedef struct {
     double number[MOST_KEY][MOST_LIST];
@@ -90,11 +90,19 @@ typedef struct {
 
 enum { LIGHT = 1, EXACT_FLOATS = 2 };
 
+/* The coarse graph that blocks are on: cells of vertices, how far these are from centers, smoothings that spread places
+ * of cells, and how often the step of their levels is halved (M 18). All are 0 without it. */
+typedef struct {
+    int64_t cells;
+    int reach, rounds, halvings;
+} Coarse;
+
 typedef struct {
     int64_t vertices, faces, blocks, block_size, coefficients, key_interval, attributes;
     double step, center[3], scale, smoothing;
     bool refined, on_grid, is_sequence;
     double refinement[2]; /* step and ratio */
+    Coarse base;
     int32_t grid[3];
     double turn[3]; /* of the axes of a grid: a quaternion, less its 1 (V 18) */
     int64_t cells, points, corner[3]; /* of a lattice, 0 without */
@@ -112,6 +120,10 @@ typedef struct {
 #define BSMDEC_LONG 0
 #endif
 INLINE bool is_brief(const Header *header) { return !BSMDEC_LONG && header->brief; }
+
+/* Vertices of the graph that blocks are on, and all that have levels. */
+INLINE int64_t ground_size(const Header *header) { return header->base.cells > 0 ? header->base.cells : header->vertices; }
+INLINE int64_t levels_size(const Header *header) { return header->base.cells + header->vertices; }
 
 /* How positions on a grid are coded. */
 INLINE int method_of(const Header *header) { return BSMDEC_LIGHT ? LIGHT : header->light; }

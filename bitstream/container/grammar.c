@@ -148,12 +148,13 @@ static bool check_block(Context *context, const Grammar *grammar, const Packet *
 }
 
 static bool check_chunk(Context *context, const Grammar *grammar, const Packet *packet) {
-    int64_t following = grammar->next_vertex;
-    if (packet->first != following)
+    int64_t following = grammar->next_vertex, cells = grammar->header->base.cells;
+    bool of_cells = packet->first < cells, goes_on = grammar->resuming && cells > 0 && packet->first == cells;
+    int64_t end = of_cells ? cells : levels_size(grammar->header);
+    if (packet->first != following && !goes_on)
         return FAIL(context, CORRUPT, "vertices begin at #, expected #", packet->first, following);
-    if (packet->count == 0 || packet->count > grammar->header->vertices - packet->first)
-        return FAIL(context, CORRUPT, "# vertices from # on, of #", packet->count, packet->first,
-            grammar->header->vertices);
+    if (packet->count == 0 || packet->count > end - packet->first)
+        return FAIL(context, CORRUPT, "# vertices from # on, of #", packet->count, packet->first, end);
     return true;
 }
 
@@ -192,7 +193,9 @@ bool check_packet(Context *context, const Grammar *grammar, const Packet *packet
         case GOP_FRAME: return check_gop(context, grammar, packet);
         case GRID_FRAME:
         case REFINEMENT_FRAME: return check_chunk(context, grammar, packet);
-        case PARTITION_FRAME: return !header->on_grid || FAIL(context, CORRUPT, "a mesh on a grid has no partition");
+        case PARTITION_FRAME:
+            return !(header->on_grid || header->base.cells > 0)
+                || FAIL(context, CORRUPT, "a mesh on a grid or a base has no partition");
         case END_FRAME: return check_end(context, grammar);
         default: return true;
     }

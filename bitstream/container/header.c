@@ -4,7 +4,7 @@
 enum {
     VERTICES = 1, FACES, BLOCKS, BLOCK_SIZE, COEFFICIENTS, KEY_INTERVAL, STEP, CENTER, SCALE, SMOOTHING, REFINEMENT,
     ATTRIBUTES, GRID, LATTICE, CORNER, LIGHT_KEY, SEQUENCE, RUN, PAPER, ONORM = 21,
-    CONGRUENCE, BRIEF, TURN, BRIEF_TURNED, BRIEF_METADATA,
+    CONGRUENCE, BRIEF, TURN, BRIEF_TURNED, BRIEF_METADATA, BASE,
 };
 
 static const Field FIELDS[] = {
@@ -30,6 +30,7 @@ static const Field FIELDS[] = {
     {.key = ONORM, .type = INT_FIELD, .high = 64},
     {.key = CONGRUENCE, .type = INT_FIELD, .high = 68},
     {.key = TURN, .type = FLOATS_FIELD, .low = -1, .high = 1, .least = 3, .most = 3},
+    {.key = BASE, .type = INTS_FIELD, .low = 1, .high = INT32_MAX, .most = 4},
 };
 INSIDE const Fields HEADER_FIELDS = {FIELDS, sizeof FIELDS / sizeof *FIELDS};
 
@@ -38,7 +39,7 @@ static const uint32_t OF_GRIDS_ALONE = BIT(LATTICE) | BIT(CORNER) | BIT(LIGHT_KE
 static const uint32_t OF_A_GRID = BIT(VERTICES) | BIT(FACES) | BIT(CENTER) | BIT(SCALE) | BIT(ATTRIBUTES) | BIT(GRID)
     | OF_GRIDS_ALONE;
 static const uint32_t OF_A_RUN = BIT(VERTICES) | BIT(FACES) | BIT(SEQUENCE) | BIT(RUN);
-enum { MOST_HEADER = 1 << 16 };
+enum { MOST_HEADER = 1 << 16, MOST_REACH = 8, MOST_ROUNDS = 64, MOST_HALVINGS = 40 };
 
 static bool agrees(Context *context, bool is_so, const char *what) {
     return is_so || FAIL(context, CORRUPT, what);
@@ -59,6 +60,7 @@ static void set_header(const Record *record, Header *header) {
         .refinement = {number[REFINEMENT][0], number[REFINEMENT][1]},
         .onorm = (int)number[ONORM][0], .light = (int)number[LIGHT_KEY][0], .congruence = (int)number[CONGRUENCE][0],
         .counted = count[CORNER] > 0,
+        .base = {(int64_t)number[BASE][0], (int)number[BASE][1], (int)number[BASE][2], (int)number[BASE][3]},
         .frames = (int64_t)number[SEQUENCE][0], .gop_frames = (int64_t)number[SEQUENCE][1],
         .run = (int64_t)number[RUN][0], .mesh_of = count[RUN] > 1 ? (int64_t)number[RUN][1] : -1,
         .paper = {.power = 3, .iterations = count[SEQUENCE] > 0 ? 2 : 1, .key_iterations = 2, .springs = 1,
@@ -135,16 +137,30 @@ static bool check_grid(Context *context, const Header *header) {
         && agrees(context, (stored & ~OF_A_GRID) == 0, "a grid, and fields of blocks");
 }
 
+/* M 18.1. */
+static bool check_base(Context *context, const Header *header) {
+    const Coarse *base = &header->base;
+    uint32_t strange = BIT(SEQUENCE) | BIT(PAPER) | BIT(ONORM);
+    if (header->record.count[BASE] == 0) return true;
+    return agrees(context, header->record.count[BASE] == 4, "a base that is not four numbers")
+        && agrees(context, base->reach <= MOST_REACH && base->rounds <= MOST_ROUNDS
+            && base->halvings <= MOST_HALVINGS, "a base whose numbers are out of their ranges")
+        && agrees(context, base->cells <= header->vertices, "more cells than vertices")
+        && agrees(context, header->refined, "a base without refinement")
+        && agrees(context, (header->record.stored & strange) == 0, "a base, and fields of the paper or of sequences");
+}
+
 static bool check_blocks(Context *context, const Header *header) {
     const int *count = header->record.count;
     double rows = (double)header->blocks * (double)header->block_size, step = header->refinement[0];
-    return agrees(context, header->blocks > 0 && header->block_size > 0
+    int64_t ground = ground_size(header);
+    return check_base(context, header) && agrees(context, header->blocks > 0 && header->block_size > 0
             && header->coefficients > 0, "neither blocks nor a grid")
         && agrees(context, (header->record.stored & OF_GRIDS_ALONE) == 0, "what belongs to a grid, without one")
-        && agrees(context, header->blocks <= header->vertices, "more blocks than vertices")
-        && agrees(context, header->block_size <= header->vertices, "blocks larger than the mesh")
-        && agrees(context, rows >= (double)header->vertices, "blocks too small to cover the mesh") && agrees(context,
-            rows <= (double)MOST_COPIES * (double)header->vertices + FREE_COPIES, "blocks that overlap too much")
+        && agrees(context, header->blocks <= ground, "more blocks than vertices")
+        && agrees(context, header->block_size <= ground, "blocks larger than the mesh")
+        && agrees(context, rows >= (double)ground, "blocks too small to cover the mesh") && agrees(context,
+            rows <= (double)MOST_COPIES * (double)ground + FREE_COPIES, "blocks that overlap too much")
         && agrees(context, header->coefficients <= header->block_size, "more coefficients than a block has vertices")
         && agrees(context, count[REFINEMENT] != 1, "a refinement that is not a step and a ratio")
         && agrees(context, !header->refined || (step >= 0x1p-40

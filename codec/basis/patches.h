@@ -34,6 +34,16 @@ bool derive_labels(Context *context, const Graph *graph, int64_t parts, Arena *s
 /* `labels`: the part of each vertex, or no array for what follows from the graph. */
 bool make_blocks(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch,
     Blocks *blocks);
+/* Cells of a mesh: the cell of each vertex, their graph and their faces (M 18). */
+typedef struct {
+    ConstInts own;
+    Graph graph;
+    Ints2 faces;
+} Cells;
+
+/* As many cells as the base says, or the context fails. */
+bool make_cells(Context *context, const Coarse *base, const Graph *graph, ConstInts2 faces, Arena *arena, Arena *scratch,
+    Cells *cells);
 /* Order the rows of a block of these vertices (M 6), and find what its factorization needs. */
 bool order_patch(const Graph *graph, ConstInts members, Arena *arena, Patch *patch);
 bool find_patch_fronts(Context *context, Arena *arena, Patch *patch);

@@ -22,6 +22,45 @@ bool make_graph(Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *
     return done;
 }
 
+static bool find_all_cells(Context *context, const Coarse *base, const Graph *graph, ConstInts2 faces, Arena *arena,
+    Arena *scratch, Cells *cells) {
+    int64_t n = graph->size, m = base->cells, ends = graph->neighbors.size;
+    Bytes far;
+    Ints own, order, bounds, filled, found, links, linked, sorted;
+    Ints2 triples, kept;
+    if (!take_bytes(scratch, n, &far) || !take_ints(scratch, n, &order) || !take_ints(arena, n, &own)) return false;
+    int64_t count = find_cells(graph->offsets, graph->neighbors, base->reach, far, order, own);
+    if (count != m) return FAIL(context, CORRUPT, "# cells where the header has #", count, m);
+    if (!take_ints(scratch, m + 1, &bounds) || !take_ints(scratch, m, &filled) || !take_ints(scratch, ends + 1, &found)
+        || !take_ints(arena, m + 1, &links) || !take_ints(scratch, ends + 1, &linked))
+        return false;
+    count = link_cells(graph->offsets, graph->neighbors, const_ints(own), bounds, order, filled, found, links, linked);
+    Ints neighbors;
+    if (!take_ints(arena, count, &neighbors) || !take_ints2(scratch, faces.rows, 3, &triples)
+        || !take_ints2(scratch, faces.rows, 3, &kept) || !take_ints(scratch, faces.rows, &order)
+        || !take_ints(scratch, faces.rows, &sorted))
+        return false;
+    memcpy(neighbors.data, linked.data, (size_t)count * sizeof *linked.data);
+    count = cell_faces(faces, const_ints(own), bounds, triples, order, sorted, kept);
+    if (!take_ints2(arena, count, 3, &cells->faces)) return false;
+    memcpy(cells->faces.data, kept.data, (size_t)(3 * count) * sizeof *kept.data);
+    cells->own = const_ints(own);
+    cells->graph = (Graph){m, const_ints(links), const_ints(neighbors)};
+    return true;
+}
+
+bool make_cells(Context *context, const Coarse *base, const Graph *graph, ConstInts2 faces, Arena *arena, Arena *scratch,
+    Cells *cells) {
+    double n = (double)graph->size, ends = (double)graph->neighbors.size, m = (double)faces.rows;
+    if (!reserve(context, cells_memory(n, ends, m, (double)base->cells), 0)
+        || !charge(context, cells_work(n, ends, m, base->reach) + base->rounds * prolong_work(n, ends), 0))
+        return false;
+    Mark mark = mark_of(scratch);
+    bool done = find_all_cells(context, base, graph, faces, arena, scratch, cells);
+    release_to(scratch, mark);
+    return done;
+}
+
 bool derive_labels(Context *context, const Graph *graph, int64_t parts, Arena *scratch, Ints labels) {
     Ints order, bounds, votes;
     Words room;

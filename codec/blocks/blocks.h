@@ -16,4 +16,8 @@ int64_t order_block(ConstInts offsets, ConstInts neighbors, ConstInts rows, Ints
 int64_t chain_blocks(ConstInts offsets, ConstInts neighbors, ConstInts order, ConstInts bounds, ConstInts labels,
                      int64_t size, Ints links, Longs shares, Longs scratch, Ints seen, Ints chain, Longs starts,
                      Longs edges, Ints members);
+int64_t find_cells(ConstInts offsets, ConstInts neighbors, int64_t reach, Bytes far, Ints waiting, Ints own);
+int64_t link_cells(ConstInts offsets, ConstInts neighbors, ConstInts own, Ints bounds, Ints order, Ints filled,
+    Ints found, Ints links, Ints ends);
+int64_t cell_faces(ConstInts2 faces, ConstInts own, Ints counts, Ints2 triples, Ints order, Ints sorted, Ints2 kept);
 void add_copies(Doubles2 sums, Doubles total, ConstInts vertices, ConstDoubles2 positions, ConstDoubles weights);

@@ -41,8 +41,7 @@ bool blend_all(const Assembly *assembly, const Header *header, const Graph *grap
     return done;
 }
 
-/* Mark the neighbors of marked vertices, a number of times. */
-static bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scratch) {
+bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scratch) {
     Bytes before;
     if (!take_bytes(scratch, marks.size, &before)) return false;
     for (; rings > 0; rings--) {

@@ -104,6 +104,16 @@ bool blend_all(const Assembly *assembly, const Header *header, const Graph *grap
  * are. */
 bool mark_whole(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch,
     int beyond, Bytes *whole);
+/* Mark the neighbors of marked vertices, a number of times. */
+bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scratch);
+/* Places of cells spread to vertices, in BSM units (M 18.7). */
+bool prolong_cells(const Cells *cells, const Graph *graph, ConstDoubles2 places, int rounds, Arena *arena,
+    Arena *scratch, Doubles2 *positions);
+/* Marks of the vertices whose cells, and those at most `rings` edges away, are marked; no array if all cells are. */
+bool mark_prolonged(const Cells *cells, const Graph *graph, ConstBytes marked, int rings, Arena *arena, Arena *scratch,
+    Bytes *whole);
+/* Let cells whose weights are 0 have the places of near ones. */
+bool fill_unknown(const Graph *graph, ConstDoubles weights, Arena *scratch, Doubles2 places);
 /* From BSM units to the unit of the mesh, in place (M 12.5). */
 bool into_unit(Context *context, const Header *header, Doubles2 positions);
 
@@ -115,11 +125,27 @@ typedef struct {
     Bytes whole;           /* vertices that are as the encoder had them; empty: all */
 } Refined;
 
+/* What a layer is on: vertices, or cells (M 18.6). */
+typedef struct {
+    ConstInts2 faces;
+    int64_t vertices;
+    double step, ratio;
+} LayerPlan;
+
+enum { RATIO_OF_CELLS = 3 };
+INLINE LayerPlan plan_of_layer(const Header *header, ConstInts2 faces) {
+    return (LayerPlan){faces, header->vertices, header->refinement[0], header->refinement[1]};
+}
+INLINE LayerPlan plan_of_cells(const Header *header, ConstInts2 faces) {
+    double step = 1.0;
+    for (int i = 0; i < header->base.halvings; i++) step *= 0.5;
+    return (LayerPlan){faces, header->base.cells, step, RATIO_OF_CELLS};
+}
+
 /* A mesh of blocks, refined by levels. */
 typedef struct {
     Context *context;
-    const Header *header;
-    ConstInts2 faces;
+    LayerPlan plan;
     Arena own, models; /* levels; models of later levels, given back after the last */
     Corners corners;
     Bank bank;
@@ -131,15 +157,16 @@ typedef struct {
 } Layer;
 
 /* What levels are read with; it needs faces alone. */
-bool begin_levels(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Arena *scratch);
+bool begin_levels(Layer *layer, Context *context, LayerPlan plan, Arena *scratch);
 void end_layer(Layer *layer);
 /* Frames of the base, if there may be so large a layer. */
 bool find_frames(Context *context, ConstInts2 faces, Arena *arena, Refined *refined);
 /* `layer` is zero, or its levels are begun; `refined` is the layer's from here on. */
-bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Refined refined, Arena *arena,
-    Arena *scratch);
+bool begin_layer(Layer *layer, Context *context, LayerPlan plan, Refined refined, Arena *arena, Arena *scratch);
 bool code_layer(Layer *layer, int64_t first, int64_t count, Span payload);
 bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch);
+/* Do without the levels that are missing: others move what they can (F 8). */
+bool close_layer(Layer *layer, Arena *arena, Arena *scratch);
 
 /* Marks of the vertices whose steps follow from whole ones alone; empty: all. */
 bool fit_vertices(const Layer *layer, Arena *scratch, Bytes *fit);

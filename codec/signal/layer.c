@@ -8,13 +8,13 @@
 enum { AXES = 3, LEARNERS = 12, LEVEL_SLOTS_ALL = 2 * 5 * 512 * 32, LEVEL_SELECTORS = 2 * 32, LEVEL_INPUTS = 5,
     LEVEL_RATE = 16, BENT_BY = 2 };
 
-bool begin_levels(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Arena *scratch) {
-    int64_t n = header->vertices;
-    *layer = (Layer){.context = context, .header = header, .faces = faces, .own = arena_of(context),
-        .models = arena_of(context), .begun = true};
+bool begin_levels(Layer *layer, Context *context, LayerPlan plan, Arena *scratch) {
+    int64_t n = plan.vertices;
+    *layer = (Layer){.context = context, .plan = plan, .own = arena_of(context), .models = arena_of(context),
+        .begun = true};
     Arena *models = &layer->models;
     Levels *levels = &layer->levels;
-    if (!link_mesh(context, faces, n, models, scratch, &layer->corners)
+    if (!link_mesh(context, plan.faces, n, models, scratch, &layer->corners)
         || !make_bank(models, (BankPlan){.slots = LEVEL_SLOTS_ALL, .selectors = LEVEL_SELECTORS, .inputs = LEVEL_INPUTS,
             .rate = LEVEL_RATE}, &layer->bank)
         || !zero_ints2(&layer->own, n, AXES, &levels->levels) || !zero_ints2(models, n, AXES, &levels->gaps)
@@ -43,10 +43,9 @@ bool find_frames(Context *context, ConstInts2 faces, Arena *arena, Refined *refi
     return true;
 }
 
-bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Refined refined, Arena *arena,
-    Arena *scratch) {
-    int64_t n = header->vertices;
-    if (!layer->begun && !begin_levels(layer, context, header, faces, scratch)) return false;
+bool begin_layer(Layer *layer, Context *context, LayerPlan plan, Refined refined, Arena *arena, Arena *scratch) {
+    int64_t n = plan.vertices;
+    if (!layer->begun && !begin_levels(layer, context, plan, scratch)) return false;
     layer->refined = refined;
     if (!take_doubles2(arena, n, AXES, &layer->positions)) return false;
     memcpy(layer->positions.data, refined.base.data, (size_t)(n * AXES) * sizeof(double));
@@ -72,8 +71,8 @@ bool fit_vertices(const Layer *layer, Arena *scratch, Bytes *fit) {
         Bytes next;
         if (!take_bytes(scratch, fit->size, &next)) return false;
         memcpy(next.data, fit->data, (size_t)fit->size);
-        for (int64_t f = 0; f < layer->faces.rows; f++) {
-            const int32_t *face = layer->faces.data + 3 * f;
+        for (int64_t f = 0; f < layer->plan.faces.rows; f++) {
+            const int32_t *face = layer->plan.faces.data + 3 * f;
             if (!(fit->data[face[0]] && fit->data[face[1]] && fit->data[face[2]]))
                 next.data[face[0]] = next.data[face[1]] = next.data[face[2]] = 0;
         }
@@ -85,7 +84,7 @@ bool fit_vertices(const Layer *layer, Arena *scratch, Bytes *fit) {
 /* Move vertices along the surface by steps that follow from all heights (M 17.4). */
 static bool slide(Layer *layer, Arena *scratch) {
     int64_t n = layer->positions.rows;
-    const double *refinement = layer->header->refinement;
+    const LayerPlan *plan = &layer->plan;
     Doubles2 room, upright;
     Doubles steps;
     Bytes fit;
@@ -95,8 +94,8 @@ static bool slide(Layer *layer, Arena *scratch) {
         || !mark_levels(layer, fit, 0, n, scratch, &some))
         return false;
     memcpy(upright.data, layer->refined.base.data, (size_t)(n * AXES) * sizeof(double));
-    add_heights(upright, const_doubles2(layer->refined.frames), const_ints2(layer->levels.levels), refinement[0]);
-    tangent_steps(const_doubles2(upright), layer->faces, refinement[0], refinement[1], room, steps);
+    add_heights(upright, const_doubles2(layer->refined.frames), const_ints2(layer->levels.levels), plan->step);
+    tangent_steps(const_doubles2(upright), plan->faces, plan->step, plan->ratio, room, steps);
     add_slides(layer->positions, const_doubles2(layer->refined.frames), some, const_doubles(steps));
     return true;
 }
@@ -119,8 +118,23 @@ bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Aren
     ConstInts2 some;
     if (!mark_levels(layer, layer->refined.whole, first, count, scratch, &some)) return false;
     ConstDoubles2 frames = const_doubles2(rows_from(layer->refined.frames, first, count));
-    add_heights(rows_from(layer->positions, first, count), frames, some, layer->header->refinement[0]);
+    add_heights(rows_from(layer->positions, first, count), frames, some, layer->plan.step);
     if (layer->coded < layer->positions.rows) return true;
+    release_all(&layer->models);
+    return slide(layer, scratch);
+}
+
+bool close_layer(Layer *layer, Arena *arena, Arena *scratch) {
+    int64_t n = layer->positions.rows;
+    Bytes *whole = &layer->refined.whole;
+    if (layer->coded == n) return true;
+    if (whole->size == 0) {
+        if (!take_bytes(arena, n, whole)) return false;
+        memset(whole->data, 1, (size_t)n);
+    }
+    memset(whole->data + layer->coded, 0, (size_t)(n - layer->coded));
+    layer->coded = n;
+    layer->lossy = true;
     release_all(&layer->models);
     return slide(layer, scratch);
 }

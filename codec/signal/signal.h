@@ -17,6 +17,10 @@ void place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 le
     Doubles scratch, Doubles2 positions);
 int64_t smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2 positions, double amount, Doubles scratch,
     Doubles2 smoothed);
+/* A position in single precision, and a number more. */
+typedef float FourSingles __attribute__((vector_size(16), aligned(4), may_alias));
+int64_t prolong(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstDoubles2 places, int64_t rounds,
+    Singles scratch, Doubles2 positions);
 /* What the filter sums (M 12.3): p_2 to p_5. */
 enum { DEGREE = 5, POWERS = DEGREE - 1 };
 void filter_polynomial(double amount, double *powers);

@@ -260,7 +260,7 @@ class Draft:
         writer, may_be_brief = SectionWriter(), self.may_be_brief and not self.header.light
         brief = write_brief(self.header, self.body) if may_be_brief else None
         later = brief is not None, self.header.congruence > 0, self.header.onorm > 0, any(self.header.turn)
-        yield writer.start(minor=int(any(later)))
+        yield writer.start(minor=2 if self.header.base else int(any(later)))
         if brief is not None:
             yield write_frame(FrameType.HEADER, brief)
             return

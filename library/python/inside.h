@@ -15,7 +15,7 @@ typedef struct {
 } DecoderState;
 DecoderState decoder_state(const bsmdec *decoder);
 /* The numbers of a field of the header of the present run, and how many there are. */
-enum { MOST_FIELD_KEY = 25 };
+enum { MOST_FIELD_KEY = 28 };
 int decoder_field(const bsmdec *decoder, int key, const double **numbers);
 /* What a packet says before it is decoded; `positions` is their checksum or -1. What follows is of an attribute. */
 typedef struct {

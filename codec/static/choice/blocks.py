@@ -16,10 +16,10 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
+from bsm.codec.static.ways.in_cells import InCells, Spread
 
 BROADEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost decoders more time than their bytes are worth."""
-BASE = 0.36  # the step of blocks below a layer, over the square root of the layer's step
 ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
 
@@ -52,7 +52,7 @@ class Refined:
         self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, settled: bool = True, ratio: float = RATIO
     ) -> None:
         self._prepared, self._bounds, self._settled, self.ratio = prepared, bounds, settled, ratio
-        self._options, self._spectral = options, InBlocks(prepared, options, BROADEST)
+        self._spectral = InCells(prepared, options, BROADEST, Spread())
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
         self.least, self.most = LEAST, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), LEAST)
@@ -103,9 +103,8 @@ class Refined:
 
     @cached_property
     def base(self) -> RefinementBase:
-        """The blocks of all steps: those of about the right one."""
-        step = max(BASE * math.sqrt(self.first), smallest_step(self._prepared.size))
-        return self._spectral.base(step, self._bounds.measures.near.within())
+        """The cells of all steps: those of about the right one."""
+        return self._spectral.base(self.first, self._bounds.measures.near.within())
 
     def _shaped(self, base: RefinementBase, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""

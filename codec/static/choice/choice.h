@@ -53,5 +53,8 @@ int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps);
 int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
     ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most, Bytes wrong, Bytes open);
 
+int64_t fit_cells(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstInts links, ConstInts linked,
+    ConstDoubles2 positions, int64_t rounds, int64_t steps, Singles scratch, Doubles2 places);
+
 int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts degrees, double worth, Ints heads, Ints links,
     Bytes covered, Doubles room, Doubles2 found);

@@ -87,8 +87,8 @@ def levels_field(faces: Indices, levels: Levels) -> Field:
     return field
 
 
-def encode_layer(faces: Indices, levels: Levels) -> list[packets.Refinement]:
-    """The packets of the layer of refinement, of levels, shape (n, 3)."""
+def encode_layer(faces: Indices, levels: Levels, after: int = 0) -> list[packets.Refinement]:
+    """The packets of the layer of refinement, of levels, shape (n, 3), numbered on from `after`."""
     field, size = levels_field(faces, levels), len(levels)
     chunks = [(start, min(LAYER_CHUNK, size - start)) for start in range(0, size, LAYER_CHUNK)]
-    return [packets.Refinement(start, count, *field.write(count)) for start, count in chunks]
+    return [packets.Refinement(after + start, count, *field.write(count)) for start, count in chunks]

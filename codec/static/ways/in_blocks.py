@@ -96,7 +96,8 @@ class RefinementBase:
     def refined(self, layer: Layer, levels: Levels, moved: Matrix) -> Draft:
         """The stream with a layer of levels, shape (n, 3), and where these bring the base."""
         header = replace(self.draft.header, refinement=(layer.step, layer.ratio))
-        body = (*self.draft.body, *encode_layer(self.prepared.mesh.faces, levels))
+        after = self.draft.header.base[0] if self.draft.header.base else 0
+        body = (*self.draft.body, *encode_layer(self.prepared.mesh.faces, levels, after))
         return Draft(header, body, self.prepared.units.back(moved))
 
 

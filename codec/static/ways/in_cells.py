@@ -1,0 +1,83 @@
+"""Blocks and a first layer on the cells of a mesh, which smoothing spreads to all vertices."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bsm.bitstream.container.header import Layer
+from bsm.bitstream.container.packets import Refinement
+from bsm.bitstream.once import cached_property
+from bsm.codec.arrays import Matrix
+from bsm.codec.blocks.cells import Cells, cells_of, fitted, prolonged
+from bsm.codec.geometry.mesh import TriangleMesh, squares_of
+from bsm.codec.progress import Progress
+from bsm.codec.signal.transform import smallest_step
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared
+from bsm.codec.static.ways.grid import encode_layer
+from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
+
+BLOCK, OVERLAP = 450, 1.0
+"""Cells of a block: fewer take more bytes, more take decoders longer; and how far blocks are grown."""
+COARSER, RATIO = 8.0, 3.0
+"""The step of levels of cells, over that of vertices, about; and along tangents, over that along normals."""
+ROUGHER = 96.0  # the step of coefficients, over that of levels of vertices
+
+
+@dataclass(frozen=True)
+class Spread:
+    """How far vertices are from the centers of their cells, in edges, and rounds of smoothing from cells to vertices."""
+
+    reach: int = 2
+    rounds: int = 8
+
+
+class _Blocks(InBlocks):
+    """Blocks of cells, of which nothing is seen: all that counts is how near levels begin."""
+
+    def _badness(self, decoded: Matrix) -> float:
+        return float(squares_of(decoded - self._prepared.positions).sum())
+
+
+class InCells:
+    """Codes the cells of a mesh in blocks and levels."""
+
+    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float, spread: Spread) -> None:
+        self._prepared, self._options, self._widest, self._spread = prepared, options, widest, spread
+
+    @cached_property
+    def cells(self) -> Cells:
+        return cells_of(self._prepared.graph, self._prepared.mesh.faces, self._spread.reach)
+
+    @cached_property
+    def _coarse(self) -> Prepared:
+        """The cells, as a mesh that blocks can be on."""
+        prepared, cells = self._prepared, self.cells
+        places = fitted(cells, prepared.graph, prepared.positions, self._spread.rounds)
+        mesh = TriangleMesh(prepared.units.back(places), cells.faces)
+        return replace(prepared, mesh=mesh, graph=cells.graph, parts=Parts(BLOCK, OVERLAP))
+
+    def base(self, step: float, progress: Progress | None = None) -> RefinementBase:
+        """The cells for levels of vertices at about a step, and their places prolonged."""
+        prepared, coarse = self._prepared, self._coarse
+        halvings = min(max(round(-math.log2(COARSER * step)), 1), 40)
+        rough = max(ROUGHER * step, 1.01 * smallest_step(coarse.size))
+        blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5), progress)
+        places, levels = self._leveled(blocks, Layer(0.5**halvings, RATIO))
+        positions = prolonged(self.cells, prepared.graph, places, self._spread.rounds)
+        base = coarse.graph.size, self._spread.reach, self._spread.rounds, halvings
+        header = replace(
+            blocks.draft.header, vertices=prepared.graph.size, faces=len(prepared.mesh.faces), base=base
+        )
+        draft = Draft(header, (*blocks.draft.body, *levels), prepared.units.back(positions))
+        return RefinementBase(prepared, draft, positions, blocks.coded, blocks.work)
+
+    @staticmethod
+    def _leveled(blocks: RefinementBase, layer: Layer) -> tuple[Matrix, list[Refinement]]:
+        """Where the nearest levels bring cells, and their packets."""
+        levels = np.zeros(blocks.positions.shape, np.int32)
+        levels[:, 0] = np.rint(blocks.offsets[:, 0] / layer.step)
+        known = blocks.known_steps(layer, levels)
+        levels[:, 1:] = np.rint(blocks.offsets[:, 1:] / known[:, 1:])
+        return blocks.moved(layer, levels, known), encode_layer(blocks.prepared.mesh.faces, levels)
