@@ -1,7 +1,7 @@
 """A decoder of one static mesh, written from the law alone: slow, plain, easy to compare with it.
 
-The rules stand beside what follows them: F and M of the core here, C and V in reference_integers.py, the extension
-`paper` in reference_paper.py. It is strict. It skips ORDER, ATTRIBUTE and VALUES, and says that other extensions are
+The rules stand beside what follows them: F and M of the core here, C and V in reference_integers.py, the extensions
+`base` in reference_base.py and `paper` in reference_paper.py. It is strict. It skips ORDER, ATTRIBUTE and VALUES, and says that other extensions are
 unsupported (README.md). numpy adds and multiplies; nothing is shared with the product.
 
     python spec/reference_decoder.py IN.bsm OUT.npz
@@ -163,6 +163,7 @@ FIELDS = {
     "turn": (24, float, -1.0, 1.0, [0.0, 0.0, 0.0], 3, 3),
     "paper": (19, float, 0.0, 2.0**30, [0.0, 0.0, 0.0, 3.0, 1.0, 2.0, 2.0**-7, 1.0], 8, 8),  # F 10.1
     "onorm": (21, int, 1, 64, 0),
+    "base": (27, int, 1, COUNT, [], 0, 4),
 }
 EXTENSIONS = {16: "extension light", 17: "extension sequence", 18: "extension sequence"}
 EXTENSIONS[22] = "extension congruence"
@@ -231,10 +232,12 @@ def agreeing(h, stored):
         if {"paper", "onorm"} & stored:
             extension_paper().settings_of(h)
         require(h["blocks"] and h["coefficients"], "no blocks, and no grid")
-        require(h["blocks"] <= h["vertices"], "more blocks than vertices")
-        require(h["coefficients"] <= h["block_size"] <= h["vertices"], "too large blocks, or too many coefficients")
-        rows = h["blocks"] * h["block_size"]
-        require(h["vertices"] <= rows <= 16 * h["vertices"] + 65536, "blocks of a wrong size")
+        if h["base"]:
+            extension_base().check_base(h, stored)
+        size = h["base"][0] if h["base"] else h["vertices"]  # M 18.1
+        require(h["blocks"] <= size, "more blocks than vertices")
+        require(h["coefficients"] <= h["block_size"] <= size, "too large blocks, or too many coefficients")
+        require(size <= h["blocks"] * h["block_size"] <= 16 * size + 65536, "blocks of a wrong size")
     if h["refinement"]:
         require(len(h["refinement"]) == 2, "a refinement is not two numbers")
         require(2.0**-40 <= h["refinement"][0] <= 1 and h["refinement"][1] >= 1 / 16, "a refinement out of range")
@@ -275,7 +278,9 @@ def read_frames(stream, packets):
             require(width <= header["coefficients"], "too many coefficients")
         elif kind in (GRID, REFINEMENT):  # F 5.6, F 5.7, F 3.11, F 3.12
             parsed = first, count, _ = varints(payload, 2)
-            require(first == covered and 0 < count <= header["vertices"] - first, "vertices do not follow each other")
+            cells = sum(header["base"][:1])  # M 18.8
+            end = cells if first < cells else cells + header["vertices"]
+            require(first == covered and 0 < count <= end - first, "vertices do not follow each other")
         elif kind == END:  # F 5.5
             count, crc = varints(payload, 1)
             require(len(crc) in (4, 8), "END has a wrong length")
@@ -284,6 +289,7 @@ def read_frames(stream, packets):
         legal = kind == HEADER if last is None else rank > last or (rank == last and rank > RANKS[ORDER])
         require(legal and (rank <= 1 or last >= 1), f"unexpected section type {kind}")
         require(kind not in (PARTITION, BLOCK) or not header["grid"], "parts or a block where there is a grid")
+        require(kind != PARTITION or not header["base"], "parts that follow from cells")  # M 18.1
         if header and rank > RANKS[BLOCK]:
             require(len(packets[BLOCK]) == header["blocks"], "blocks are missing")  # F 3.10
             require(not header["grid"] or covered == header["vertices"], "positions are missing")  # F 3.11
@@ -649,7 +655,7 @@ class CoefficientModel:  # One for each chain
 class Chain:  # M 10.1: what blocks learn from those before them
     def __init__(self, header, graph):
         self.header, self.graph, self.model = header, graph, CoefficientModel(header["coefficients"])
-        self.known, self.dictionary, self.alone = Known(header["vertices"]), None, 0
+        self.known, self.dictionary, self.alone = Known(len(graph)), None, 0
 
     shift, power, iterations, key_iterations = 2.0**-7, 3, 1, 2  # M 1.1
 
@@ -712,8 +718,15 @@ def extension_paper():
     return reference_paper
 
 
+def extension_base():
+    """Loaded only for streams that need it, too."""
+    import reference_base
+
+    return reference_base
+
+
 def decode_blocks(header, graph, blocks, partition):  # M 4 to M 12.1: positions in BSM units
-    parts, work, blended = header["blocks"], 0.0, Known(header["vertices"])
+    parts, work, blended = header["blocks"], 0.0, Known(len(graph))
     most = 8e8 + 3.2e4 * header["vertices"]  # M 14.9
     labels = extension_paper().labels_of(partition, graph, parts) if partition else derive_labels(graph, parts)
     cores = [[v for v, label in enumerate(labels) if label == part] for part in range(parts)]
@@ -755,8 +768,8 @@ def smoothing_powers(amount):  # M 12.3: p_2 to p_5
     return powers
 
 
-def refine(header, faces, positions, refinements):  # M 17: base positions and what the layer adds to them
-    (step, ratio), count, coded = header["refinement"], len(positions), 0
+def refine(step, ratio, faces, positions, refinements):  # M 17: base positions and what the layer adds to them
+    count, coded = len(positions), 0
     sums = np.zeros((count, 3))
     for a, b, c in faces:  # M 17.1
         normal = np.cross(positions[b] - positions[a], positions[c] - positions[a])
@@ -815,13 +828,20 @@ def decode_packets(packets, fault):
             reader.read(payload, count)
         positions = np.array([place(values, header) for values in reader.x])
     elif packets[BLOCK] or not fault:
-        graph = neighbors_of(faces, vertices)
-        positions = decode_blocks(header, graph, packets[BLOCK], *packets.get(PARTITION, [None]))
+        graph = ground = neighbors_of(faces, vertices)
+        if header["base"]:
+            cells = extension_base().Cells(graph, faces, header["base"])
+            ground = cells.graph
+        positions = decode_blocks(header, ground, packets[BLOCK], *packets.get(PARTITION, [None]))
         if fault and not packets[REFINEMENT]:
             raise fault
-        positions = smooth(graph, positions, header["smoothing"])
+        positions, layer = smooth(ground, positions, header["smoothing"]), packets[REFINEMENT]
+        if header["base"]:  # M 18.6, M 18.7
+            of_cells = [levels for levels in layer if levels[0] < len(ground)]
+            positions, layer = refine(0.5**cells.halvings, 3, cells.faces, positions, of_cells), layer[len(of_cells) :]
+            positions = cells.prolonged(positions)
         if header["refinement"]:
-            positions = refine(header, faces, positions, packets[REFINEMENT])
+            positions = refine(*header["refinement"], faces, positions, layer)
         positions = positions * header["scale"] + np.array(header["center"])  # M 12.5
     if fault:
         raise fault

@@ -157,21 +157,23 @@ def stream_of(frames: Frames, version: int | None = None, positions: bytes = b""
 
     Without a version it has the least that its headers need (F 2.2), as encoders write it.
     """
-    version = VERSION + any(map(_is_later, frames)) if version is None else version
+    version = VERSION + max(map(_minor, frames), default=0) if version is None else version
     body = MAGIC + bytes([version]) + b"".join(write_frame(kind, payload) for kind, payload in frames)
     sums = zlib.crc32(body).to_bytes(4, "little") + positions
     return body + write_frame(FrameType.END, write_varint(len(frames)) + sums)
 
 
-def _is_later(frame: tuple[int, bytes]) -> bool:
-    """Whether a frame is a header with a field that 1.0 does not have, as far as it can be read."""
+def _minor(frame: tuple[int, bytes]) -> int:
+    """The minor version that has all fields of a frame, if it is a header, as far as it can be read."""
     try:
-        return frame[0] == FrameType.HEADER and not LATER.isdisjoint(header_entries(frame[1]))
+        entries = header_entries(frame[1]) if frame[0] == FrameType.HEADER else {}
+        return max((minor for key, minor in LATER.items() if key in entries), default=0)
     except (BsmError, TypeError, ValueError):
-        return False
+        return 0
 
 
-LATER = {HEADER_FIELDS[name].key for name in ("onorm", "congruence", "turn")}
+LATER = {HEADER_FIELDS[name].key: minor for name, minor in (("onorm", 1), ("congruence", 1), ("turn", 1), ("base", 2))}
+"""The minor versions of fields that 1.0 does not have."""
 PARTS = {"paper": tuple(PAPER), "sequence": ("frames", "gop_frames")}
 """Fields of the header that are lists of numbers with names of their own."""
 PLACES = {part: (name, place) for name, parts in PARTS.items() for place, part in enumerate(parts)}

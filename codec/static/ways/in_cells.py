@@ -33,6 +33,13 @@ class Spread:
     rounds: int = 8
 
 
+class _Places(TriangleMesh):
+    """Places of cells, which may have no faces."""
+
+    def __post_init__(self) -> None:
+        pass
+
+
 class _Blocks(InBlocks):
     """Blocks of cells, of which nothing is seen: all that counts is how near levels begin."""
 
@@ -42,6 +49,8 @@ class _Blocks(InBlocks):
 
 class InCells:
     """Codes the cells of a mesh in blocks and levels."""
+
+    parts = Parts(BLOCK, OVERLAP)
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float, spread: Spread) -> None:
         self._prepared, self._options, self._widest, self._spread = prepared, options, widest, spread
@@ -55,8 +64,8 @@ class InCells:
         """The cells, as a mesh that blocks can be on."""
         prepared, cells = self._prepared, self.cells
         places = fitted(cells, prepared.graph, prepared.positions, self._spread.rounds)
-        mesh = TriangleMesh(prepared.units.back(places), cells.faces)
-        return replace(prepared, mesh=mesh, graph=cells.graph, parts=Parts(BLOCK, OVERLAP))
+        mesh = _Places(prepared.units.back(places), cells.faces)
+        return replace(prepared, mesh=mesh, graph=cells.graph, parts=self.parts)
 
     def base(self, step: float, progress: Progress | None = None) -> RefinementBase:
         """The cells for levels of vertices at about a step, and their places prolonged."""
