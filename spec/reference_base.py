@@ -29,7 +29,7 @@ class Cells:
         self.graph = [sorted(row - {cell}) for cell, row in enumerate(around)]
         corners = [tuple(self.own[v] for v in face) for face in faces]  # M 18.4
         first = {frozenset(cells): cells for cells in reversed(corners) if len({*cells}) == 3}
-        self.faces = [cells for cells in dict.fromkeys(first[frozenset(c)] for c in corners if len({*c}) == 3)]
+        self.faces = list(dict.fromkeys(first[frozenset(c)] for c in corners if len({*c}) == 3))
 
     def prolonged(self, places):  # M 18.7
         with np.errstate(over="ignore"):

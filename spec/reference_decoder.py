@@ -1,8 +1,8 @@
 """A decoder of one static mesh, written from the law alone: slow, plain, easy to compare with it.
 
 The rules stand beside what follows them: F and M of the core here, C and V in reference_integers.py, the extensions
-`base` in reference_base.py and `paper` in reference_paper.py. It is strict. It skips ORDER, ATTRIBUTE and VALUES, and says that other extensions are
-unsupported (README.md). numpy adds and multiplies; nothing is shared with the product.
+`base` in reference_base.py and `paper` in reference_paper.py. It is strict. It skips ORDER, ATTRIBUTE and VALUES, and
+says that other extensions are unsupported (README.md). numpy adds and multiplies; nothing is shared with the product.
 
     python spec/reference_decoder.py IN.bsm OUT.npz
 

@@ -121,8 +121,8 @@ class Header:
     """The quaternion that turns the axes of a grid to those of the mesh, less its first entry, which is 1."""
 
     base: tuple[int, ...] = _HEADER[27]
-    """Of blocks on cells: how many there are, their reach in edges, rounds of smoothing, and how often the step of their
-    levels is halved from 1; empty: blocks are on the mesh itself."""
+    """Cells, their reach in edges, rounds of smoothing, and how often the step of their levels is halved from 1; empty:
+    blocks are on the mesh itself."""
 
     @property
     def transforms(self) -> int:

@@ -15,7 +15,7 @@ from bsm.codec.geometry.graph import Graph
 
 
 @dataclass(frozen=True, eq=False)
-class Cells:
+class CellMesh:
     """The cell of each vertex, the graph of the cells, and their faces."""
 
     own: Indices
@@ -23,7 +23,7 @@ class Cells:
     faces: Faces
 
 
-def cells_of(graph: Graph, faces: Faces, reach: int) -> Cells:
+def cells_of(graph: Graph, faces: Faces, reach: int) -> CellMesh:
     """Cells of the vertices at most `reach` edges from their centers."""
     own, waiting = np.empty(graph.size, np.int32), np.empty(graph.size, np.int32)
     far, ends = np.empty(graph.size, np.uint8), len(graph.neighbors) + 1
@@ -35,10 +35,10 @@ def cells_of(graph: Graph, faces: Faces, reach: int) -> Cells:
     triples, rows = np.empty((len(faces), 3), np.int32), np.empty((len(faces), 3), np.int32)
     order, room = np.empty(len(faces), np.int32), np.empty(len(faces), np.int32)
     last = _kernels.cell_faces(np.ascontiguousarray(faces, np.int32), own, bounds, triples, order, room, rows)
-    return Cells(own, Graph(links, linked[:kept].copy()), rows[:last].copy())
+    return CellMesh(own, Graph(links, linked[:kept].copy()), rows[:last].copy())
 
 
-def prolonged(cells: Cells, graph: Graph, places: Matrix, rounds: int) -> Matrix:
+def prolonged(cells: CellMesh, graph: Graph, places: Matrix, rounds: int) -> Matrix:
     """Positions of the vertices, shape (n, 3), from those of their cells; the same for encoder and decoder."""
     positions, room = np.empty((graph.size, 3)), np.empty(8 * graph.size, np.float32)
     _kernels.prolong(graph.offsets, graph.neighbors, cells.own, np.ascontiguousarray(places), rounds, room, positions)
@@ -48,7 +48,7 @@ def prolonged(cells: Cells, graph: Graph, places: Matrix, rounds: int) -> Matrix
 STEPS = 10  # of conjugate gradients; forty come to the same bytes
 
 
-def fitted(cells: Cells, graph: Graph, positions: Matrix, rounds: int) -> Matrix:
+def fitted(cells: CellMesh, graph: Graph, positions: Matrix, rounds: int) -> Matrix:
     """Places of cells, shape (m, 3), that are prolonged to about the positions of the vertices, shape (n, 3)."""
     places, coarse = np.empty((cells.graph.size, 3)), cells.graph
     room = np.empty(12 * graph.size + 28 * coarse.size, np.float32)

@@ -68,6 +68,56 @@ bool mark_whole(const Assembly *assembly, const Header *header, const Graph *gra
     return done;
 }
 
+bool prolong_cells(const Cells *cells, const Graph *graph, ConstDoubles2 places, int rounds, Arena *arena,
+    Arena *scratch, Doubles2 *positions) {
+    int64_t n = graph->size;
+    Mark mark = mark_of(scratch);
+    Singles room;
+    bool done = take_doubles2(arena, n, 3, positions) && take_singles(scratch, 8 * n, &room);
+    if (done) prolong(graph->offsets, graph->neighbors, cells->own, places, rounds, room, *positions);
+    release_to(scratch, mark);
+    return done;
+}
+
+bool mark_prolonged(const Cells *cells, const Graph *graph, ConstBytes marked, int rings, Arena *arena, Arena *scratch,
+    Bytes *whole) {
+    *whole = (Bytes){NULL, 0};
+    if (marked.size == 0) return true;
+    Mark mark = mark_of(scratch);
+    bool done = take_bytes(arena, graph->size, whole);
+    for (int64_t v = 0; done && v < graph->size; v++) whole->data[v] = !marked.data[cells->own.data[v]];
+    done = done && spread_marks(graph, *whole, rings, scratch);
+    for (int64_t v = 0; done && v < graph->size; v++) whole->data[v] = !whole->data[v];
+    release_to(scratch, mark);
+    return done;
+}
+
+/* Breadth-first from all cells whose places are known. */
+bool fill_unknown(const Graph *graph, ConstDoubles weights, Arena *scratch, Doubles2 places) {
+    int64_t end = 0;
+    Ints waiting;
+    Bytes known;
+    Mark mark = mark_of(scratch);
+    bool done = take_ints(scratch, graph->size, &waiting) && take_bytes(scratch, graph->size, &known);
+    for (int64_t c = 0; done && c < graph->size; c++) {
+        known.data[c] = weights.data[c] > 0.0;
+        waiting.data[end] = (int32_t)c;
+        end += known.data[c];
+    }
+    for (int64_t head = 0; end < graph->size && head < end; head++) {
+        int32_t c = waiting.data[head];
+        for (int32_t i = graph->offsets.data[c]; i < graph->offsets.data[c + 1]; i++) {
+            int32_t other = graph->neighbors.data[i];
+            if (known.data[other]) continue;
+            known.data[other] = 1;
+            memcpy(places.data + 3 * (int64_t)other, places.data + 3 * (int64_t)c, 3 * sizeof(double));
+            waiting.data[end++] = other;
+        }
+    }
+    release_to(scratch, mark);
+    return done;
+}
+
 bool into_unit(Context *context, const Header *header, Doubles2 positions) {
     double scale = header->scale, spoiled[3] = {0.0}; /* infinity minus itself is not a number */
     for (int64_t v = 0; v < positions.rows; v++)

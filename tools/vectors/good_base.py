@@ -106,7 +106,7 @@ def _with_base(*changes: tuple[int, int]) -> bytes:
 def strip(size: int) -> TriangleMesh:
     """A strip of triangles, whose cells follow each other and have no faces."""
     k = np.arange(size)
-    faces = np.stack([k[:-2], k[1:-1], k[2:]], -1)
+    faces = np.stack([k[:-2], k[1:-1], k[2:]], -1).astype(np.int32)
     return TriangleMesh(np.stack([0.1 * (k // 2), 0.05 * (k % 2), 0.1 * np.sin(0.3 * k)], -1), faces)
 
 
@@ -144,7 +144,7 @@ def cylinder(sides: int) -> TriangleMesh:
     sides_of = [[k, after, sides + after], [k, sides + after, sides + k]]
     fans = [[np.full(sides, 2 * sides), after, k], [np.full(sides, 2 * sides + 1), sides + k, sides + after]]
     faces = np.concatenate([np.stack(rows, -1) for rows in [*sides_of, *fans]])
-    return TriangleMesh(np.concatenate([ring, ring + [0, 0, 3.0], ends]), faces)
+    return TriangleMesh(np.concatenate([ring, ring + np.array([0, 0, 3.0]), ends]), faces)
 
 
 def flipped() -> TriangleMesh:

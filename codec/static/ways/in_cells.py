@@ -9,7 +9,7 @@ from bsm.bitstream.container.header import Layer
 from bsm.bitstream.container.packets import Refinement
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Matrix
-from bsm.codec.blocks.cells import Cells, cells_of, fitted, prolonged
+from bsm.codec.blocks.cells import CellMesh, cells_of, fitted, prolonged
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
 from bsm.codec.progress import Progress
 from bsm.codec.signal.transform import smallest_step
@@ -19,7 +19,7 @@ from bsm.codec.static.ways.grid import encode_layer
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
 
 BLOCK, OVERLAP = 450, 1.0
-"""Cells of a block: fewer take more bytes, more take decoders longer; and how far blocks are grown."""
+"""CellMesh of a block: fewer take more bytes, more take decoders longer; and how far blocks are grown."""
 COARSER, RATIO = 8.0, 3.0
 """The step of levels of cells, over that of vertices, about; and along tangents, over that along normals."""
 ROUGHER = 96.0  # the step of coefficients, over that of levels of vertices
@@ -27,7 +27,7 @@ ROUGHER = 96.0  # the step of coefficients, over that of levels of vertices
 
 @dataclass(frozen=True)
 class Spread:
-    """How far vertices are from the centers of their cells, in edges, and rounds of smoothing from cells to vertices."""
+    """How far vertices are from centers of cells, in edges, and rounds of smoothing from cells to vertices."""
 
     reach: int = 2
     rounds: int = 8
@@ -56,7 +56,7 @@ class InCells:
         self._prepared, self._options, self._widest, self._spread = prepared, options, widest, spread
 
     @cached_property
-    def cells(self) -> Cells:
+    def cells(self) -> CellMesh:
         return cells_of(self._prepared.graph, self._prepared.mesh.faces, self._spread.reach)
 
     @cached_property
@@ -76,9 +76,7 @@ class InCells:
         places, levels = self._leveled(blocks, Layer(0.5**halvings, RATIO))
         positions = prolonged(self.cells, prepared.graph, places, self._spread.rounds)
         base = coarse.graph.size, self._spread.reach, self._spread.rounds, halvings
-        header = replace(
-            blocks.draft.header, vertices=prepared.graph.size, faces=len(prepared.mesh.faces), base=base
-        )
+        header = replace(blocks.draft.header, vertices=prepared.graph.size, faces=len(prepared.mesh.faces), base=base)
         draft = Draft(header, (*blocks.draft.body, *levels), prepared.units.back(positions))
         return RefinementBase(prepared, draft, positions, blocks.coded, blocks.work)
 

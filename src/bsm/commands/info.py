@@ -55,6 +55,7 @@ def summarize(info: StreamInfo) -> dict[str, Any]:
         "congruence": header.congruence > 0,
         "whole": header.whole,  # vertices where images of others are take one decision
         "turn": any(header.turn),
+        "base": bool(header.base),
         "brief": info.brief,
         "paper": bool(header.paper) or sizes["partition"] > 0,
         "attributes": header.attributes > 0,
@@ -109,7 +110,7 @@ def _worded(summary: Facts) -> str:
     positions = f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"
     if not header["grid"]:
         refined = ", and a layer of refinement" if header["refinement"] else ""
-        positions = f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
+        positions = f"{summary['blocks']} blocks of {summary['block_size']} {'cells' if header['base'] else 'vertices'}, "
         positions += f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
     lines = [
         f"version {summary['version']}, {', '.join(summary['extensions']) or 'core only'}: "
