@@ -347,7 +347,7 @@ static bool judge_blocks(bsmdec *decoder, Bytes states) {
     if (!mark_base(decoder, 0, answer, &whole)
         || (mesh->has_layer && mesh->layer.coded == n && !fit_vertices(&mesh->layer, answer, &fit)))
         return false;
-    bool unrefined = (mesh->has_layer && mesh->layer.coded > 0 && mesh->layer.coded < n)
+    bool unrefined = (mesh->has_layer && mesh->layer.coded < n && (mesh->layer.coded > 0 || mesh->layer.lossy))
         || (mesh->has_cell_layer && mesh->cell_layer.coded < mesh->header.base.cells);
     for (int64_t v = 0; v < n; v++) {
         bool degraded = unrefined || (whole.size > 0 && !whole.data[v]) || (fit.size > 0 && !fit.data[v]);

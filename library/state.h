@@ -17,7 +17,7 @@ typedef struct {
     bool has_faces, has_graph, announced, over;
     Ints2 faces;
     Graph graph;
-    Cells cells;         /* of a base: blocks are on their graph, and a first layer on their faces */
+    CellMesh cells;         /* of a base: blocks are on their graph, and a first layer on their faces */
     Ints labels;         /* of PARTITION, empty without */
     Numbering numbering;
     Blocks blocks;

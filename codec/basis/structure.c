@@ -23,7 +23,7 @@ bool make_graph(Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *
 }
 
 static bool find_all_cells(Context *context, const Coarse *base, const Graph *graph, ConstInts2 faces, Arena *arena,
-    Arena *scratch, Cells *cells) {
+    Arena *scratch, CellMesh *cells) {
     int64_t n = graph->size, m = base->cells, ends = graph->neighbors.size;
     Bytes far;
     Ints own, order, bounds, filled, found, links, linked, sorted;
@@ -50,7 +50,7 @@ static bool find_all_cells(Context *context, const Coarse *base, const Graph *gr
 }
 
 bool make_cells(Context *context, const Coarse *base, const Graph *graph, ConstInts2 faces, Arena *arena, Arena *scratch,
-    Cells *cells) {
+    CellMesh *cells) {
     double n = (double)graph->size, ends = (double)graph->neighbors.size, m = (double)faces.rows;
     if (!reserve(context, cells_memory(n, ends, m, (double)base->cells), 0)
         || !charge(context, cells_work(n, ends, m, base->reach) + base->rounds * prolong_work(n, ends), 0))

@@ -68,7 +68,7 @@ bool mark_whole(const Assembly *assembly, const Header *header, const Graph *gra
     return done;
 }
 
-bool prolong_cells(const Cells *cells, const Graph *graph, ConstDoubles2 places, int rounds, Arena *arena,
+bool prolong_cells(const CellMesh *cells, const Graph *graph, ConstDoubles2 places, int rounds, Arena *arena,
     Arena *scratch, Doubles2 *positions) {
     int64_t n = graph->size;
     Mark mark = mark_of(scratch);
@@ -79,7 +79,7 @@ bool prolong_cells(const Cells *cells, const Graph *graph, ConstDoubles2 places,
     return done;
 }
 
-bool mark_prolonged(const Cells *cells, const Graph *graph, ConstBytes marked, int rings, Arena *arena, Arena *scratch,
+bool mark_prolonged(const CellMesh *cells, const Graph *graph, ConstBytes marked, int rings, Arena *arena, Arena *scratch,
     Bytes *whole) {
     *whole = (Bytes){NULL, 0};
     if (marked.size == 0) return true;

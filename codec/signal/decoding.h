@@ -107,10 +107,10 @@ bool mark_whole(const Assembly *assembly, const Header *header, const Graph *gra
 /* Mark the neighbors of marked vertices, a number of times. */
 bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scratch);
 /* Places of cells spread to vertices, in BSM units (M 18.7). */
-bool prolong_cells(const Cells *cells, const Graph *graph, ConstDoubles2 places, int rounds, Arena *arena,
+bool prolong_cells(const CellMesh *cells, const Graph *graph, ConstDoubles2 places, int rounds, Arena *arena,
     Arena *scratch, Doubles2 *positions);
 /* Marks of the vertices whose cells, and those at most `rings` edges away, are marked; no array if all cells are. */
-bool mark_prolonged(const Cells *cells, const Graph *graph, ConstBytes marked, int rings, Arena *arena, Arena *scratch,
+bool mark_prolonged(const CellMesh *cells, const Graph *graph, ConstBytes marked, int rings, Arena *arena, Arena *scratch,
     Bytes *whole);
 /* Let cells whose weights are 0 have the places of near ones. */
 bool fill_unknown(const Graph *graph, ConstDoubles weights, Arena *scratch, Doubles2 places);

@@ -296,9 +296,6 @@ EPS_H = 0.3
 """eps_h of preset "paper", in mean edge lengths; eps_l is a tenth less."""
 
 
-LARGE_BLOCKS: dict[str, Any] = {"block_size": 1500, "key_interval": 0}
-"""Blocks that the best effort also tries: fewer bytes, slower to decode."""
-WORTH = 8.0  # percents of decoding time that one percent of bytes is worth
 CODING = ("step", "keep", "coefficients", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
 FINE, SMALL = 0.001, 0.02  # promises of positions, from which on attributes are kept better, or less well
@@ -306,7 +303,7 @@ STEP = 0.004  # of blocks alone
 PAPER_OVERLAP = 1.15
 
 PRESETS: dict[str, EncodeOptions] = {
-    "small": EncodeOptions(**LARGE_BLOCKS, contract=Contract(0.02, look=3.0, by_part=0.02)),
+    "small": EncodeOptions(contract=Contract(0.02, look=3.0, by_part=0.02)),
     "balanced": EncodeOptions(contract=BALANCED),
     "fine": EncodeOptions(contract=Contract(0.005, look=0.5, by_part=0.005)),
     "near-lossless": EncodeOptions(contract=Contract(0.0005, look=0.25, by_part=0.005)),

@@ -20,7 +20,7 @@ from bsm.codec.static.choice.bounds import Bounds, Measures, Trial
 from bsm.codec.static.choice.grids import Gridded, paying, rounded
 from bsm.codec.static.choice.laws import DOUBT, Hopes, Law, Way, search, steps_of
 from bsm.codec.static.choice.settling import RATIO
-from bsm.codec.static.options import LARGE_BLOCKS, WORTH, EncodeOptions
+from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, TRIES, Contract, secant
 
@@ -143,9 +143,6 @@ class Search:
             with suppress(LimitError):  # blocks that decoders would refuse
                 made = begun[refined] = refined.at(min(max(refined.first, refined.least), refined.most))
                 sizes[refined] = aim.size(refined, made.draft.size)
-                if (larger := self._larger(refined, made, aim.bounds)) is not None:
-                    ways.append(larger)
-                    sizes[larger] = sizes[refined] - refined.base.coded + larger.base.coded
         about = usual.about() if begun else 0
         if begun and min(sizes.values()) < (1.0 - DOUBT) * about:  # no grid is coded in full
             first, other = next(iter(begun.values())), aim.size(grid, about)
@@ -158,17 +155,6 @@ class Search:
             if hopes.way in begun:
                 hopes.begin(begun[hopes.way], math.log(sizes[hopes.way]))
         return queue
-
-    def _larger(self, way: Refined, found: Trial, bounds: Bounds) -> Refined | None:
-        """The way with larger blocks, where these may take fewer bytes than those that it has come to."""
-        usual, best = self._prepared.parts.size == EncodeOptions.block_size, self._options.effort == "best"
-        if bounds.contract.look == math.inf or not usual or (way.base.coded <= found.draft.size / 4.0 and not best):
-            return None
-        parts = replace(self._prepared.parts, size=LARGE_BLOCKS["block_size"])
-        larger = Refined(replace(self._prepared, parts=parts), self._options, bounds)
-        larger.first = found.step
-        saved = (way.base.coded - larger.base.coded) / found.draft.size
-        return larger if best or larger.base.work < way.base.work * (1.0 + WORTH * saved) else None
 
     def best(self, contract: Contract, most_bytes: float) -> Draft | None:
         """Return the best stream of at most `most_bytes` that keeps a contract, or None."""

@@ -22,6 +22,7 @@ BLOCK, OVERLAP = 450, 1.0
 """CellMesh of a block: fewer take more bytes, more take decoders longer; and how far blocks are grown."""
 COARSER, RATIO = 8.0, 3.0
 """The step of levels of cells, over that of vertices, about; and along tangents, over that along normals."""
+FARTHEST = 2.0**18  # steps that levels may be away, and bends of surfaces some more
 ROUGHER = 96.0  # the step of coefficients, over that of levels of vertices
 
 
@@ -73,6 +74,9 @@ class InCells:
         halvings = min(max(round(-math.log2(COARSER * step)), 1), 40)
         rough = max(ROUGHER * step, 1.01 * smallest_step(coarse.size))
         blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5), progress)
+        farthest = float(np.abs(blocks.offsets).max(initial=0.0))
+        while farthest > FARTHEST * 0.5**halvings:
+            halvings -= 1
         places, levels = self._leveled(blocks, Layer(0.5**halvings, RATIO))
         positions = prolonged(self.cells, prepared.graph, places, self._spread.rounds)
         base = coarse.graph.size, self._spread.reach, self._spread.rounds, halvings

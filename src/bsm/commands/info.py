@@ -110,7 +110,9 @@ def _worded(summary: Facts) -> str:
     positions = f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"
     if not header["grid"]:
         refined = ", and a layer of refinement" if header["refinement"] else ""
-        positions = f"{summary['blocks']} blocks of {summary['block_size']} {'cells' if header['base'] else 'vertices'}, "
+        positions = (
+            f"{summary['blocks']} blocks of {summary['block_size']} {'cells' if header['base'] else 'vertices'}, "
+        )
         positions += f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
     lines = [
         f"version {summary['version']}, {', '.join(summary['extensions']) or 'core only'}: "

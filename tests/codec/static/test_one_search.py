@@ -21,14 +21,6 @@ def bumpy() -> TriangleMesh:
     return TriangleMesh(mesh.positions + noise, mesh.faces)
 
 
-def test_smooth_meshes_have_larger_blocks() -> None:
-    smooth = torus(48, 32, bumps=0.0)
-    usual = Encoder(smooth, EncodeOptions(threads=1)).draft()
-    small = Encoder(smooth, EncodeOptions(threads=1, block_size=449)).draft()
-    assert usual.size < 0.6 * small.size
-    assert small.header.block_size < usual.header.block_size == 48 * 32
-
-
 @pytest.mark.parametrize(("bound", "binding"), [(0.0002, "vertex error"), (0.01, "look")])
 def test_the_encoder_says_what_binds(bound: float, binding: str) -> None:
     encoder = Encoder(torus(), EncodeOptions(contract=Contract(bound, look=1.0), threads=1, congruence=False))
