@@ -96,6 +96,7 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
         (mesh, {"step": 0.01, "smoothing": 1.0}),
         (mesh, {"preset": "fine"}),
         (TriangleMesh(moved, bare.faces), {}),
+        (torus(24, 16), {}),
         (mesh, {"effort": "quick", "contract": None, "grid": 9, "keep_order": True}),
         (mesh, {"exact": True, "contract": None}),
         (tangled(), {"grid": 9}),

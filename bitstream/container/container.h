@@ -122,7 +122,9 @@ typedef struct {
 INLINE bool is_brief(const Header *header) { return !BSMDEC_LONG && header->brief; }
 
 /* Vertices of the graph that blocks are on, and all that have levels. */
-INLINE int64_t ground_size(const Header *header) { return header->base.cells > 0 ? header->base.cells : header->vertices; }
+INLINE int64_t ground_size(const Header *header) {
+    return header->base.cells > 0 ? header->base.cells : header->vertices;
+}
 INLINE int64_t levels_size(const Header *header) { return header->base.cells + header->vertices; }
 
 /* How positions on a grid are coded. */

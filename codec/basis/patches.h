@@ -42,8 +42,8 @@ typedef struct {
 } CellMesh;
 
 /* As many cells as the base says, or the context fails. */
-bool make_cells(Context *context, const Coarse *base, const Graph *graph, ConstInts2 faces, Arena *arena, Arena *scratch,
-    CellMesh *cells);
+bool make_cells(Context *context, const Coarse *base, const Graph *graph, ConstInts2 faces, Arena *arena,
+    Arena *scratch, CellMesh *cells);
 /* Order the rows of a block of these vertices (M 6), and find what its factorization needs. */
 bool order_patch(const Graph *graph, ConstInts members, Arena *arena, Patch *patch);
 bool find_patch_fronts(Context *context, Arena *arena, Patch *patch);

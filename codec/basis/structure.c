@@ -49,8 +49,8 @@ static bool find_all_cells(Context *context, const Coarse *base, const Graph *gr
     return true;
 }
 
-bool make_cells(Context *context, const Coarse *base, const Graph *graph, ConstInts2 faces, Arena *arena, Arena *scratch,
-    CellMesh *cells) {
+bool make_cells(Context *context, const Coarse *base, const Graph *graph, ConstInts2 faces, Arena *arena,
+    Arena *scratch, CellMesh *cells) {
     double n = (double)graph->size, ends = (double)graph->neighbors.size, m = (double)faces.rows;
     if (!reserve(context, cells_memory(n, ends, m, (double)base->cells), 0)
         || !charge(context, cells_work(n, ends, m, base->reach) + base->rounds * prolong_work(n, ends), 0))

@@ -4,7 +4,7 @@
 #include "codec/geometry/geometry.h"
 
 /* The cell of each vertex; returns how many cells there are. `far`, of each vertex, becomes how many edges the nearest
- * center is away: where no center comes nearer, nothing is visited again, so that all takes `reach` visits of an edge at
+ * center is away: where no center comes nearer, nothing is visited again, so that an edge is visited `reach` times at
  * most. `waiting` has an entry a vertex; `reach` is below 255. */
 int64_t find_cells(ConstInts offsets, ConstInts neighbors, int64_t reach, Bytes far, Ints waiting, Ints own) {
     int64_t n = offsets.size - 1, cells = 0, end = 0;

@@ -79,8 +79,8 @@ bool prolong_cells(const CellMesh *cells, const Graph *graph, ConstDoubles2 plac
     return done;
 }
 
-bool mark_prolonged(const CellMesh *cells, const Graph *graph, ConstBytes marked, int rings, Arena *arena, Arena *scratch,
-    Bytes *whole) {
+bool mark_prolonged(const CellMesh *cells, const Graph *graph, ConstBytes marked, int rings, Arena *arena,
+    Arena *scratch, Bytes *whole) {
     *whole = (Bytes){NULL, 0};
     if (marked.size == 0) return true;
     Mark mark = mark_of(scratch);

@@ -110,8 +110,8 @@ bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scratch);
 bool prolong_cells(const CellMesh *cells, const Graph *graph, ConstDoubles2 places, int rounds, Arena *arena,
     Arena *scratch, Doubles2 *positions);
 /* Marks of the vertices whose cells, and those at most `rings` edges away, are marked; no array if all cells are. */
-bool mark_prolonged(const CellMesh *cells, const Graph *graph, ConstBytes marked, int rings, Arena *arena, Arena *scratch,
-    Bytes *whole);
+bool mark_prolonged(const CellMesh *cells, const Graph *graph, ConstBytes marked, int rings, Arena *arena,
+    Arena *scratch, Bytes *whole);
 /* Let cells whose weights are 0 have the places of near ones. */
 bool fill_unknown(const Graph *graph, ConstDoubles weights, Arena *scratch, Doubles2 places);
 /* From BSM units to the unit of the mesh, in place (M 12.5). */
