@@ -44,9 +44,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser = command_parser(words[0])
         args = parser.parse_command(words[1:])
         as_json = getattr(args, "json", False)
+        named = named_files(words[0], parser, args)
         if isinstance(given := getattr(args, "inputs", None), list) and hasattr(args, "output"):
             refuse_misplaced(words[0], given, recursive=getattr(args, "recursive", False))
-        refuse_collisions(*named_files(words[0], parser, args))
+        refuse_collisions(*named)
         code: int | None = args.run(args, Console(quiet=args.quiet, json=as_json))
         if sys.stdout is not None:  # closed by the shell
             sys.stdout.flush()
@@ -64,8 +65,13 @@ def named_files(command: str, parser: "Parser", args: argparse.Namespace) -> tup
     named: tuple[list[str], list[str]] = [], []
     written = _WRITTEN | ({"permutation"} if command == "encode" else set())
     for action in parser.file_arguments():
-        given = getattr(args, action.dest) or []
-        named[action.dest in written].extend([given] if isinstance(given, str) else given)
+        given = getattr(args, action.dest)
+        names = [given] if isinstance(given, str) else given or []
+        if "" in names:
+            parser.error(
+                f"the name given for {'/'.join(action.option_strings) or action.metavar} is empty; name a file"
+            )
+        named[action.dest in written].extend(names)
     # Of folders that are searched, the files that are found count.
     reads = [name for name in named[0] if not getattr(args, "recursive", False) or not os.path.isdir(name)]
     return reads, [name for name in named[1] if not name.endswith("/") and not os.path.isdir(name)]

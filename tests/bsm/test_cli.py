@@ -228,3 +228,20 @@ def test_the_flags_are_fields_and_show_their_defaults():
             assert not default or "yes" in shown
         elif default is not None:
             assert f"{default}" in shown, flag.field
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(("encode", "a.ply", "-o", ""), ("encode", ""), ("encode", "a.ply", ""), ("decode", "", "-o", "b.ply")),
+        *(("info", ""), ("glb", "a.glb", "-o", ""), ("tile", "a.ply", "-o", ""), ("compare", "", "a.ply")),
+        *(("encode", "a.ply", "--report", ""), ("view", "a.ply", "--save", ""), ("denoise", "a.ply", "-o", "")),
+    ],
+)
+def test_an_empty_name_is_an_error(words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_mesh(tmp_path / "a.ply", torus(8, 6))
+    before = sorted(tmp_path.iterdir())
+    done = bsm(*words, text=True)
+    assert done.returncode == 2 and "is empty; name a file" in done.stderr, done.stderr
+    assert sorted(tmp_path.iterdir()) == before

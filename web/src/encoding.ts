@@ -76,7 +76,9 @@ const WAYS = ["default", "exact", "bits", "bound", "percent", "degrees", "recomp
 /** The kind of an array, of any realm; undefined where C takes no such numbers. */
 export function kindOf(values: ArrayLike<number>): Attribute["kind"] | undefined {
     return KINDS.find(
-        (kind) => (values as Float32Array)[Symbol.toStringTag]?.replace("Clamped", "").toLowerCase() === `${kind}array`,
+        (kind) =>
+            (values as Float32Array | null)?.[Symbol.toStringTag]?.replace("Clamped", "").toLowerCase() ===
+            `${kind}array`,
     );
 }
 
@@ -84,8 +86,16 @@ export function refuse(what: string): never {
     throw new EncodeError(what, 2);
 }
 
+/** Refuse all but arrays of numbers. */
+function requireNumbers(values: ArrayLike<unknown> | null | undefined, what: string): void {
+    if (kindOf(values as ArrayLike<number>)) return;
+    if (!values || Array.from(values).some((value) => typeof value !== "number"))
+        refuse(`${what} are not an array of numbers`);
+}
+
 /** Numbers of vertices or values, none of them changed on its way to C. */
 export function wholes(values: ArrayLike<number>, what: string): Uint32Array {
+    requireNumbers(values, what);
     if (kindOf(values) === "uint32") return values as Uint32Array;
     for (let i = 0; i < values.length; i++)
         if (values[i] !== values[i] >>> 0) refuse(`${what} are whole numbers from 0 on, not ${values[i]}`);
@@ -121,6 +131,7 @@ export function encodeWith(
     const text = (value: string): number => put(new TextEncoder().encode(value), true);
     const { positions: given, frames = 0, attributes = [], metadata = {} } = mesh;
     const faces = wholes(mesh.faces, "vertices of faces");
+    requireNumbers(given, "positions");
     const isSingle = kindOf(given) === "float32";
     const positions = isSingle || kindOf(given) === "float64" ? (given as Float64Array) : Float64Array.from(given);
     const vertices = positions.length / 3 / (frames || 1);
@@ -139,13 +150,15 @@ export function encodeWith(
         indices,
         quality,
     } of attributes) {
+        requireNumbers(numbers, `values of ${name}`);
         const values = (kindOf(numbers) ? numbers : Float32Array.from(numbers)) as Float32Array;
         const asked = options.qualities?.[name] ?? quality ?? "default";
-        const [way, amount] = typeof asked === "string" ? [asked, 0] : Object.entries(asked)[0];
+        const [way, amount] = typeof asked === "string" ? [asked, 0] : (Object.entries(asked)[0] ?? ["", 0]);
         const rows = indices && domain === "corner" ? indices.length : values.length / components;
         if (rows !== { vertex: vertices, corner: faces.length, face: faces.length / 3 }[domain])
             refuse(`the attribute ${name} has not ${components} numbers for each ${domain}`);
-        if (name.includes("\0") || !Number.isFinite(amount) || !WAYS.includes(way))
+        const isAmount = way === "bits" ? Number.isInteger(amount) : Number.isFinite(amount);
+        if (name.includes("\0") || !isAmount || !WAYS.includes(way))
             refuse(`the attribute ${name.replaceAll("\0", "?")} has a name or a quality that nothing can have`);
         const row = [
             DOMAINS.indexOf(domain),
@@ -181,7 +194,8 @@ export function encodeWith(
             refuse("too much metadata");
     }
     const { bits = 0, cell = 0, origin = [0, 0, 0], lossless = false, keepOrder = false, quick = false } = options;
-    if (![bits, cell, ...origin].every(Number.isFinite)) refuse("bits, cell and origin are finite numbers");
+    if (!Number.isInteger(bits) || ![cell, ...origin].every(Number.isFinite))
+        refuse("bits is a whole number, cell and origin are finite numbers");
     const status = calls.encode_run(
         lossless ? 2 : cell > 0 ? 1 : 0,
         bits,

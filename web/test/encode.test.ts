@@ -9,7 +9,14 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test, { describe } from "node:test";
 import { BufferAttribute, BufferGeometry, Mesh, TorusKnotGeometry } from "three";
-import { BSMExporter, encodeHere, encodeWith, type AttributeInput } from "../src/encode";
+import {
+    BSMExporter,
+    encodeHere,
+    encodeWith,
+    type AttributeInput,
+    type EncodeOptions,
+    type MeshInput,
+} from "../src/encode";
 import { meshOf } from "../src/content";
 import { decode } from "../src/index";
 import { POLICY, serveSite } from "./server";
@@ -129,6 +136,33 @@ describe("encoding", () => {
             () => encodeWith(module, { ...mesh, faces: mesh.faces.map((v) => v + 1) }),
             /is vertex \d+ of \d+/,
         );
+        const odd: [string, unknown, unknown][] = [
+            ["bits", { ...mesh }, { bits: 2.5 }],
+            ["bits", { ...mesh }, { bits: 10n }],
+            ["cell", { ...mesh }, { cell: "1" }],
+            ["metadata", { ...mesh, metadata: { a: null } }, {}],
+            ["metadata", { ...mesh, metadata: { a: 1n } }, {}],
+            ["metadata", { ...mesh, metadata: { a: [1] } }, {}],
+            ["faces", { ...mesh, faces: BigInt64Array.from(mesh.faces, BigInt) }, {}],
+            ["faces", { ...mesh, faces: null }, {}],
+            ["faces", { ...mesh, faces: "012" }, {}],
+            ["positions", { ...mesh, positions: BigInt64Array.of(0n, 1n, 2n) }, {}],
+            ["positions", { ...mesh, positions: [null, 1, 2] }, {}],
+            ["positions", { ...mesh, positions: undefined }, {}],
+            ...[{}, { bits: 2.5 }, { bits: null }, { shine: 1 }].map((quality): [string, unknown, unknown] => [
+                "quality",
+                mesh,
+                { qualities: { [mesh.attributes![0].name]: quality } },
+            ]),
+            ["values", { ...mesh, attributes: [{ ...mesh.attributes![0], values: [1n] }] }, {}],
+            ["indices", { ...mesh, attributes: [{ ...mesh.attributes![0], domain: "corner", indices: [1n] }] }, {}],
+        ];
+        for (const [what, input, options] of odd)
+            assert.throws(
+                () => encodeWith(module, input as MeshInput, options as EncodeOptions),
+                { name: "EncodeError", status: 2 },
+                what,
+            );
         const far = Float64Array.from(mesh.positions, (x) => x + 1e7);
         assert.throws(() => encodeWith(module, { ...mesh, positions: far }, { lossless: true }), {
             name: "EncodeError",

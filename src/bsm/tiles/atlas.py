@@ -9,13 +9,14 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import LimitError, imported
+from bsm.bitstream.errors import FormatError, LimitError, imported
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.graph import components, graph_of_faces
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.metrics import face_geometry
 from bsm.codec.geometry.welding import row_numbers
 from bsm.files.images import ImageRule
+from bsm.files.pipes import about
 
 Skin: TypeAlias = npt.NDArray[np.float32]
 """Of each corner of each face: texels from the upper left of a picture, the picture, and its chart; or nothing."""
@@ -24,13 +25,24 @@ _MOST_SIDE = 1 << 14
 _NEED = "textures are cut with Pillow and SciPy", "formats"
 
 
-def opened(path: Path) -> Any:
+def opened(picture: Path | io.BytesIO) -> Any:
     """A picture, closed after use, of which only the size is read."""
     pillow = imported("PIL.Image", *_NEED)
     try:
-        return pillow.open(path)
+        return pillow.open(picture)
     except pillow.DecompressionBombError as error:
         raise LimitError(f"a texture is too large: {error}") from error
+
+
+def checked(picture: bytes, name: str) -> bytes:
+    """An image that Pillow can read, or an error with its name."""
+    with about(f"the image {name}"):
+        try:
+            with opened(io.BytesIO(picture)) as image:
+                image.load()
+        except (OSError, ValueError, SyntaxError) as error:
+            raise FormatError("it cannot be read; repair it, or take it away from the mesh") from error
+    return picture
 
 
 def skin_of(texcoords: npt.NDArray[np.float32], materials: npt.NDArray[Any], pictures: Sequence[Path]) -> Skin:

@@ -24,6 +24,7 @@ from bsm.files.output import by_its_own_name
 from bsm.files.pipes import Input, is_url, size_of
 from bsm.files.table import format_of_bytes
 from bsm.ground.console import Console
+from bsm.tiles.atlas import checked
 
 Array: TypeAlias = npt.NDArray[Any]
 Pieces: TypeAlias = Iterator[tuple[str, Array]]  # some rows of "positions", "faces", "color", "normal" or "texcoord"
@@ -132,7 +133,9 @@ def _textures(raw: Raw, beside: Beside) -> int:
     images, materials = images_in(found), materials_in(found)
     named = [materials[number] for number in raw.materials.values()]
     numbers = [material.get("map_Kd", material.get("baseColorTexture")) for material in named]
-    pictures = [images[int(number)][1] if number in images else b"" for number in numbers]
+    used = {number: images[int(number)] for number in numbers if number in images}
+    sound = {number: checked(data, name) for number, (name, data) in used.items() if data}
+    pictures = [sound[number] if number in sound else b"" for number in numbers]
     if any(pictures):
         for what in ("material", "mtllib", "image"):
             raw.left_out.pop(what, None)
