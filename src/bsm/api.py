@@ -137,7 +137,8 @@ def encode_many(
         Number of processes; 0: one per core. Each imports the main module of your program again, so guard its work by
         ``if __name__ == "__main__"``.
     dask : str, optional
-        Address of the scheduler of a Dask cluster, instead of processes.
+        Address of the scheduler of a Dask cluster, instead of processes. A cluster without workers for a minute is an
+        `OSError`.
     report : path, optional
         A JSON file for the result of each file, updated during the work.
     resume : bool

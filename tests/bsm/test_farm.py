@@ -20,6 +20,7 @@ from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.output import open_output
 from bsm.ground.console import Console
+from bsm.jobs import workers
 from bsm.jobs.run import Batch, run_many
 from bsm.jobs.task import Job, Task
 from tests.bsm.deadly import deadly
@@ -63,6 +64,21 @@ def cluster():
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0", silence_logs=50
     ) as cluster:
         yield cluster
+
+
+def test_a_cluster_without_workers_is_waited_for_and_then_an_error(sources, tmp_path, monkeypatch, capsys):
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(workers, "_SILENT", 0.1)
+    options = {"threads_per_worker": 1, "dashboard_address": ":0", "silence_logs": 50}
+    with distributed.LocalCluster(n_workers=0, **options) as cluster:
+        words = ["encode", *sources[:2], "-o", f"{tmp_path}/", "--dask", cluster.scheduler_address]
+        assert main([*words, "--dask-wait", "1.5"]) == 9
+        said = capsys.readouterr().err
+        assert "waiting for a worker" in said and "has had no worker for 1.5 s" in said
+        assert not list(tmp_path.iterdir())
+        cluster.scale(1)
+        assert main(words) == 0
+        assert len(list(tmp_path.iterdir())) == 2
 
 
 @pytest.fixture(scope="module")

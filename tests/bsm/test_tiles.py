@@ -580,7 +580,7 @@ def test_what_is_left_out_is_reported_and_the_files_of_others_stay(tmp_path, mon
     assert "left out: lines of comment; tiles have" in printed
     monkeypatch.chdir(tmp_path)
     Path("tileset.json").write_text("of another mesh")
-    tile(tmp_path / "b.ply", "", "--grid-cell", 1, "-f")
+    tile(tmp_path / "b.ply", ".", "--grid-cell", 1, "-f")
     assert Path("manifest.json").exists() and not Path("tileset.json").exists()
 
 

@@ -30,6 +30,7 @@ class Batch:
 
     jobs: int = 1
     dask: str | None = None
+    dask_wait: float = 60.0
     report: str | None = None
     resume: bool = False
 
@@ -201,7 +202,10 @@ def _outcomes(run: Batch, console: Console, work: Work, tasks: Tasks, sizes: Seq
         # Where there is one process there is no need to load this.
         from bsm.jobs.workers import in_processes, on_cluster
 
-        yield from in_processes(work, tasks, processes) if run.dask is None else on_cluster(work, tasks, run.dask)
+        if run.dask is None:
+            yield from in_processes(work, tasks, processes)
+        else:
+            yield from on_cluster(work, tasks, run.dask, run.dask_wait, console)
         return
     for number, task in iter(partial(next, tasks), None):
         finished += sizes[number]

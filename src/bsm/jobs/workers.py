@@ -25,9 +25,11 @@ from bsm.jobs.task import Outcome, Outcomes, Task, Tasks, Work, outcome_of
 
 AHEAD = 2  # jobs handed out for each process, and for each thread of a cluster
 GRACE = 3.0  # seconds that a process has to clear away, once its parent is gone, and once it was asked to end
+_OFTEN, _SILENT = 1.0, 5.0  # seconds from one look at a cluster to the next, and until a wait for workers is reported
 
 Handed = dict[int, Task]
-Pool = tuple[Executor, Callable[[], int], type[Exception]]  # with its number of processes, and the error if one dies
+Count = Callable[[], int]
+Pool = tuple[Executor, Count, type[Exception]]  # with its number of processes, at times, and the error if one dies
 Pools = Callable[[], AbstractContextManager[Pool]]
 
 
@@ -36,10 +38,13 @@ def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
         yield from _outlived(work, tasks, partial(_processes, processes))
 
 
-def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
-    """Do jobs on the workers of a cluster; other workers repeat the jobs of a worker that dies."""
+def on_cluster(work: Work, tasks: Tasks, address: str, patience: float, console: Console) -> Outcomes:
+    """Do jobs on the workers of a cluster; other workers repeat the jobs of a worker that dies.
+
+    `OSError` if there is no worker for `patience` seconds.
+    """
     try:
-        yield from _outlived(work, tasks, partial(_workers, address))
+        yield from _outlived(work, tasks, partial(_workers, address, patience, console))
     except CancelledError as error:
         raise OSError(errno.ECONNRESET, "the connection to the Dask scheduler was lost", address) from error
 
@@ -59,8 +64,9 @@ def _until_one_dies(work: Work, tasks: Tasks, pools: Pools) -> Generator[tuple[i
     whole = True
     with pools() as (pool, processes, died):
         while True:
+            most = AHEAD * processes()
             try:
-                while whole and len(futures) < AHEAD * processes() and (given := next(tasks, None)):
+                while whole and len(futures) < most and (given := next(tasks, None)):
                     number, task = given
                     handed[number] = task
                     with handled((signal.SIGINT,), signal.SIG_IGN):  # by processes that start here
@@ -69,7 +75,7 @@ def _until_one_dies(work: Work, tasks: Tasks, pools: Pools) -> Generator[tuple[i
                 whole = False
             if not futures:
                 return handed
-            for future in wait(futures, return_when=FIRST_COMPLETED).done:
+            for future in wait(futures, _OFTEN, FIRST_COMPLETED).done:
                 number = futures.pop(future)
                 if isinstance(error := future.exception(), died):
                     whole = False
@@ -99,7 +105,7 @@ def _processes(count: int) -> Iterator[Pool]:
 
 
 @contextmanager
-def _workers(address: str) -> Iterator[Pool]:
+def _workers(address: str, patience: float, console: Console) -> Iterator[Pool]:
     distributed = imported("distributed", "a cluster needs Dask", "dask")
     try:
         client: Any = distributed.Client(address, set_as_default=False)
@@ -111,9 +117,30 @@ def _workers(address: str) -> Iterator[Pool]:
     logger.setLevel(logging.CRITICAL + 1)
     try:
         with client:
-            yield client.get_executor(pure=False), lambda: sum(client.ncores().values()) or 1, distributed.KilledWorker
+            yield client.get_executor(pure=False), _cores(client, address, patience, console), distributed.KilledWorker
     finally:
         logger.setLevel(level)
+
+
+def _cores(client: Any, address: str, patience: float, console: Console) -> Count:
+    """Count the cores of the workers of a cluster; without workers 1, for some seconds, and then an error."""
+    last, told = time.monotonic(), False
+
+    def count() -> int:
+        nonlocal last, told
+        if cores := sum(client.ncores().values()):
+            last, told = time.monotonic(), False
+        waited = time.monotonic() - last
+        if waited > patience:
+            raise OSError(errno.ETIMEDOUT, f"this Dask scheduler has had no worker for {patience:g} s", address)
+        if waited > _SILENT and not told:
+            told = True
+            console.note(
+                f"waiting for a worker of the Dask scheduler at {address}, {patience:g} s at most (--dask-wait)"
+            )
+        return cores or 1
+
+    return count
 
 
 def _end_with_parent() -> None:

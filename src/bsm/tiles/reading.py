@@ -134,8 +134,8 @@ def _textures(raw: Raw, beside: Beside) -> int:
     named = [materials[number] for number in raw.materials.values()]
     numbers = [material.get("map_Kd", material.get("baseColorTexture")) for material in named]
     used = {number: images[int(number)] for number in numbers if number in images}
-    sound = {number: checked(data, name) for number, (name, data) in used.items() if data}
-    pictures = [sound[number] if number in sound else b"" for number in numbers]
+    sound: dict[Any, bytes] = {number: checked(data, name) for number, (name, data) in used.items() if data}
+    pictures = [sound.get(number, b"") for number in numbers]
     if any(pictures):
         for what in ("material", "mtllib", "image"):
             raw.left_out.pop(what, None)
