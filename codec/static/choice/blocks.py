@@ -15,11 +15,13 @@ from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
+from bsm.codec.static.ways.grid import encode_layer
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
-from bsm.codec.static.ways.in_cells import InCells, Spread
+from bsm.codec.static.ways.in_cells import SPREADS, InCells, Spread
 
 BROADEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost decoders more time than their bytes are worth."""
+SPARSE = 0.08  # the step, in mean edges, from which on most levels are 0
 ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
 
@@ -52,7 +54,7 @@ class Refined:
         self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, settled: bool = True, ratio: float = RATIO
     ) -> None:
         self._prepared, self._bounds, self._settled, self.ratio = prepared, bounds, settled, ratio
-        self._spectral = InCells(prepared, options, BROADEST, Spread())
+        self._options = options
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
         self.least, self.most = LEAST, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), LEAST)
@@ -103,8 +105,23 @@ class Refined:
 
     @cached_property
     def base(self) -> RefinementBase:
-        """The cells of all steps: those of about the right one."""
-        return self._spectral.base(self.first, self._bounds.measures.near.within())
+        """The cells of all steps: those of about the right one, spread as takes the fewest bytes."""
+        found = self._spread(SPREADS[0])
+        for spread in SPREADS[1:] if self.first > SPARSE * self._bounds.measures.shaper.mean_edge else ():
+            other = self._spread(spread)
+            if self._bytes(other) > self._bytes(found):
+                break
+            found = other
+        return found
+
+    def _spread(self, spread: Spread) -> RefinementBase:
+        cells = InCells(self._prepared, self._options, BROADEST, spread)
+        return cells.base(self.first, self._bounds.measures.near.within())
+
+    def _bytes(self, base: RefinementBase) -> int:
+        """About the bytes of cells, and of levels at the first step."""
+        levels, _ = base.wanted(base.expected_steps(Layer(single(self.first), self.ratio)))
+        return base.coded + sum(len(packet.data) for packet in encode_layer(self._prepared.mesh.faces, levels))
 
     def _shaped(self, base: RefinementBase, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""

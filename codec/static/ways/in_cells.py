@@ -20,18 +20,24 @@ from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
 
 BLOCK, OVERLAP = 450, 1.0
 """CellMesh of a block: fewer take more bytes, more take decoders longer; and how far blocks are grown."""
-COARSER, RATIO = 8.0, 3.0
-"""The step of levels of cells, over that of vertices, about; and along tangents, over that along normals."""
+RATIO = 3.0  # of the steps of cells along tangents, over those along normals
 FARTHEST = 2.0**18  # steps that levels may be away, and bends of surfaces some more
-ROUGHER = 96.0  # the step of coefficients, over that of levels of vertices
 
 
 @dataclass(frozen=True)
 class Spread:
-    """How far vertices are from centers of cells, in edges, and rounds of smoothing from cells to vertices."""
+    """How far vertices are from centers of cells, in edges, and rounds of smoothing from cells to vertices.
+
+    The step of levels of cells is about so many times as wide as that of vertices, and so is that of coefficients."""
 
     reach: int = 2
     rounds: int = 8
+    levels: float = 8.0
+    coefficients: float = 96.0
+
+
+SPREADS = Spread(), Spread(3, 14, 4.0, 48.0), Spread(3, 14, 2.5, 24.0)
+"""From fine levels of vertices to coarse ones, most of which are 0."""
 
 
 class _Places(TriangleMesh):
@@ -71,8 +77,8 @@ class InCells:
     def base(self, step: float, progress: Progress | None = None) -> RefinementBase:
         """The cells for levels of vertices at about a step, and their places prolonged."""
         prepared, coarse = self._prepared, self._coarse
-        halvings = min(max(round(-math.log2(COARSER * step)), 1), 40)
-        rough = max(ROUGHER * step, 1.01 * smallest_step(coarse.size))
+        halvings = min(max(round(-math.log2(self._spread.levels * step)), 1), 40)
+        rough = max(self._spread.coefficients * step, 1.01 * smallest_step(coarse.size))
         blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5), progress)
         farthest = float(np.abs(blocks.offsets).max(initial=0.0))
         while farthest > FARTHEST * 0.5**halvings:
@@ -82,7 +88,8 @@ class InCells:
         base = coarse.graph.size, self._spread.reach, self._spread.rounds, halvings
         header = replace(blocks.draft.header, vertices=prepared.graph.size, faces=len(prepared.mesh.faces), base=base)
         draft = Draft(header, (*blocks.draft.body, *levels), prepared.units.back(positions))
-        return RefinementBase(prepared, draft, positions, blocks.coded, blocks.work)
+        coded = blocks.coded + sum(len(packet.data) for packet in levels)
+        return RefinementBase(prepared, draft, positions, coded, blocks.work)
 
     @staticmethod
     def _leveled(blocks: RefinementBase, layer: Layer) -> tuple[Matrix, list[Refinement]]:
