@@ -31,8 +31,12 @@ inline bool lists(ConstLongs starts, int64_t rows, int64_t members, int64_t leas
         if (starts.data[row + 1] - starts.data[row] < least || starts.data[row + 1] > members) return false;
     return true;
 }
-inline bool graph(ConstLongs starts, ConstInts members, int64_t rows, int64_t limit, int64_t least = 0) {
-    return lists(starts, rows, members.size, least) && below(members, limit);
+inline bool graph(Lists given, int64_t rows, int64_t limit, int64_t least = 0) {
+    return lists(given.starts, rows, given.members.size, least) && below(given.members, limit);
+}
+inline bool geometry(FaceGeometry faces) {
+    int64_t m = faces.normals.rows;
+    return triples(m, faces.centroids) && faces.areas.size == m && triples(m, faces.normals);
 }
 
 inline bool collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second) {
@@ -46,9 +50,9 @@ inline bool normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstIn
     return triples(original.rows, original) && triples(original.rows, decoded) && faces.columns == 3
         && around.rows == original.rows && around.columns == 7 && below(faces, original.rows);
 }
-inline bool geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result) {
+inline bool geometric_laplacian(ConstDoubles2 positions, Lists neighbors, Doubles2 result) {
     int64_t n = positions.rows;
-    return triples(n, positions) && triples(n, result) && graph(starts, members, n, n);
+    return triples(n, positions) && triples(n, result) && graph(neighbors, n, n);
 }
 inline bool face_geometry(
     ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals, Bytes whole) {
@@ -68,14 +72,13 @@ inline bool build_tree(ConstDoubles2 lowest, ConstDoubles2 highest, Longs order,
         && first.size == nodes && count.size == nodes;
 }
 // A node without triangles has its other child after it, so that a walk ends; how deep it goes the kernel bounds.
-inline bool nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
-    ConstLongs first, ConstLongs count, ConstLongs order, Doubles, Longs) {
-    int64_t m = triangles.rows, nodes = 2 * m + 1, seen = 1;
-    if (points.columns != 3 || triangles.columns != 9 || m < 1 || order.size != m || !triples(nodes, low)
-        || !triples(nodes, high) || first.size != nodes || count.size != nodes)
+inline bool nearest_distances(ConstDoubles2 points, Tree tree, Doubles, Longs) {
+    int64_t m = tree.triangles.rows, nodes = 2 * m + 1, seen = 1;
+    if (points.columns != 3 || tree.triangles.columns != 9 || m < 1 || tree.order.size != m || !triples(nodes, tree.low)
+        || !triples(nodes, tree.high) || tree.first.size != nodes || tree.count.size != nodes)
         return false;
     for (int64_t node = 0; node < seen; node++) {
-        int64_t begin = first.data[node], held = count.data[node];
+        int64_t begin = tree.first.data[node], held = tree.count.data[node];
         if (held < 0 || begin < 0 || (held > 0 ? begin > m - held : begin <= node || begin >= nodes)) return false;
         if (held == 0) seen = largest(seen, largest(begin, node + 1) + 1);
         if (seen > nodes) return false;
@@ -87,53 +90,50 @@ inline bool add_copies(
     return triples(total.size, sums) && triples(vertices.size, positions) && weights.size == vertices.size
         && below(vertices, total.size);
 }
-inline bool face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts around, int64_t crowd, Ints seen,
-    Longs starts, Ints members) {
-    int64_t n = around_starts.size - 1, m = faces.rows, room = m;
-    if (faces.columns != 3 || !graph(around_starts, around, n, m) || !below(faces, n) || crowd < 0 || seen.size != m
+inline bool face_patches(ConstInts2 faces, Lists around, int64_t crowd, Ints seen, Longs starts, Ints members) {
+    int64_t n = around.starts.size - 1, m = faces.rows, room = m;
+    if (faces.columns != 3 || !graph(around, n, m) || !below(faces, n) || crowd < 0 || seen.size != m
         || starts.size != m + 1)
         return false;
     for (int64_t k = 0; k < 3 * m; k++) {
-        int64_t size = around_starts.data[faces.data[k] + 1] - around_starts.data[faces.data[k]];
+        int64_t size = around.starts.data[faces.data[k] + 1] - around.starts.data[faces.data[k]];
         room += size > crowd ? 0 : size;
     }
     return members.size >= room;
 }
-inline bool reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double, int64_t most, int64_t begin,
-    Ints seen, Longs reached_starts, Ints) {
+inline bool reach(ConstDoubles2 points, Lists adjacent, double, int64_t most, int64_t begin, Ints seen,
+    Longs reached_starts, Ints) {
     int64_t n = points.rows;
-    return triples(n, points) && graph(starts, members, n, n) && most > 0 && begin >= 0 && begin <= n && seen.size == n
+    return triples(n, points) && graph(adjacent, n, n) && most > 0 && begin >= 0 && begin <= n && seen.size == n
         && reached_starts.size == n + 1 && reached_starts.data[begin] >= 0;
 }
 inline bool pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances) {
     return triples(values.rows, values) && pairs.columns == 2 && distances.size == pairs.rows
         && below(pairs, values.rows);
 }
-inline bool follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around,
-    ConstDoubles2 normals, int64_t, ConstBytes free, Doubles2 planes, Doubles2 sums) {
+inline bool follow_normals(Doubles2 positions, ConstInts2 faces, Lists around, ConstDoubles2 normals, int64_t,
+    ConstBytes free, Doubles2 planes, Doubles2 sums) {
     int64_t n = positions.rows, m = faces.rows;
-    return triples(n, positions) && faces.columns == 3 && below(faces, n) && graph(starts, around, n, m)
+    return triples(n, positions) && faces.columns == 3 && below(faces, n) && graph(around, n, m)
         && triples(m, normals) && free.size == n && planes.rows == m && planes.columns == 4 && sums.rows == n
         && sums.columns == 16;
 }
-inline bool filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
-    ConstLongs starts, ConstInts near, double, double, Doubles2 packed, Doubles2 filtered) {
-    int64_t m = normals.rows;
-    return triples(m, centroids) && areas.size == m && triples(m, normals) && triples(m, guide)
-        && graph(starts, near, m, m) && packed.rows == m && packed.columns == 8 && triples(m, filtered);
+inline bool filter_normals(FaceGeometry faces, ConstDoubles2 guide, Lists near, double, double, Doubles2 packed,
+    Doubles2 filtered) {
+    int64_t m = faces.normals.rows;
+    return geometry(faces) && triples(m, guide) && graph(near, m, m) && packed.rows == m && packed.columns == 8 && triples(m, filtered);
 }
-inline bool patch_guidance(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members,
-    ConstDoubles steps, ConstLongs inner_starts, ConstInts inner, Doubles scores, Doubles2 means, Doubles2 guide) {
+inline bool patch_guidance(ConstDoubles2 normals, ConstDoubles areas, Lists patches, ConstDoubles steps, Lists inner,
+    Doubles scores, Doubles2 means, Doubles2 guide) {
     int64_t m = normals.rows;
-    return triples(m, normals) && areas.size == m && graph(starts, members, m, m, 1)
-        && graph(inner_starts, inner, m, steps.size) && scores.size == m && triples(m, means) && triples(m, guide);
+    return triples(m, normals) && areas.size == m && graph(patches, m, m, 1)
+        && graph(inner, m, steps.size) && scores.size == m && triples(m, means) && triples(m, guide);
 }
-inline bool describe_faces(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
-    ConstDoubles2 smooth, ConstDoubles2 axes, ConstLongs starts, ConstInts near, double, int64_t begin,
-    Doubles2 described, Doubles2 frames) {
-    int64_t m = normals.rows;
-    return triples(m, centroids) && areas.size == m && triples(m, normals) && triples(m, guide) && triples(m, smooth)
-        && triples(m, axes) && graph(starts, near, m, m) && begin >= 0 && begin <= m - described.rows
+inline bool describe_faces(FaceGeometry faces, Filtered filtered, Lists near, double, int64_t begin, Doubles2 described,
+    Doubles2 frames) {
+    int64_t m = faces.normals.rows;
+    return geometry(faces) && triples(m, filtered.guide) && triples(m, filtered.smooth) && triples(m, filtered.axes)
+        && graph(near, m, m) && begin >= 0 && begin <= m - described.rows
         && described.columns >= DESCRIBED && frames.rows == described.rows && frames.columns == 9;
 }
 inline bool cosines(Doubles table, Doubles2 columns) { return table.size >= columns.rows + 8; }
@@ -192,7 +192,7 @@ inline bool collect_flaps(ConstInts2 faces, ConstInts starts, ConstInts members,
 inline bool count_folds(ConstDoubles2 positions, ConstInts2 flaps) { return below(flaps, positions.rows); }
 inline bool wanted(const Wanted &given) {
     int64_t n = given.positions.rows;
-    return below(given.faces, n) && graph(given.around_starts, given.around, n, given.faces.rows)
+    return below(given.faces, n) && graph(Lists{given.around_starts, given.around}, n, given.faces.rows)
         && fits_rows(given.beside_starts, given.beside, n, n);
 }
 inline bool shape_levels(Wanted given, Aim, Doubles2, Ints2, ConstDoubles2, ConstDoubles, double, Bytes) {

@@ -14,6 +14,12 @@ extern "C" {
 }
 
 BSM_STRUCT(Wanted, ConstDoubles2, ConstInts2, ConstLongs, ConstInts, ConstInts, ConstInts, ConstDoubles2, ConstDoubles)
+BSM_STRUCT(Lists, ConstLongs, ConstInts)
+BSM_STRUCT(FaceGeometry, ConstDoubles2, ConstDoubles, ConstDoubles2)
+BSM_STRUCT(Filtered, ConstDoubles2, ConstDoubles2, ConstDoubles2)
+BSM_STRUCT(Shading, double, double, int64_t)
+BSM_STRUCT(Bends, double, double, double)
+BSM_STRUCT(Tree, ConstDoubles2, ConstDoubles2, ConstDoubles2, ConstLongs, ConstLongs, ConstLongs)
 BSM_STRUCT(Aim, double, double, int64_t)
 BSM_STRUCT(Creases, ConstInts2, ConstInts2, ConstBytes, ConstDoubles, ConstInts, ConstInts, double)
 

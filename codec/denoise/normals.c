@@ -8,13 +8,15 @@ typedef struct {
 } Packed;
 
 /* Joint bilateral filter of face normals; `packed` is scratch, a row of 8 for each face. */
-KERNEL void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
-                           ConstLongs starts, ConstInts near, double sigma_s, double sigma_r, Doubles2 packed,
-                           Doubles2 filtered) {
+KERNEL void filter_normals(FaceGeometry faces, ConstDoubles2 guide, Lists near, double sigma_s, double sigma_r,
+    Doubles2 packed, Doubles2 filtered) {
+    ConstDoubles2 centroids = faces.centroids, normals = faces.normals;
+    const int64_t *starts = near.starts.data;
     double spatial = __builtin_sqrt(0.5) / sigma_s, range = __builtin_sqrt(0.5) / sigma_r;
     Packed *rows = (Packed *)packed.data;
     for (int64_t f = 0; f < normals.rows; f++) {
-        const double *c = centroids.data + 3 * f, *g = guide.data + 3 * f, *n = normals.data + 3 * f, a = areas.data[f];
+        const double *c = centroids.data + 3 * f, *g = guide.data + 3 * f, *n = normals.data + 3 * f;
+        double a = faces.areas.data[f];
         for (int i = 0; i < 3; i++) {
             double place = (c[i] - centroids.data[i]) * spatial;
             rows[f].place[i] = (float)(place < -1e15 ? -1e15 : place < 1e15 ? place : 1e15);
@@ -25,9 +27,9 @@ KERNEL void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDou
     for (int64_t f = 0; f < normals.rows; f++) {
         Lanes place = rows[f].place;
         Four sum = {0.0};
-        for (int64_t first = starts.data[f]; first < starts.data[f + 1]; first += CHUNK) {
-            const int32_t *row = near.data + first;
-            int64_t count = least(CHUNK, starts.data[f + 1] - first);
+        for (int64_t first = starts[f]; first < starts[f + 1]; first += CHUNK) {
+            const int32_t *row = near.members.data + first;
+            int64_t count = least(CHUNK, starts[f + 1] - first);
             float weights[CHUNK] = {0.0f};
             for (int64_t k = 0; k < count; k++) {
                 Lanes apart = rows[row[k]].place - place, s = apart * apart;
@@ -44,9 +46,10 @@ KERNEL void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDou
 
 /* `steps`: distance between the normals of each pair of neighboring faces. A low score is a consistent patch; `guide`
  * gets the mean of the most consistent one that holds the face. */
-KERNEL void patch_guidance(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members,
-                           ConstDoubles steps, ConstLongs inner_starts, ConstInts inner, Doubles scores,
-                           Doubles2 means, Doubles2 guide) {
+KERNEL void patch_guidance(ConstDoubles2 normals, ConstDoubles areas, Lists patches, ConstDoubles steps, Lists inner,
+    Doubles scores, Doubles2 means, Doubles2 guide) {
+    ConstLongs starts = patches.starts;
+    ConstInts members = patches.members;
     for (int64_t f = 0; f < normals.rows; f++) {
         int64_t first = starts.data[f], last = starts.data[f + 1];
         double widest = 0.0, total = 0.0, highest = 0.0;
@@ -67,8 +70,8 @@ KERNEL void patch_guidance(ConstDoubles2 normals, ConstDoubles areas, ConstLongs
             }
             for (int lane = 0; lane < EIGHT; lane++) widest = squares[lane] > widest ? squares[lane] : widest;
         }
-        for (int64_t k = inner_starts.data[f]; k < inner_starts.data[f + 1]; k++) {
-            double step = steps.data[inner.data[k]];
+        for (int64_t k = inner.starts.data[f]; k < inner.starts.data[f + 1]; k++) {
+            double step = steps.data[inner.members.data[k]];
             total += step;
             highest = step > highest ? step : highest;
         }

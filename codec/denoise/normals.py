@@ -16,7 +16,7 @@ from bsm.codec.geometry.metrics import FaceGeometry, face_geometry
 def filter_normals(geometry: FaceGeometry, guide: Floats, near: Lists, sigma_s: float, sigma_r: float) -> Floats:
     """Average each face's normal with its neighbors', by area, distance and likeness of guides (paper, 9 to 11)."""
     filtered, packed = np.empty_like(geometry.normals), np.empty((len(geometry.normals), 8))
-    _kernels.filter_normals(*geometry, guide, near.starts, near.members, sigma_s, sigma_r, packed, filtered)
+    _kernels.filter_normals(geometry, guide, near, sigma_s, sigma_r, packed, filtered)
     return filtered
 
 
@@ -25,7 +25,7 @@ def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:
     _, areas, normals = geometry
     steps = pair_distances(normals, topology.pairs)
     scores, means, guide = np.empty_like(areas), np.empty_like(normals), np.empty_like(normals)
-    _kernels.patch_guidance(normals, areas, *topology.patches, steps, *topology.inner, scores, means, guide)
+    _kernels.patch_guidance(normals, areas, topology.patches, steps, topology.inner, scores, means, guide)
     return guide
 
 

@@ -49,7 +49,7 @@ class Topology:
         sizes = np.minimum(np.diff(self.around.starts), CROWD)
         members = np.empty(len(self.faces) + int(sizes[self.faces].sum()), np.int32)
         starts, seen = np.empty(len(self.faces) + 1, np.int64), np.empty(len(self.faces), np.int32)
-        count = _kernels.face_patches(self.faces, self.around.starts, self.around.members, CROWD, seen, starts, members)
+        count = _kernels.face_patches(self.faces, self.around, CROWD, seen, starts, members)
         return Lists(starts, members[:count].copy())
 
     @cached_property
@@ -92,7 +92,7 @@ def surroundings(positions: Positions, topology: Topology, radius: float) -> Lis
     radius, count = radius * mean_centroid_distance(points, topology.pairs), len(points)
     starts, seen, reached = np.zeros(count + 1, np.int64), np.full(count, -1, np.int32), np.empty(33 * count, np.int32)
     done = 0
-    while (done := _kernels.reach(points, *topology.patches, radius, most, done, seen, starts, reached)) < count:
+    while (done := _kernels.reach(points, topology.patches, radius, most, done, seen, starts, reached)) < count:
         # A row has at most as many members as there are faces; with room for one, the kernel goes on.
         reached = np.concatenate([reached, np.empty(len(reached) + count, np.int32)])
     return Lists(starts, reached[: starts[count]].copy())
@@ -130,5 +130,5 @@ def follow_normals(
     moved = np.array(positions, dtype=np.float64)
     planes, sums = np.empty((len(topology.faces), 4)), np.empty((topology.n, 16))
     movable = np.ones(len(positions), np.uint8) if free is None else free.astype(np.uint8)
-    _kernels.follow_normals(moved, topology.faces, *topology.around, normals, iterations, movable, planes, sums)
+    _kernels.follow_normals(moved, topology.faces, topology.around, normals, iterations, movable, planes, sums)
     return moved

@@ -3,6 +3,25 @@
 
 #include "bitstream/kernel.h"
 
+/* Compressed rows: those of i are `members` from `starts` i to i + 1. */
+typedef struct {
+    ConstLongs starts;
+    ConstInts members;
+} Lists;
+
+/* Of each face. */
+typedef struct {
+    ConstDoubles2 centroids;
+    ConstDoubles areas;
+    ConstDoubles2 normals;
+} FaceGeometry;
+
+/* Triangles, nine numbers a row, in the `order` of a tree of boxes: see build_tree. */
+typedef struct {
+    ConstDoubles2 triangles, low, high;
+    ConstLongs first, count, order;
+} Tree;
+
 /* Whether there are as many neighbors as the offsets of a graph say. */
 INLINE bool fits_graph(ConstInts offsets, ConstInts neighbors) {
     return offsets.size > 0 && offsets.data[offsets.size - 1] >= 0 && neighbors.size >= offsets.data[offsets.size - 1];
@@ -34,13 +53,12 @@ void vertex_faces(ConstInts2 faces, Longs starts, Ints members);
 double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around);
 void face_geometry(
     ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals, Bytes whole);
-void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result);
+void geometric_laplacian(ConstDoubles2 positions, Lists neighbors, Doubles2 result);
 double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces,
                       double lost);
 int64_t build_tree(ConstDoubles2 lowest, ConstDoubles2 highest, Longs order, Doubles2 low,
                    Doubles2 high, Longs first, Longs count);
-double nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
-                         ConstLongs first, ConstLongs count, ConstLongs order, Doubles distances, Longs which);
+double nearest_distances(ConstDoubles2 points, Tree tree, Doubles distances, Longs which);
 
 /* Sort values that nearly always come nearly sorted: by insertion, and by a heap once that has moved too many of them,
  * so that none, however many and in whatever order, take more than n log n steps. */

@@ -29,12 +29,12 @@ double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 f
 }
 
 /* Each vertex minus the mean of its neighbors, weighted by inverse distance; zero beside a neighbor at distance 0. */
-void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result) {
+void geometric_laplacian(ConstDoubles2 positions, Lists neighbors, Doubles2 result) {
     for (int64_t i = 0; i < positions.rows; i++) {
         const double *own = positions.data + 3 * i;
         double sum[3] = {0.0, 0.0, 0.0}, total = 0.0;
-        for (int64_t k = starts.data[i]; k < starts.data[i + 1]; k++) {
-            const double *other = positions.data + 3 * (int64_t)members.data[k];
+        for (int64_t k = neighbors.starts.data[i]; k < neighbors.starts.data[i + 1]; k++) {
+            const double *other = positions.data + 3 * (int64_t)neighbors.members.data[k];
             double x = other[0] - own[0], y = other[1] - own[1], z = other[2] - own[2];
             double distance = __builtin_sqrt(x * x + y * y + z * z);
             if (distance == 0.0) {
@@ -203,25 +203,25 @@ INLINE double to_box(const double *p, const double *low, const double *high) {
 
 /* Squared distance from a point to the nearest triangle, or any that is at most `enough`; `found` is where the triangle
  * stands that the search begins with, and then the one that was found. */
-static double nearest(const double *p, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high, ConstLongs first,
-                      ConstLongs count, double enough, int64_t *found) {
+static double nearest(const double *p, const Tree *tree, double enough, int64_t *found) {
     int64_t stack[DEPTH];
-    double best = to_triangle(p, triangles.data + 9 * *found);
+    const double *low = tree->low.data, *high = tree->high.data;
+    double best = to_triangle(p, tree->triangles.data + 9 * *found);
     stack[0] = 0;
     /* A tree that halves is never so deep; what lies deeper in another one is left out. */
     for (int depth = 1; depth > 0 && depth < DEPTH - 1 && best > enough;) {
         int64_t node = stack[--depth];
-        if (to_box(p, low.data + 3 * node, high.data + 3 * node) >= best) continue;
-        if (count.data[node] > 0) {
-            for (int64_t k = first.data[node]; k < first.data[node] + count.data[node]; k++) {
-                double squared = to_triangle(p, triangles.data + 9 * k);
+        int64_t first = tree->first.data[node], count = tree->count.data[node];
+        if (to_box(p, low + 3 * node, high + 3 * node) >= best) continue;
+        if (count > 0) {
+            for (int64_t k = first; k < first + count; k++) {
+                double squared = to_triangle(p, tree->triangles.data + 9 * k);
                 if (squared < best) best = squared, *found = k;
             }
             continue;
         }
-        int64_t one = node + 1, two = first.data[node];
-        bool nearer = to_box(p, low.data + 3 * one, high.data + 3 * one)
-                   <= to_box(p, low.data + 3 * two, high.data + 3 * two);
+        int64_t one = node + 1, two = first;
+        bool nearer = to_box(p, low + 3 * one, high + 3 * one) <= to_box(p, low + 3 * two, high + 3 * two);
         stack[depth++] = nearer ? two : one;
         stack[depth++] = nearer ? one : two;
     }
@@ -229,18 +229,16 @@ static double nearest(const double *p, ConstDoubles2 triangles, ConstDoubles2 lo
 }
 
 /* The largest distance of a point to the nearest triangle, and all of them if `distances` has room: exact where above
- * the number that it held; else smaller ones need not be exact. `triangles` has nine numbers a row, in the `order` of
- * the tree; `which`, if it has room, which ones are nearest. */
-double nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
-                         ConstLongs first, ConstLongs count, ConstLongs order, Doubles distances, Longs which) {
+ * the number that it held; else smaller ones need not be exact; `which`, if it has room, which triangles are nearest. */
+double nearest_distances(ConstDoubles2 points, Tree tree, Doubles distances, Longs which) {
     int64_t found = 0;
     double most = 0.0;
     for (int64_t i = 0; i < points.rows; i++) {
         double enough = i < distances.size ? distances.data[i] * distances.data[i] : most;
-        double squared = nearest(points.data + 3 * i, triangles, low, high, first, count, enough, &found);
+        double squared = nearest(points.data + 3 * i, &tree, enough, &found);
         most = squared > most ? squared : most;
         if (i < distances.size) distances.data[i] = __builtin_sqrt(squared);
-        if (i < which.size) which.data[i] = order.data[found];
+        if (i < which.size) which.data[i] = tree.order.data[found];
     }
     return __builtin_sqrt(most);
 }

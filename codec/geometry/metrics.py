@@ -214,7 +214,7 @@ def folded_edges(positions: Positions, faces: Faces) -> int:
 def geometric_laplacian(positions: Positions, neighbors: Lists) -> Floats:
     """Each vertex minus the mean of its neighbors, weighted by inverse distance; shape (n, 3)."""
     given, laplacian = np.ascontiguousarray(positions, np.float64), np.empty((len(positions), 3))
-    _kernels.geometric_laplacian(given, neighbors.starts, neighbors.members, laplacian)
+    _kernels.geometric_laplacian(given, neighbors, laplacian)
     return laplacian
 
 
@@ -292,7 +292,7 @@ def _nearest(points: Floats, positions: Positions, faces: Faces, distances: Floa
     low, high = np.empty((2 * m + 1, 3)), np.empty((2 * m + 1, 3))
     _kernels.build_tree(corners.min(axis=1), corners.max(axis=1), order, low, high, first, count)
     tree, which = (corners[order].reshape(m, 9), low, high, first, count, order), np.empty(len(points), np.int64)
-    return _kernels.nearest_distances(np.ascontiguousarray(points), *tree, distances, which), which
+    return _kernels.nearest_distances(np.ascontiguousarray(points), tree, distances, which), which
 
 
 def _one_sided(

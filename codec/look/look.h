@@ -1,7 +1,14 @@
 /* Pictures of surfaces, and how much two of them differ to the eye. */
 #pragma once
 
-#include "bitstream/kernel.h"
+#include "codec/geometry/geometry.h"
+
+/* How viewers shade: faces whose bend has a larger cosine are smooth; `half` is that of a little less than half that
+ * angle; a vertex with more than `most` faces smooths nothing. */
+typedef struct {
+    double cosine, half;
+    int64_t most;
+} Shading;
 
 /* Whether all numbers are from 0 to below `limit`; without a branch, so that many are looked at at once. */
 INLINE bool all_below(const int32_t *numbers, int64_t count, int64_t limit) {
@@ -13,8 +20,8 @@ INLINE bool all_below(const int32_t *numbers, int64_t count, int64_t limit) {
 int64_t averaged(ConstSingles2 samples, Singles2 small);
 int64_t contrast(ConstSingles2 first, ConstSingles2 second, ConstSingles half, double steady, Singles2 scratch,
     Doubles sums);
-int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 joined, ConstLongs starts,
-    ConstInts around, double cosine, double half, int64_t most, Doubles2 crosses, Singles2 normals);
+int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 joined, Lists around, Shading shading,
+    Doubles2 crosses, Singles2 normals);
 int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
     Doubles2 placed, Ints away, Singles2 depth, Singles2 farthest, Singles2 picture, Ints2 owner, Ints drawn);
 int64_t paint_colors(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,

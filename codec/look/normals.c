@@ -35,21 +35,21 @@ INLINE void unit_of(const double *sum, float *unit) {
     for (int d = 0; d < 3; d++) unit[d] = length > 0.0 ? (float)(sum[d] / length) : 0.0f;
 }
 
-/* `joined` has the vertices of faces with those at one place as one, `starts` and `around` the faces of each. `normals`
+/* `joined` has the vertices of faces with those at one place as one, `around` the faces of each. `normals`
  * has nine numbers a face, three of each corner: the sum of the cross products of those around the corner's vertex
- * whose angle to the face has a cosine above `cosine`, and of the face itself; of length 1, or zero. A vertex with more
- * than `most` faces smooths nothing. `half` is a cosine of a little less than half that angle: where all faces are so
- * near to their sum, that is the normal of each. `crosses` is room for four numbers a face. */
-int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 joined, ConstLongs starts, ConstInts around,
-                      double cosine, double half, int64_t most, Doubles2 crosses, Singles2 normals) {
-    int64_t n = starts.size - 1;
+ * whose angle to the face has a larger cosine than that of the shading, and of the face itself; of length 1, or zero.
+ * Where all faces are within half that angle of their sum, that is the normal of each. `crosses` is room for four
+ * numbers a face. */
+int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 joined, Lists around, Shading shading,
+    Doubles2 crosses, Singles2 normals) {
+    const int64_t *starts = around.starts.data, most = shading.most;
+    int64_t n = around.starts.size - 1;
     if (positions.columns != 3 || faces.columns != 3 || crosses.columns != 4 || normals.columns != 9 || n < 0 ||
         joined.columns != 3 || joined.rows != faces.rows || crosses.rows < faces.rows || normals.rows < faces.rows)
         return MISUSED;
     for (int64_t v = 0; v < n; v++)
-        if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > around.size)
-            return MISUSED;
-    if (!all_below(around.data, around.size, faces.rows) || !all_below(joined.data, 3 * faces.rows, n) ||
+        if (starts[v] < 0 || starts[v] > starts[v + 1] || starts[v + 1] > around.members.size) return MISUSED;
+    if (!all_below(around.members.data, around.members.size, faces.rows) || !all_below(joined.data, 3 * faces.rows, n) ||
         !all_below(faces.data, 3 * faces.rows, positions.rows))
         return MISUSED;
     for (int64_t f = 0; f < faces.rows; f++) {
@@ -58,16 +58,16 @@ int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 join
         own[3] = __builtin_sqrt(dot3(own, own));
     }
     for (int64_t v = 0; v < n; v++) {
-        int64_t from = starts.data[v], to = starts.data[v + 1];
-        const int32_t *members = around.data + from;
+        int64_t from = starts[v], to = starts[v + 1];
+        const int32_t *members = around.members.data + from;
         double sum[3] = {0.0, 0.0, 0.0};
-        bool smooth = to - from <= most && smoothly(crosses.data, members, to - from, half, sum);
+        bool smooth = to - from <= most && smoothly(crosses.data, members, to - from, shading.half, sum);
         float normal[3] = {0.0f, 0.0f, 0.0f};
         if (smooth) unit_of(sum, normal);
         for (int64_t i = 0; i < to - from; i++) {
             const int32_t *corners = joined.data + 3 * (int64_t)members[i];
             if (!smooth) {
-                sum_around(crosses.data, members, to - from <= most ? to - from : 0, members[i], cosine, sum);
+                sum_around(crosses.data, members, to - from <= most ? to - from : 0, members[i], shading.cosine, sum);
                 unit_of(sum, normal);
             }
             float *at = normals.data + 9 * (int64_t)members[i];

@@ -67,8 +67,8 @@ class Shape:
         """Normals of corners as viewers make them, shape (m, 9), for `positions`, shape (n, 3)."""
         count = len(self.faces)
         normals = np.zeros((count, 9), np.float32)
-        given = positions, self.faces, self.joined, self.around.starts, self.around.members
-        _kernels.shown_normals(*given, CREASE, _HALF_CREASE, MOST_AROUND, np.empty((count, 4)), normals)
+        shading = CREASE, _HALF_CREASE, MOST_AROUND
+        _kernels.shown_normals(positions, self.faces, self.joined, self.around, shading, np.empty((count, 4)), normals)
         return normals
 
 

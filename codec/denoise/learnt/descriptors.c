@@ -83,15 +83,17 @@ INLINE Lanes along(const Lanes *v, Vector3 axis) {
 }
 
 /* Rows of `described` are of the faces `begin` and after, those of `frames` hold x, y and z. */
-KERNEL void describe_faces(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
-                           ConstDoubles2 smooth, ConstDoubles2 axes, ConstLongs starts, ConstInts near,
-                           double distance, int64_t begin, Doubles2 described, Doubles2 frames) {
+KERNEL void describe_faces(FaceGeometry faces, Filtered filtered, Lists near, double distance, int64_t begin,
+    Doubles2 described, Doubles2 frames) {
+    ConstDoubles2 centroids = faces.centroids, normals = faces.normals, guide = filtered.guide;
+    ConstDoubles areas = faces.areas;
+    const int64_t *starts = near.starts.data;
     double usual = distance * distance;
     for (int64_t i = 0; i < described.rows; i++) {
-        int64_t f = begin + i, first = starts.data[f], count = starts.data[f + 1] - first;
-        const int32_t *row = near.data + first;
+        int64_t f = begin + i, first = starts[f], count = starts[f + 1] - first;
+        const int32_t *row = near.members.data + first;
         Vector3 own = row_of(normals.data, f), likeness = row_of(guide.data, f);
-        Axes frame = frame_of(row_of(axes.data, f), smooth.data, areas.data, row, count);
+        Axes frame = frame_of(row_of(filtered.axes.data, f), filtered.smooth.data, areas.data, row, count);
         Lanes sums[SCALES][2 * RANGES + 1][3] = {{{{0.0f}}}}, totals[SCALES][2 * RANGES + 1] = {{{0.0f}}};
         Lanes circles[RINGS * SECTORS] = {{0.0f}}; /* area covered, normal, height */
         for (int64_t done = 0; done < count; done += EIGHT) {

@@ -44,9 +44,7 @@ def descriptions(
     for begin in range(0, len(geometry.areas), BATCH):
         count = min(BATCH, len(geometry.areas) - begin)
         described, frames = np.empty((count, OWN)), np.empty((count, 9))
-        _kernels.describe_faces(
-            *geometry, guide, smooth, axes, near.starts, near.members, distance, begin, described, frames
-        )
+        _kernels.describe_faces(geometry, (guide, smooth, axes), near, distance, begin, described, frames)
         axis = frames.reshape(count, 3, 3)
         local = [np.einsum("kij,kj->ki", axis, normals[begin : begin + count]) for normals in repeated]
         row = np.concatenate([described, *local, np.full((count, 1), rough)], axis=1).astype(np.float32)

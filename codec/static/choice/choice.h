@@ -1,7 +1,7 @@
 /* What chooses levels, places and transforms: shaping.c, settling.c, creases.c, congruence.c. Encoder only. */
 #pragma once
 
-#include "bitstream/kernel.h"
+#include "codec/geometry/geometry.h"
 
 /* Pairs of faces that share a vertex and are bent by about as much as makes a crease. */
 typedef struct {
@@ -14,8 +14,13 @@ typedef struct {
     double cosine;      /* of the bend from which on there is one */
 } Creases;
 
-int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around, int64_t most,
-    double cosine, double least, double largest, Doubles2 crosses, Ints2 pairs, Bytes sharp, Doubles costs);
+/* Cosines of the bend from which on there is a crease, and of the bends between which one may come or go. */
+typedef struct {
+    double crease, least, largest;
+} Bends;
+
+int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, Lists around, int64_t most, Bends bends,
+    Doubles2 crosses, Ints2 pairs, Bytes sharp, Doubles costs);
 
 bool fits_rows(ConstInts starts, ConstInts members, int64_t rows, int64_t count);
 bool fits_creases(const Creases *creases, int64_t vertices);

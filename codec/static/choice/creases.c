@@ -36,45 +36,45 @@ static bool fits_pairs(ConstInts2 pairs, int64_t faces) {
     return true;
 }
 
-/* How many pairs of faces around a vertex have a bend whose cosine is between `least` and `largest`; `pairs` (k x 2)
- * gets the first k of them, `sharp` whether the cosine is at most `cosine`, and `costs` the area of the corners that
- * are shaded otherwise then: a third of both faces at each vertex that they share. Faces around a vertex are `around`,
- * from its `starts` on; of more than `most` each is shaded by itself. `crosses` is room for four numbers a face. */
-KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around,
-    int64_t most, double cosine, double least, double largest, Doubles2 crosses, Ints2 pairs, Bytes sharp,
-    Doubles costs) {
+/* How many pairs of faces around a vertex have a bend near that of a crease; `pairs` (k x 2) gets the first k of them,
+ * `sharp` whether there is a crease, and `costs` the area of the corners that are shaded otherwise then: a third of
+ * both faces at each vertex that they share. Of more than `most` faces around a vertex each is shaded by itself.
+ * `crosses` is room for four numbers a face. */
+KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, Lists around, int64_t most, Bends bends,
+    Doubles2 crosses, Ints2 pairs, Bytes sharp, Doubles costs) {
+    const int64_t *starts = around.starts.data;
+    const int32_t *members = around.members.data;
     int64_t n = positions.rows, found = 0;
-    if (positions.columns != 3 || !fits_faces(faces, n) || starts.size != n + 1 || crosses.rows != faces.rows ||
+    if (positions.columns != 3 || !fits_faces(faces, n) || around.starts.size != n + 1 || crosses.rows != faces.rows ||
         crosses.columns != 4 || pairs.columns != 2 || sharp.size != pairs.rows || costs.size != pairs.rows)
         return MISUSED;
     for (int64_t v = 0; v < n; v++)
-        if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > around.size)
-            return MISUSED;
-    for (int64_t i = 0; i < around.size; i++)
-        if (around.data[i] < 0 || around.data[i] >= faces.rows) return MISUSED;
+        if (starts[v] < 0 || starts[v] > starts[v + 1] || starts[v + 1] > around.members.size) return MISUSED;
+    for (int64_t i = 0; i < around.members.size; i++)
+        if (members[i] < 0 || members[i] >= faces.rows) return MISUSED;
     for (int64_t f = 0; f < faces.rows; f++) {
         double *cross = crosses.data + 4 * f;
         cross_of_face(positions.data, faces.data + SIDES * f, cross);
         cross[3] = __builtin_sqrt(dot3(cross, cross));
     }
     for (int64_t v = 0; v < n; v++) {
-        int64_t from = starts.data[v], to = starts.data[v + 1];
+        int64_t from = starts[v], to = starts[v + 1];
         for (int64_t i = from; to - from <= most && i < to; i++)
             for (int64_t j = from; j < i; j++) {
-                const double *f = crosses.data + 4 * (int64_t)around.data[i],
-                             *g = crosses.data + 4 * (int64_t)around.data[j];
+                const double *f = crosses.data + 4 * (int64_t)members[i],
+                             *g = crosses.data + 4 * (int64_t)members[j];
                 double bend = dot3(f, g), unit = f[3] * g[3];
-                if (!(bend > least * unit && bend < largest * unit)) continue;
-                const int32_t *face = faces.data + SIDES * (int64_t)around.data[i];
-                const int32_t *other = faces.data + SIDES * (int64_t)around.data[j];
+                if (!(bend > bends.least * unit && bend < bends.largest * unit)) continue;
+                const int32_t *face = faces.data + SIDES * (int64_t)members[i];
+                const int32_t *other = faces.data + SIDES * (int64_t)members[j];
                 int shared = 0;
                 bool first = true; /* of the vertices that they share */
                 for (int k = 0; k < SIDES; k++)
                     if (has(other, face[k])) shared++, first &= face[k] >= v;
                 if (!first) continue;
                 if (found < pairs.rows) {
-                    pairs.data[2 * found] = around.data[i], pairs.data[2 * found + 1] = around.data[j];
-                    sharp.data[found] = !(bend > cosine * unit);
+                    pairs.data[2 * found] = members[i], pairs.data[2 * found + 1] = members[j];
+                    sharp.data[found] = !(bend > bends.crease * unit);
                     costs.data[found] = shared * (f[3] + g[3]) / SIDES;
                 }
                 found++;

@@ -99,9 +99,7 @@ def creases_of(positions: Positions, faces: Faces) -> Creases:
 
     def collect(room: int) -> tuple[int, Indices, npt.NDArray[np.uint8], Matrix]:
         pairs, sharp, costs = np.empty((room, 2), np.int32), np.empty(room, np.uint8), np.empty(room)
-        found = _kernels.collect_creases(
-            positions, faces, around.starts, around.members, MOST_AROUND, *bends, crosses, pairs, sharp, costs
-        )
+        found = _kernels.collect_creases(positions, faces, around, MOST_AROUND, bends, crosses, pairs, sharp, costs)
         return found, pairs, sharp, costs
 
     _, pairs, sharp, costs = collect(collect(0)[0])
