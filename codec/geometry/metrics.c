@@ -229,7 +229,7 @@ static double nearest(const double *p, const Tree *tree, double enough, int64_t 
 }
 
 /* The largest distance of a point to the nearest triangle, and all of them if `distances` has room: exact where above
- * the number that it held; else smaller ones need not be exact; `which`, if it has room, which triangles are nearest. */
+ * the number that it held; else smaller ones need not be exact; `which`, if it has room, gets the nearest triangles. */
 double nearest_distances(ConstDoubles2 points, Tree tree, Doubles distances, Longs which) {
     int64_t found = 0;
     double most = 0.0;

@@ -49,8 +49,8 @@ int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 join
         return MISUSED;
     for (int64_t v = 0; v < n; v++)
         if (starts[v] < 0 || starts[v] > starts[v + 1] || starts[v + 1] > around.members.size) return MISUSED;
-    if (!all_below(around.members.data, around.members.size, faces.rows) || !all_below(joined.data, 3 * faces.rows, n) ||
-        !all_below(faces.data, 3 * faces.rows, positions.rows))
+    if (!all_below(around.members.data, around.members.size, faces.rows)
+        || !all_below(joined.data, 3 * faces.rows, n) || !all_below(faces.data, 3 * faces.rows, positions.rows))
         return MISUSED;
     for (int64_t f = 0; f < faces.rows; f++) {
         double *own = crosses.data + 4 * f;
