@@ -30,7 +30,7 @@
 #pragma fp_contract(off)
 #endif
 
-#ifndef BSMDEC_LIGHT /* whether a build knows light grids alone, without congruent parts */
+#ifndef BSMDEC_LIGHT /* 1: a build knows light grids alone, 2: with congruent parts, too */
 #define BSMDEC_LIGHT 0
 #endif
 

@@ -16,11 +16,9 @@ from bsm.bitstream.limits import Limits
 
 TARGET = Path(__file__).parents[1] / "web/src/constants.json"
 
-_OF_A_BUILD = ("vertices", "attributes", "light", "sequence", "paper", "congruence")
-"""Fields that tell which decoder a stream needs."""
 _IN_A_GRID = ("HEADER", "METADATA", "CONNECTIVITY", "GRID", "END")
 """Frames of a stream on a light grid."""
-_OF_A_GRID = ("vertices", "faces", "center", "scale", "grid", "lattice", "corner", "light")
+_OF_A_GRID = ("vertices", "faces", "center", "scale", "grid", "lattice", "corner", "light", "congruence")
 _OTHER_LIMITS = {"block_memory": "memory", "block_memory_per_vertex": "memory_per_vertex"}
 """Limits that the browser's decoder calls otherwise: its own `memory` is that of the machine in the page."""
 _SAME_LIMITS = (
@@ -56,7 +54,7 @@ def source() -> str:
         "SHORT": SHORT,
         "MAX_VARINT_BYTES": MAX_VARINT_BYTES,
         "KINDS": {FrameType[name].value: name.lower() for name in _IN_A_GRID},
-        "HEADER_KEYS": {name: HEADER_FIELDS[name].key for name in _OF_A_BUILD},
+        "HEADER_KEYS": {camel(name): field.key for name, field in HEADER_FIELDS.items()},
         "GRID_FIELDS": {name: _field(HEADER_FIELDS[name]) for name in _OF_A_GRID},
         "LIMITS": limits_there(Limits()),
     }

@@ -131,7 +131,7 @@ INLINE int64_t levels_size(const Header *header) { return header->base.cells + h
 INLINE int method_of(const Header *header) { return BSMDEC_LIGHT ? LIGHT : header->light; }
 
 /* Whether values of a grid are also foretold from congruent parts. */
-INLINE bool is_congruent(const Header *header) { return !BSMDEC_LIGHT && header->congruence > 0; }
+INLINE bool is_congruent(const Header *header) { return BSMDEC_LIGHT != 1 && header->congruence > 0; }
 
 /* How many transforms a congruent grid has, and whether it asks for whole vertices (V 17.1, V 17.11). */
 enum { LEAST_CONGRUENCE = 35 }; /* drafts had those below */

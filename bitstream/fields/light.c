@@ -104,7 +104,7 @@ typedef struct { /* what the decisions of a value depend on: slots of a size and
     int64_t context[LEAN_INPUTS];
 } LightModel;
 
-INLINE bool is_lean(const Light *light) { return !BSMDEC_LIGHT && light->twins; }
+INLINE bool is_lean(const Light *light) { return BSMDEC_LIGHT != 1 && light->twins; }
 INLINE int32_t class_of(int32_t size) { return (int32_t)least(size_class(size >> 3), LIGHT_SIZES - 1); }
 
 INLINE int decide(const LightModel *m, int node, int bit) {

@@ -29,15 +29,18 @@ bool light_charge(double work, double received) { return charge(&context, work, 
 
 bsmdec_status light_error(void) { return context.error.status; }
 
-/* `numbers`: vertices, faces, scale, and those of grid, center, corner and lattice. */
-void light_begin(const double *numbers) {
+/* `numbers`: vertices, faces, scale, those of grid, center, corner and lattice, and congruence. */
+bool light_begin(const double *numbers) {
     header = (Header){.vertices = (int64_t)numbers[0], .faces = (int64_t)numbers[1], .scale = numbers[2],
-        .light = LIGHT, .cells = (int64_t)numbers[12], .points = (int64_t)numbers[13]};
+        .light = LIGHT, .cells = (int64_t)numbers[12], .points = (int64_t)numbers[13],
+        .congruence = (int)numbers[14]};
     for (int j = 0; j < 3; j++) {
         header.grid[j] = (int32_t)numbers[3 + j];
         header.center[j] = numbers[6 + j];
         header.corner[j] = (int64_t)numbers[9 + j];
     }
+    bool is_known = header.congruence == 0 || (is_congruent(&header) && header.congruence >= LEAST_CONGRUENCE);
+    return is_known || FAIL(&context, UNSUPPORTED, "congruent parts, which this build has not");
 }
 
 /* Corners of faces; NULL if something is wrong. */

@@ -218,13 +218,13 @@ function optionsOf(source, fast, light) {
         "-Oz",
         ...(APART.test(source) && !light ? [] : ["-flto"]),
         ...(LEAN.test(source) || DRIVERS.test(source) ? ["-DBSM_LEAN"] : []),
-        ...(light ? ["-DBSMDEC_LIGHT"] : []),
+        ...(light ? [`-DBSMDEC_LIGHT=${light}`] : []),
     ];
 }
 
 /**
  * Every build: what of the decoder it is without, which headers ask for that, and which sources are compiled for speed;
- * `light`: for light grids alone; `writes`: the encoder; `long`: without brief streams.
+ * `light`: for light grids alone, 2: with congruent parts, too; `writes`: the encoder; `long`: without brief streams.
  */
 export const KERNEL_BUILDS = {
     "built/kernels.wasm": {},
@@ -255,8 +255,12 @@ export const KERNEL_BUILDS = {
         long: true,
         lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0",
     },
-    "built/quick.wasm": { exported: LIGHT, without: /^codec(?!\/basis\/structure)/, fast: /conquest/, light: true },
+    "built/quick.wasm": { exported: LIGHT, without: /^codec(?!\/basis\/structure)/, fast: /conquest/, light: 1 },
+    "built/parts.wasm": { exported: LIGHT, without: /^codec(?!\/basis\/structure)/, fast: /conquest/, light: 2 },
 };
+
+/** Bytes of the learnt start that light grids use: weights of whole vertices (V 17.11). */
+const WEIGHTS_OF_WHOLE = 40;
 
 /** Objects of sources, which builds have in common. */
 const compiled = new Map();
@@ -267,7 +271,7 @@ export function compileKernels({
     without,
     lacks,
     fast = FAST,
-    light = false,
+    light = 0,
     writes = false,
     long = false,
 }) {
@@ -275,7 +279,9 @@ export function compileKernels({
     try {
         const data = join(folder, "data.c");
         const priors = Uint8Array.from(readFileSync(join(ROOT, "spec/priors.bin")));
-        const start = [...readFileSync(join(ROOT, "spec/start.bin"))];
+        // Light grids start with the last weights alone (V 17.12): the others compress to nothing.
+        const learnt = readFileSync(join(ROOT, "spec/start.bin"));
+        const start = [...learnt].map((byte, i) => (light && i < learnt.length - WEIGHTS_OF_WHOLE ? 0 : byte));
         writeFileSync(data, `${packedPriors(priors)}const unsigned char START[] = {${start}};\n`);
         const target = join(folder, "kernels.wasm");
         const clang = (...args) =>

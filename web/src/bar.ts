@@ -1,7 +1,7 @@
 /** The controls of `<bsm-player controls>`: play and pause, the time, and the full screen, for mice, fingers and keys. */
 
 /** What the controls show and steer, as an `HTMLMediaElement` has it. */
-export interface Played {
+export interface Playable {
     readonly paused: boolean;
     readonly duration: number;
     currentTime: number;
@@ -39,7 +39,7 @@ export class Bar {
     private readonly time = document.createElement("output");
     private isPaused?: boolean;
 
-    constructor(private readonly player: Played) {
+    constructor(private readonly player: Playable) {
         const { button, element, full, range, time } = this;
         const gap = Object.assign(document.createElement("span"), { className: "gap" });
         Object.assign(element, { className: "bar" }).setAttribute("part", "controls");

@@ -1,4 +1,14 @@
-/** The decoder in C: its calls, and what lies in its memory. */
+/**
+ * The decoder in C: its calls, and what lies in its memory.
+ *
+ * Bytes go in by `push`, `next` reports one event at a time, and the arrays of an event are asked for by its kind. All
+ * that is handed out is copied: the memory of WebAssembly moves when it grows, and belongs to the next stream later. C
+ * answers with the address of a struct that it keeps until the next call, so a struct is read before anything else is
+ * called. What has no fixed layout in JavaScript comes by name: the fields of a header by their keys in the format
+ * (`constants.json`, which Python writes), attributes by the struct of bsmdec.h. If a struct of library/wasm/page.c
+ * changes, the offsets here change with it; `test/vectors.test.ts` decodes all vectors through them.
+ */
+import { HEADER_KEYS } from "./constants.json";
 import { DOMAINS, KINDS, SEMANTICS, type Attribute } from "./attributes";
 import { BsmError, errorLike } from "./errors";
 import type { Changes, Loose, Metadata } from "./events";
@@ -40,7 +50,10 @@ const [WHOLE, NUMBER, TEXT] = [1, 2, 3];
 const TEXTS = new TextDecoder("utf-8", { ignoreBOM: true });
 const LAST_ATTRIBUTE = 255;
 const [ENTRY_BYTES, ATTRIBUTE_BYTES] = [48, 56];
-const [MOST_KEY, MOST_LIST] = [25, 8];
+const [MOST_KEY, MOST_LIST] = [25, 8]; // of the record of a header: its keys, and numbers of each
+
+/** The fields of a header by their names: the record in C has them by their keys. */
+type FieldLists = Record<keyof typeof HEADER_KEYS, number[]>;
 
 interface ViewType<View> {
     BYTES_PER_ELEMENT: number;
@@ -105,59 +118,32 @@ export class Engine extends Memory {
 
     header(): Header {
         const at = this.call("page_header");
-        const [numbers, counts] = [
-            this.doubles(at, MOST_KEY * MOST_LIST),
-            this.ints(at + 8 * MOST_KEY * MOST_LIST, MOST_KEY),
-        ];
-        const lists = Array.from(counts, (count, key) => [
-            ...numbers.subarray(MOST_LIST * key, MOST_LIST * key + count),
-        ]);
-        const [
-            ,
-            [vertices],
-            [faces],
-            [blocks],
-            [blockSize],
-            [coefficients],
-            [keyInterval],
-            [step],
-            center,
-            [scale],
-            [smoothing],
-        ] = lists;
-        const [
-            refinement,
-            [attributes],
-            grid,
-            lattice,
-            corner,
-            [light],
-            [frames = 0, gopFrames = 0],
-            [run = 0, again],
-            [bits = 0],
-        ] = lists.slice(11);
+        const numbers = this.doubles(at, MOST_KEY * MOST_LIST);
+        const counts = this.ints(at + 8 * MOST_KEY * MOST_LIST, MOST_KEY);
+        const listOf = (key: number): number[] => [...numbers.subarray(MOST_LIST * key, MOST_LIST * key + counts[key])];
+        const lists = Object.fromEntries(
+            Object.entries(HEADER_KEYS).map(([name, key]) => [name, listOf(key)]),
+        ) as FieldLists;
+        const { center, corner, grid, lattice, refinement, run, sequence } = lists;
+        const [bits = 0] = lists.paper;
         return {
-            vertices,
-            faces,
-            blocks,
-            blockSize,
-            coefficients,
-            keyInterval,
-            step,
-            center,
-            scale,
-            smoothing,
-            refinement,
-            attributes,
-            grid,
-            lattice,
-            corner,
-            light,
-            frames,
-            gopFrames,
-            run,
-            again,
-            bits,
+            vertices: lists.vertices[0],
+            faces: lists.faces[0],
+            blocks: lists.blocks[0],
+            blockSize: lists.blockSize[0],
+            coefficients: lists.coefficients[0],
+            keyInterval: lists.keyInterval[0],
+            step: lists.step[0],
+            scale: lists.scale[0],
+            smoothing: lists.smoothing[0],
+            attributes: lists.attributes[0],
+            light: lists.light[0],
+            congruence: lists.congruence[0],
+            ...{ bits, center, corner, grid, lattice, refinement },
+            frames: sequence[0] ?? 0,
+            gopFrames: sequence[1] ?? 0,
+            run: run[0] ?? 0,
+            again: run[1],
         };
     }
 

@@ -1,4 +1,7 @@
-/** Decodes a stream of a static mesh on a light grid while it arrives, as `decoder.ts` does, and nothing else. */
+/**
+ * Decodes a stream of a static mesh on a light grid while it arrives, as `decoder.ts` does, and nothing else: with
+ * quick.wasm grids without congruent parts, with parts.wasm those of parts, too.
+ */
 import { crc32 } from "./checksums";
 import type { Mesh, EventOf } from "./events";
 import { BsmError, CorruptError, errorLike } from "./errors";
@@ -23,7 +26,7 @@ class Light extends Memory {
         this.check(this.call("light_charge", work, received));
     }
 
-    begin({ vertices, faces, grid, lattice, corner, center, scale }: Header): void {
+    begin({ vertices, faces, grid, lattice, corner, center, scale, congruence }: Header): void {
         const numbers = [
             vertices,
             faces,
@@ -32,10 +35,11 @@ class Light extends Memory {
             ...center,
             ...(corner.length ? corner : [0, 0, 0]),
             ...(lattice.length ? lattice : [0, 0]),
+            congruence,
         ];
         this.lent(8 * numbers.length, (at) => {
             new Float64Array(this.buffer, at).set(numbers);
-            this.call("light_begin", at);
+            this.check(this.call("light_begin", at));
         });
     }
 

@@ -16,6 +16,7 @@ type Numbers = Record<
     | "smoothing"
     | "attributes"
     | "light"
+    | "congruence"
     | "bits",
     number
 >;
@@ -41,7 +42,7 @@ export interface Field {
     lengths?: readonly [number, number];
 }
 
-type Fields = Pick<Numbers, "vertices" | "faces" | "scale" | "light"> &
+type Fields = Pick<Numbers, "vertices" | "faces" | "scale" | "light" | "congruence"> &
     Pick<Lists, "center" | "grid" | "lattice" | "corner">;
 
 const FIELDS = Object.entries(GRID_FIELDS as unknown as Record<string, Field>);

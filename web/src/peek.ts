@@ -4,8 +4,11 @@ import { BsmError } from "./errors";
 import { parseMap } from "./maps";
 import { parseVarint } from "./varint";
 
-/** The decoders that there are: of light grids, of static meshes, of sequences, of everything. */
-export type Build = "quick" | "small" | "moving" | "whole";
+/** The decoders that there are: of light grids, of those with congruent parts, of static meshes, of sequences, of all. */
+export type Build = "quick" | "parts" | "small" | "moving" | "whole";
+
+/** Whether a decoder knows light grids alone, which one thread decodes. */
+export const isLight = (build: Build): boolean => build === "quick" || build === "parts";
 
 /** Which decoder a stream needs, unless that finds that it does not, and how many vertices it says to have. */
 export interface Need {
@@ -37,9 +40,11 @@ export function needOf(data: Uint8Array): Need | undefined {
                 ? "whole"
                 : header.has(sequence)
                   ? "moving"
-                  : first(light) === 1 && !header.has(congruence)
-                    ? "quick"
-                    : "small";
+                  : first(light) !== 1
+                    ? "small"
+                    : header.has(congruence)
+                      ? "parts"
+                      : "quick";
         return { build, vertices: first(vertices) };
     } catch (error) {
         if (!(error instanceof BsmError)) throw error;

@@ -3,7 +3,7 @@ import type { Reply, StreamWorker, DrawnEvent, Message, Report, Start } from "./
 import type { Picture } from "./drawing";
 import { errorLike, type BsmError } from "./errors";
 import type { Limits } from "./limits";
-import { needOf, type Build, type Need } from "./peek";
+import { isLight, needOf, type Build, type Need } from "./peek";
 import { isPage, PAGE } from "./fetched";
 import { here, type Source } from "./source";
 import { processors, sayAlone, WORTHWHILE } from "./threads";
@@ -34,9 +34,10 @@ const MOMENT = 100; // milliseconds that a stream waits for the headers of other
 /** Which streams each build reads, the smallest first. */
 const READS: Record<Build, Build[]> = {
     quick: ["quick"],
+    parts: ["quick", "parts"],
     moving: ["moving"],
-    small: ["quick", "small"],
-    whole: ["quick", "moving", "small", "whole"],
+    small: ["quick", "parts", "small"],
+    whole: ["quick", "parts", "moving", "small", "whole"],
 };
 const BUILDS = Object.keys(READS) as Build[];
 
@@ -166,7 +167,7 @@ export class Pool {
     private helpersFor(stream: PooledStream, hand: Hand): Hand[] {
         const { need, wishes } = stream;
         const most = Math.min(processors(), this.limit) - 1;
-        if (need.build === "quick" || need.vertices < (wishes.worthwhile ?? WORTHWHILE) || this.waiting.length > 0)
+        if (isLight(need.build) || need.vertices < (wishes.worthwhile ?? WORTHWHILE) || this.waiting.length > 0)
             return [];
         const busy = this.hands.filter((other) => other !== hand && other.streams.size > 0).length;
         const found: Hand[] = [];

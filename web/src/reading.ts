@@ -37,7 +37,7 @@ export interface Reading {
 }
 
 /** The threads that decode streams in scenes; without one, those of the package. */
-export type Decoding = { pool?: Pool };
+export type SceneDecoding = { pool?: Pool };
 
 const READERS: Record<string, (bytes: ArrayBuffer) => Polygons> = { obj: readObj, ply: readPly, stl: readStl };
 const NAMES: Record<string, string> = { normal: "normal", uv: "texcoord", color: "color" };
@@ -81,7 +81,7 @@ async function readScene(
     beside: Given[],
     used: string[],
     lost: Set<string>,
-    { pool }: Decoding,
+    { pool }: SceneDecoding,
 ): Promise<Scene> {
     const manager = new LoadingManager().setURLModifier((url) => addressOf(url, beside, used));
     const loader = new GLTFLoader(manager).register(({ json }) => ({
@@ -139,7 +139,7 @@ function drawnOf(root: Object3D, lost: Set<string>): Group {
 }
 
 /** Read a file by the suffix of its name, and files beside it that it names. */
-export async function readMesh(given: Given, beside: Given[] = [], decoding: Decoding = {}): Promise<Reading> {
+export async function readMesh(given: Given, beside: Given[] = [], decoding: SceneDecoding = {}): Promise<Reading> {
     const [suffix, used, lost] = [suffixOf(given), [given.name], new Set<string>()];
     const bytes = await given.arrayBuffer();
     const reader = READERS[suffix];

@@ -2,7 +2,7 @@
 import type { StreamWorker, Say, Start } from "./worker";
 import { compiled, once } from "./fetched";
 import { started } from "./threads";
-import type { Build } from "./peek";
+import { isLight, type Build } from "./peek";
 
 export interface Source {
     /** A thread that decodes; undefined where there can be none. */
@@ -17,15 +17,18 @@ const WORKERS: Record<Build, () => Worker> = {
     whole: () => new Worker(new URL("./worker.js", import.meta.url), { type: "module", name: "BSM" }),
     small: () => new Worker(new URL("./small-worker.js", import.meta.url), { type: "module", name: "BSM-small" }),
     quick: () => new Worker(new URL("./quick-worker.js", import.meta.url), { type: "module", name: "BSM-quick" }),
+    parts: () => new Worker(new URL("./quick-worker.js", import.meta.url), { type: "module", name: "BSM-parts" }),
     moving: () => new Worker(new URL("./moving-worker.js", import.meta.url), { type: "module", name: "BSM-moving" }),
 };
 /** Where this file is, for those that are not found by bundlers. */
 const HERE = import.meta.url;
-const threadOf = (build: Build): string => (build === "whole" ? "worker.js" : `${build}-worker.js`);
+const threadOf = (build: Build): string =>
+    build === "whole" ? "worker.js" : isLight(build) ? "quick-worker.js" : `${build}-worker.js`;
 const KERNELS: Record<Build, () => URL> = {
     whole: () => new URL("./kernels.wasm", import.meta.url),
     small: () => new URL("./small.wasm", import.meta.url),
     quick: () => new URL("./quick.wasm", import.meta.url),
+    parts: () => new URL("./parts.wasm", import.meta.url),
     moving: () => new URL("./moving.wasm", import.meta.url),
 };
 
@@ -41,7 +44,7 @@ function beside(address: () => URL): URL {
     }
 }
 
-const local: Source["local"] = (build) => (build === "quick" ? import("./quick") : import("./index"));
+const local: Source["local"] = (build) => (isLight(build) ? import("./quick") : import("./index"));
 
 /** The files beside this one. */
 export const here: Source = {

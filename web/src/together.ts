@@ -5,7 +5,7 @@
  */
 import { compact } from "./files/polygons";
 import { rateOf } from "./poses";
-import { moving, readMesh, suffixOf, type Decoding, type Given, type Reading } from "./reading";
+import { moving, readMesh, suffixOf, type SceneDecoding, type Given, type Reading } from "./reading";
 
 export { encodeHere } from "./encode";
 export { readMesh } from "./reading";
@@ -23,7 +23,7 @@ export function shownAmong(files: Given[]): Given[] {
 }
 
 /** The mesh or sequence of a file, which names others. */
-export function readOne(file: Given, files: Given[], decoding?: Decoding): Promise<Reading> {
+export function readOne(file: Given, files: Given[], decoding?: SceneDecoding): Promise<Reading> {
     return CACHES.test(suffixOf(file)) ? readCache(file, those(files, MESHES)) : readMesh(file, files, decoding);
 }
 
@@ -38,7 +38,7 @@ export async function readFrames(
     files: Given[],
     rate = RATE,
     report?: (share: number) => void,
-    decoding?: Decoding,
+    decoding?: SceneDecoding,
 ): Promise<Reading> {
     const ordered = files.toSorted((a, b) => order.compare(a.name, b.name));
     const read = async (file: Given): Promise<Reading> => {

@@ -2,6 +2,7 @@
 import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { isLight } from "../src/peek";
 import type { Build, Source } from "../src/pool";
 import * as fast from "../src/workerFast";
 import * as full from "../src/workerFull";
@@ -92,10 +93,9 @@ class End {
 }
 
 const KERNELS: Record<Build, Promise<WebAssembly.Module>> = Object.fromEntries(
-    Object.entries({ whole: "kernels", small: "small", moving: "moving", quick: "quick" }).map(([build, name]) => [
-        build,
-        WebAssembly.compile(readFileSync(join(WEB, `built/${name}.wasm`))),
-    ]),
+    Object.entries({ whole: "kernels", small: "small", moving: "moving", quick: "quick", parts: "parts" }).map(
+        ([build, name]) => [build, WebAssembly.compile(readFileSync(join(WEB, `built/${name}.wasm`)))],
+    ),
 ) as never;
 await Promise.all(Object.values(KERNELS)); // nothing may come of itself
 
@@ -149,11 +149,11 @@ export function staged(
         worker: (build) => {
             const [page, thread] = pair();
             Object.defineProperty(globalThis, "self", { value: thread, configurable: true, writable: true });
-            (build === "quick" ? fast : full).serve();
+            (isLight(build) ? fast : full).serve();
             return page as unknown as Worker;
         },
         kernels: (build) => KERNELS[build],
-        local: async (build) => (build === "quick" ? fast : full),
+        local: async (build) => (isLight(build) ? fast : full),
     };
     const restore = (): void => {
         performance.now = now;

@@ -1,15 +1,15 @@
 /** PLY: a header that declares elements and their properties, then the elements, binary or as text. */
-import { colorColumn, meaningOf, PLURALS, type Column, type Polygons, type Values } from "./polygons";
+import { colorColumn, meaningOf, PLURALS, type Column, type Polygons, type ColumnValues } from "./polygons";
 import { metadataIn, Rows, textOf, wordsOf } from "./text";
 
-type Reader = (view: DataView, at: number, little: boolean) => number;
-interface Kind {
+type ReadNumber = (view: DataView, at: number, little: boolean) => number;
+interface NumberKind {
     size: number;
-    read: Reader;
-    array: { from(values: ArrayLike<number>): Values };
+    read: ReadNumber;
+    array: { from(values: ArrayLike<number>): ColumnValues };
 }
 const big = (value: bigint): number => Number(value);
-const KINDS: Record<string, Kind> = {
+const KINDS: Record<string, NumberKind> = {
     i1: { size: 1, read: (view, at) => view.getInt8(at), array: Int8Array },
     u1: { size: 1, read: (view, at) => view.getUint8(at), array: Uint8Array },
     i2: { size: 2, read: (view, at, little) => view.getInt16(at, little), array: Int16Array },
@@ -61,32 +61,32 @@ const MOST_COMPONENTS = 255;
 const MOST_HEADER = 2 ** 20;
 
 /** A column of an element: numbers, or lists after their length, of the type `length`. */
-interface Property {
+interface PlyProperty {
     name: string;
     type: string;
     length?: string;
 }
 
-interface Element {
+interface PlyElement {
     name: string;
     count: number;
-    properties: Property[];
+    properties: PlyProperty[];
 }
 
 /** The items of a property, those of all rows one after the other, and how many each row has. */
-interface Read {
+interface ReadProperty {
     sizes: Uint32Array;
     values: number[];
 }
 
-interface Header {
+interface PlyHeader {
     order: string;
-    elements: Element[];
+    elements: PlyElement[];
     size: number;
     comments: [kind: string, text: string][];
 }
 
-function headerOf(bytes: Uint8Array): Header {
+function headerOf(bytes: Uint8Array): PlyHeader {
     const head = new TextDecoder("latin1").decode(bytes.subarray(0, MOST_HEADER));
     const begin = /^ply[ \t]*[\r\n]/.exec(head);
     if (!begin) throw new Error("this is not a PLY file: it does not begin with ply");
@@ -95,7 +95,7 @@ function headerOf(bytes: Uint8Array): Header {
     // Where all lines before end in \r, \n after the last one is the first byte of the body.
     const inBody = end[0].endsWith("\r\n") && !head.slice(0, end.index + 1).includes("\n");
     const size = end.index + end[0].length - (inBody ? 1 : 0);
-    const [elements, comments]: [Element[], Header["comments"]] = [[], []];
+    const [elements, comments]: [PlyElement[], PlyHeader["comments"]] = [[], []];
     let order = "";
     for (const line of textOf(bytes.slice(begin[0].length, end.index)).split(/[\r\n]+/)) {
         const [keyword = "", ...words] = wordsOf(line);
@@ -125,7 +125,7 @@ function headerOf(bytes: Uint8Array): Header {
 }
 
 /** The metadata in comments; images are those of materials. */
-function metadataOf(comments: Header["comments"]): Polygons["metadata"] {
+function metadataOf(comments: PlyHeader["comments"]): Polygons["metadata"] {
     const isImage = (text: string): boolean => text.startsWith("TextureFile ");
     const images = comments.filter(([, text]) => isImage(text)).map(([, text]) => text.slice(12).trim());
     const found = metadataIn(comments.map(([, text]) => text));
@@ -149,15 +149,19 @@ function metadataOf(comments: Header["comments"]): Polygons["metadata"] {
 }
 
 /** Where numbers come from: bytes, or the words of a text. */
-type Source = (kind: string) => number;
+type NextNumber = (kind: string) => number;
 
 /** All properties of an element, which is at least as long as its numbers and the lengths of its lists. */
-function readElement({ count, properties }: Element, next: Source, left: (least: number) => number): Read[] {
+function readElement(
+    { count, properties }: PlyElement,
+    next: NextNumber,
+    left: (least: number) => number,
+): ReadProperty[] {
     const least = properties.reduce((sum, { type, length }) => sum + left0(length ?? type, left), 0);
     const missing = count * least - left(-1);
     if (properties.length > 0 && missing > 0)
         throw new Error(`the PLY file is cut short: its header claims ${missing} bytes more than there are`);
-    const found = properties.map((): Read => ({
+    const found = properties.map((): ReadProperty => ({
         sizes: new Uint32Array(properties.length > 0 ? count : 0).fill(1),
         values: [],
     }));
@@ -174,7 +178,7 @@ function readElement({ count, properties }: Element, next: Source, left: (least:
 const left0 = (kind: string, left: (least: number) => number): number => left(KINDS[kind].size);
 
 /** The rows of all elements, by the names of these. */
-function tablesOf({ elements, order, size }: Header, bytes: Uint8Array): Map<string, Read[]> {
+function tablesOf({ elements, order, size }: PlyHeader, bytes: Uint8Array): Map<string, ReadProperty[]> {
     if (order !== "ascii") {
         const view = new DataView(bytes.buffer, bytes.byteOffset + size, bytes.byteLength - size);
         const little = order === "binary_little_endian";
@@ -213,12 +217,12 @@ function tablesOf({ elements, order, size }: Header, bytes: Uint8Array): Map<str
 }
 
 /** Numbers in the type that the header declares, if they fit into it, as those of a text may not. */
-function typed(values: number[], type: string): Values {
+function typed(values: number[], type: string): ColumnValues {
     const made = KINDS[type].array.from(values);
     return type.startsWith("f") || values.every((value, i) => made[i] === value) ? made : Float64Array.from(values);
 }
 
-/** Read a PLY with points and faces, of any byte order, and whatever numbers they have. */
+/** ReadProperty a PLY with points and faces, of any byte order, and whatever numbers they have. */
 export function readPly(data: ArrayBuffer): Polygons {
     const bytes = new Uint8Array(data);
     const header = headerOf(bytes);
@@ -260,8 +264,8 @@ export function readPly(data: ArrayBuffer): Polygons {
 }
 
 /** Columns of the same kind as one table of rows. */
-function together(columns: Values[]): Values {
-    const made = new (columns[0].constructor as new (size: number) => Values)(columns.length * columns[0].length);
+function together(columns: ColumnValues[]): ColumnValues {
+    const made = new (columns[0].constructor as new (size: number) => ColumnValues)(columns.length * columns[0].length);
     columns.forEach((column, d) => {
         for (let i = 0; i < column.length; i++) made[i * columns.length + d] = column[i];
     });
@@ -269,11 +273,11 @@ function together(columns: Values[]): Values {
 }
 
 /** The properties that are numbers, those together that are one value. */
-function columnsOf({ properties }: Element, tables: Read[], domain: "vertex" | "face"): Column[] {
+function columnsOf({ properties }: PlyElement, tables: ReadProperty[], domain: "vertex" | "face"): Column[] {
     const needed = domain === "vertex" ? ["x", "y", "z"] : [];
     const places = new Map<string, number>();
     properties.forEach(({ name, length }, place) => !length && !needed.includes(name) && places.set(name, place));
-    const take = (names: string[]): Values => {
+    const take = (names: string[]): ColumnValues => {
         const found = names.map((name) => typed(tables[places.get(name)!].values, properties[places.get(name)!].type));
         const isOne = found.every((each) => each.constructor === found[0].constructor);
         for (const name of names) places.delete(name);
@@ -304,8 +308,14 @@ function columnsOf({ properties }: Element, tables: Read[], domain: "vertex" | "
     return columns;
 }
 
-/** Values of corners: lists as long as that of the vertices, or twice, and so on; the lists that are not; and notes. */
-function wedgesOf(properties: Property[], tables: Read[], list: number, notes: string[], dropped: string[]): Column[] {
+/** ColumnValues of corners: lists as long as that of the vertices, or twice, and so on; the lists that are not; and notes. */
+function wedgesOf(
+    properties: PlyProperty[],
+    tables: ReadProperty[],
+    list: number,
+    notes: string[],
+    dropped: string[],
+): Column[] {
     const most = (sizes: Uint32Array): number => sizes.reduce((high, size) => Math.max(high, size), 0);
     const { sizes, values: corners } = tables[list];
     return properties.flatMap(({ name, length, type }, place): Column[] => {
@@ -316,7 +326,7 @@ function wedgesOf(properties: Property[], tables: Read[], list: number, notes: s
         const isFit = width >= 1 && width <= MOST_COMPONENTS && present.some(Boolean);
         if (!isFit || !present.every((is, i) => is || lengths[i] === 0)) return (dropped.push(name), []);
         const made = typed(values, type);
-        const rows = new (made.constructor as new (size: number) => Values)(width * corners.length);
+        const rows = new (made.constructor as new (size: number) => ColumnValues)(width * corners.length);
         let [from, to] = [0, 0];
         sizes.forEach((size, i) => {
             if (present[i]) for (let k = 0; k < width * size; k++) rows[to + k] = made[from++];

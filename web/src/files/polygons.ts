@@ -2,20 +2,20 @@
  * The contents of mesh files, polygons with columns of attributes, and their conversion to a mesh.
  *
  * This is `bsm.files.formats.polygons` in TypeScript: a file gives the same vertices, triangles, attributes and notes in
- * a page as in Python, and `test/readers.test.ts` compares them for all files that there are. Polygons become fans from
+ * a page as in Python, and `tests/bsm/files/test_javascript.py` compares them for all files that there are. Polygons become fans from
  * the first corner from which no triangle of them is folded, or else ears are clipped, by the library that Python uses,
  * too. A polygon whose sides cross stays a fan, and a note says so.
  */
 import earcut from "earcut";
 import type { AttributeInput, MeshInput } from "../encoding";
 
-export type Values =
+export type ColumnValues =
     Int8Array | Uint8Array | Int16Array | Uint16Array | Int32Array | Uint32Array | Float32Array | Float64Array;
 
 /** A value for each point, each polygon, or each corner of the polygons; it may be wrong. */
 export interface Column {
     name: string;
-    values: Values;
+    values: ColumnValues;
     components: number;
     domain: "vertex" | "corner" | "face";
     semantic?: AttributeInput["semantic"];
@@ -137,8 +137,8 @@ export function unusedName(name: string, domain: string, taken: Set<string>): st
 }
 
 /** Rows of a table, by their numbers. */
-export function picked<Kind extends Values>(values: Kind, width: number, rows: ArrayLike<number>): Kind {
-    const found = new (values.constructor as new (size: number) => Kind)(width * rows.length);
+export function picked<Table extends ColumnValues>(values: Table, width: number, rows: ArrayLike<number>): Table {
+    const found = new (values.constructor as new (size: number) => Table)(width * rows.length);
     for (let i = 0; i < found.length; i++) found[i] = values[width * rows[Math.floor(i / width)] + (i % width)];
     return found;
 }
@@ -159,7 +159,7 @@ export function compact(values: Float64Array, width: number): Float32Array | Flo
 }
 
 /** Colors as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known. */
-export function colorColumn(values: Values, components: number, domain: Column["domain"]): Column {
+export function colorColumn(values: ColumnValues, components: number, domain: Column["domain"]): Column {
     const column = { name: "color", values, components, domain };
     if (!(values instanceof Float32Array || values instanceof Float64Array))
         return {

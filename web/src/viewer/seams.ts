@@ -9,13 +9,13 @@
 import { type BufferGeometry, Vector3 } from "three";
 
 /** The vertices at a place of the rim, and the area vectors of the faces around them. */
-interface Place {
+interface RimPlace {
     vertices: number[];
     sum: Vector3;
 }
 
 /** Vertices of edges that have a face on one side only, by their places. */
-function rimOf(geometry: BufferGeometry): Map<string, Place> {
+function rimOf(geometry: BufferGeometry): Map<string, RimPlace> {
     const [index, { array, count }] = [geometry.getIndex()!.array, geometry.getAttribute("position")];
     const edges = new Set<number>();
     const eachEdge = (act: (a: number, b: number) => void): void => {
@@ -23,8 +23,8 @@ function rimOf(geometry: BufferGeometry): Map<string, Place> {
             for (let k = 0; k < 3; k++) act(index[i + k], index[i + ((k + 1) % 3)]);
     };
     eachEdge((a, b) => edges.add(a * count + b));
-    const rim = new Map<number, Place>();
-    const places = new Map<string, Place>();
+    const rim = new Map<number, RimPlace>();
+    const places = new Map<string, RimPlace>();
     eachEdge((a, b) => {
         if (edges.has(b * count + a)) return;
         for (const vertex of [a, b]) {
@@ -49,7 +49,7 @@ function rimOf(geometry: BufferGeometry): Map<string, Place> {
 
 /** Join the normals of geometries where they have the same places; those of one alone are its own again. */
 export function joinNormals(geometries: BufferGeometry[]): void {
-    const rims = geometries.map((geometry) => (geometry.userData.rim ??= rimOf(geometry)) as Map<string, Place>);
+    const rims = geometries.map((geometry) => (geometry.userData.rim ??= rimOf(geometry)) as Map<string, RimPlace>);
     const sums = new Map<string, Vector3>();
     for (const rim of rims) for (const [key, { sum }] of rim) sums.set(key, (sums.get(key) ?? new Vector3()).add(sum));
     geometries.forEach((geometry, i) => {
