@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, Unpack
+from typing import TYPE_CHECKING, Any, TypeAlias, Unpack
 
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
@@ -15,12 +15,11 @@ from bsm.codec.choices import checked_metadata, checked_whole
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats.metadata import Written
-from bsm.files.libraries import as_mesh, read_any, warn, with_metadata, with_texels, without_provenance
+from bsm.files.libraries import as_mesh, read_any, warn
 from bsm.files.mesh import format_of_name, save_written, unknown_suffix, written_mesh
 from bsm.files.pipes import Input, Source, named, read_chunks
 from bsm.files.stream import SequenceStream, decode_whole
 from bsm.ground.console import Console, watched
-from bsm.ground.lengths import in_own_unit
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -28,13 +27,12 @@ if TYPE_CHECKING:
     from bsm.account.comparison import MeshComparison
     from bsm.codec.denoise import DenoiseOptions
     from bsm.codec.look.measure import Look
-    from bsm.codec.sequence.encoder import SequenceEncoder
     from bsm.codec.sequence.options import SequenceOptions
     from bsm.codec.static.options import EncodeOptions
+    from bsm.encoding.given import MovingRecipe, Wishes
     from bsm.keywords import DenoiseKeywords, EncodeKeywords, OptionKeywords, SequenceKeywords
 
 Heard: TypeAlias = Callable[[int, int], None] | None
-_Options = TypeVar("_Options")
 
 
 def encode(
@@ -44,6 +42,7 @@ def encode(
     *,
     metadata: Metadata | None = None,
     simplify: bool = False,
+    provenance: bool | None = None,
     progress: Heard = None,
     **keywords: Unpack[OptionKeywords],
 ) -> bytes:
@@ -61,6 +60,8 @@ def encode(
         Also try fewer triangles, and vertices that slide along the surface: the smallest stream counts that keeps the
         promised look, and `max_error` as the distance between the surfaces. Attributes other than normals and colors of
         vertices are errors.
+    provenance : bool, optional
+        Whether to store how the stream was made; None: only for a mesh that was decoded from a stream.
     progress : callable, optional
         Called in this thread with the finished work and the total; the first number never falls. If it raises an
         exception, the work ends, the exception reaches the caller, and unfinished files are removed.
@@ -94,20 +95,32 @@ def encode(
     >>> len(small) <= 3000
     True
     """
-    from bsm.codec.static.options import EncodeOptions
-    from bsm.encoding.options import encode_options
-    from bsm.encoding.simplification import encode_source
+    from bsm.encoding.given import given_mesh
 
-    chosen = _chosen(options, EncodeOptions, keywords, encode_options)
-    entries = checked_metadata(metadata)
+    wishes = _wishes(mesh, options, keywords, metadata, provenance, simplify=simplify)
     with watched("encoding", progress) as reported:
-        source = with_metadata(without_provenance(as_mesh(mesh)), chosen, entries)
-        if lengths := in_own_unit(keywords, source.metadata, source):
-            chosen = encode_options(**{**keywords, **lengths})
-        chosen = with_texels(chosen or EncodeOptions(), source)
-        found = encode_source(source, chosen, reported, simplify=simplify)
-    warn(found.encoder.losses)
+        given = given_mesh(as_mesh(mesh), wishes)
+        found = given.encode(reported)
+    warn([*given.losses, *found.encoder.losses])
     return b"".join(found.attempt.frames)
+
+
+def _wishes(
+    source: Any,
+    options: EncodeOptions | SequenceOptions | None,
+    keywords: Mapping[str, Any],
+    metadata: Metadata | None,
+    provenance: bool | None,
+    **more: Any,
+) -> Wishes:
+    """Return the wishes of a caller, after a check of what does not depend on the mesh."""
+    from bsm.encoding.given import Wishes
+
+    named = str(source) if isinstance(source, (str, os.PathLike)) else ""
+    given: dict[str, Any] = {"keywords": keywords, "options": options, "provenance": provenance, **more}
+    wishes = Wishes(source=named, metadata=checked_metadata(metadata), **given)
+    wishes.check()
+    return wishes
 
 
 def encode_many(
@@ -122,6 +135,7 @@ def encode_many(
     overwrite: bool = False,
     metadata: Mapping[str, str] | None = None,
     simplify: bool = False,
+    provenance: bool | None = None,
     progress: Heard = None,
     **keywords: Unpack[OptionKeywords],
 ) -> list[dict[str, Any]]:
@@ -145,7 +159,7 @@ def encode_many(
         Continue from the report: skip files whose output is complete and up to date.
     overwrite : bool
         Whether to replace existing files.
-    metadata, simplify, progress, **keywords
+    metadata, simplify, provenance, progress, **keywords
         As in `encode`; `progress` hears of all files together. If it raises an exception, finished files are kept.
 
     Returns
@@ -166,22 +180,22 @@ def encode_many(
     >>> [("error" in row, row["output"]) for row in rows]
     [(False, 'streams/a.bsm'), (False, 'streams/b.bsm')]
     """
-    from bsm.encoding.options import encode_options
+    from bsm.encoding.given import Wishes
     from bsm.jobs.encode import EncodeJob, encode_one
     from bsm.jobs.plan import plan
     from bsm.jobs.run import Batch, run_many
 
-    encode_options(**keywords)
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
         raise ArgumentError(f"sources must be a list of paths, not {sources!r}")
     checked_whole("jobs", jobs, 0)
     entries = checked_metadata(metadata)
+    Wishes(keywords=keywords, metadata=entries).check()
     run = Batch(jobs=jobs, dask=dask, report=None if report is None else named(report), resume=resume)
     folder = None if target is None else named(target).rstrip("/") + "/"
     planned = plan([named(source) for source in sources], folder, lambda _: ".bsm")
     options: dict[str, Any] = {**keywords}
     threads = options.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
-    more: dict[str, Any] = {"metadata": entries, "options": options, "simplify": simplify}
+    more: dict[str, Any] = {"metadata": entries, "options": options, "simplify": simplify, "provenance": provenance}
     job = EncodeJob(force=overwrite, quiet=True, threads=threads, **more)
     return run_many(run, job, Console(quiet=True, heard=progress), encode_one, planned)
 
@@ -232,6 +246,7 @@ def encode_sequence(
     *,
     metadata: Metadata | None = None,
     mesh_attributes: Sequence[Attribute] = (),
+    provenance: bool | None = None,
     progress: Heard = None,
     **keywords: Unpack[SequenceKeywords],
 ) -> bytes:
@@ -245,7 +260,7 @@ def encode_sequence(
         The faces of all frames.
     options : SequenceOptions, optional
         Instead of keywords.
-    metadata, progress
+    metadata, provenance, progress
         As in `encode`, for the whole sequence.
     mesh_attributes : sequence of Attribute
         Attributes that do not change; `SequenceDecoder.attributes` returns them. The option `attributes` sets their
@@ -275,19 +290,20 @@ def encode_sequence(
     >>> bsm.decode_sequence(data)[0].shape == frames.shape
     True
     """
-    from bsm.codec.sequence.encoder import SequenceEncoder, frames_of
-    from bsm.codec.sequence.options import SequenceOptions
-    from bsm.encoding.options import sequence_options
+    from bsm.codec.sequence.encoder import frames_of
+    from bsm.encoding.given import given_frames
+    from bsm.files.motion.frames import Frames
 
-    chosen = _chosen(options, SequenceOptions, keywords, sequence_options)
-    frames, entries = frames_of(positions), checked_metadata(metadata)
-    return _joined(SequenceEncoder(faces, chosen, len(frames), entries, mesh_attributes), frames, progress)
+    wishes, frames = _wishes(None, options, keywords, metadata, provenance), frames_of(positions)
+    shown = TriangleMesh(frames[0], faces)  # type: ignore[arg-type]
+    source = Frames(shown.faces, len(frames), iter(frames), mesh_attributes)  # type: ignore[arg-type]
+    return _joined(given_frames(source, wishes, shown), progress)
 
 
-def _joined(encoder: SequenceEncoder, frames: Iterable[Any], progress: Heard) -> bytes:
+def _joined(given: MovingRecipe, progress: Heard) -> bytes:
     with watched("encoding", progress) as reported:
-        data = b"".join(encoder.chunks(frames, reported))
-    warn(encoder.losses)
+        data = b"".join(given.chunks(reported))
+    warn([*given.losses, *given.encoder.losses])
     return data
 
 
@@ -297,6 +313,7 @@ def encode_frames(
     /,
     *,
     metadata: Metadata | None = None,
+    provenance: bool | None = None,
     progress: Heard = None,
     **keywords: Unpack[SequenceKeywords],
 ) -> bytes:
@@ -306,8 +323,9 @@ def encode_frames(
     ----------
     meshes : iterable of meshes, pairs of arrays, or paths
         The frames, each a mesh as in `encode`. Colors and other numbers of vertices may change from frame to frame.
-        Other attributes are taken from the first frame of each run of frames with equal faces.
-    options, metadata, progress, **keywords
+        Other attributes are taken from the first frame of each run of frames with equal faces, and metadata from the
+        first frame.
+    options, metadata, provenance, progress, **keywords
         As in `encode_sequence`. Faces may change unless `runs` is false; targets need frames that share their faces.
 
     Returns
@@ -330,23 +348,23 @@ def encode_frames(
     >>> [len(frame.faces) == len(mesh.faces) for frame in bsm.decode_frames(data)]
     [True, True, False]
     """
-    from bsm.codec.sequence.encoder import SequenceEncoder
-    from bsm.codec.sequence.options import SequenceOptions
     from bsm.codec.sequence.runs import is_empty
-    from bsm.encoding.options import sequence_options
+    from bsm.encoding.given import given_frames
+    from bsm.files.motion.frames import Frames
 
     if isinstance(meshes, (str, bytes)) or not isinstance(meshes, Iterable):
         raise ArgumentError(f"a mesh for each frame is expected, not {type(meshes).__name__}")
     given: dict[str, Any] = {"runs": True, **keywords} if options is None else {**keywords}
-    chosen = _chosen(options, SequenceOptions, given, sequence_options)
-    entries, frames = checked_metadata(metadata), map(_as_frame if chosen is None or chosen.runs else as_mesh, meshes)
+    wishes = _wishes(None, options, given, metadata, provenance)
+    frames = map(_as_frame if getattr(options, "runs", given.get("runs")) else as_mesh, meshes)
     first = next(frames, None)
     if first is None:
         raise MeshError("a sequence needs at least one frame")
     attributes = [a for a in first.attributes if a.semantic != "normal" and not is_empty([a])]
     count = len(meshes) if isinstance(meshes, Sequence) else 0
-    encoder = SequenceEncoder(first.faces, chosen, count, entries, attributes)
-    return _joined(encoder, chain([first], frames), progress)
+    known: dict[str, Any] = {"attributes": tuple(attributes), "metadata": first.metadata}
+    source = Frames(first.faces, count, iter(()), **known, meshes=chain([first], frames))
+    return _joined(given_frames(source, wishes, first), progress)
 
 
 def _as_frame(given: Any) -> TriangleMesh:
@@ -566,9 +584,9 @@ def denoise(
     """
     from bsm.codec.denoise import DenoiseOptions
     from bsm.codec.denoise import denoise as denoise_mesh
-    from bsm.encoding.options import denoise_options
+    from bsm.encoding.options import chosen_options, denoise_options
 
-    chosen = _chosen(options, DenoiseOptions, keywords, denoise_options)
+    chosen = chosen_options(options, DenoiseOptions, keywords, denoise_options)
     with watched("denoising", progress) as heard:
         given = as_mesh(mesh)
         clean = denoise_mesh(given, chosen, goal=goal, strength=strength, force=force, progress=heard.stage)
@@ -644,15 +662,3 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
 
     first, second = map(as_mesh, (original, other))
     return look_at(first, second, threads=threads)
-
-
-def _chosen(
-    options: _Options | None, kind: type[_Options], keywords: Mapping[str, Any], build: Callable[..., _Options | None]
-) -> _Options | None:
-    if options is None:
-        return build(**keywords)
-    if not isinstance(options, kind):
-        raise ArgumentError(f"{kind.__name__} is expected, not {type(options).__name__}; or give options by keyword")
-    if keywords:
-        raise ArgumentError(f"give {kind.__name__}, or keywords such as {next(iter(keywords))}; not both")
-    return options

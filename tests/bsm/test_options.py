@@ -10,6 +10,7 @@ from bsm.codec.sequence.options import PROMISES
 from bsm.codec.static.options import BALANCED
 from bsm.commands import flags
 from bsm.encoding.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
+from bsm.ground.lengths import Length
 
 
 def test_without_keywords_everything_is_the_default():
@@ -38,7 +39,7 @@ def test_targets_and_bounds_of_sequences():
     options = sequence_options(kg=0.1, low_delay=4, overlap=1.2)
     assert (options.target, options.low_delay, options.overlap) == (bsm.SequenceTarget("kg", 0.1), 4, 1.2)
     assert sequence_options(max_error="0.2%").promise == bsm.Contract(0.002, look=1.0)
-    assert sequence_options(max_error="3mm", look=2).promise == bsm.Contract(3.0, look=2.0, absolute=True)
+    assert sequence_options(max_error=Length(3.0, True), look=2).promise == bsm.Contract(3.0, look=2.0, absolute=True)
     assert sequence_options(preset="fine", look=2).promise == bsm.Contract(PROMISES["fine"].farthest, look=2.0)
     assert sequence_options(max_error=0.001, low_delay=4).promise == bsm.Contract(0.001)
     for others in ({"kg": 1}, {"step": 0.01}):
@@ -103,7 +104,7 @@ def test_a_sequence_has_fewer_options():
 
 def test_a_largest_error_may_have_a_unit():
     assert encode_options(max_error="0.1%").contract == replace(BALANCED, farthest=0.001)
-    assert encode_options(max_error="0.05mm").contract == replace(BALANCED, farthest=0.05, absolute=True)
+    assert encode_options(max_error=Length(0.05, True)).contract == replace(BALANCED, farthest=0.05, absolute=True)
     assert encode_options(preset="none", max_error="0.002").contract == bsm.Contract(0.002)
     assert encode_options(max_error="0.002").contract == encode_options(max_error=0.002).contract
     assert encode_options(max_error=0.002).target is None
@@ -111,7 +112,9 @@ def test_a_largest_error_may_have_a_unit():
         encode_options(max_error=2)
     with pytest.raises(bsm.ArgumentError, match="with a unit"):
         encode_options(max_error="wide")
-    options = encode_options(max_error="1mm", theta=3)
+    with pytest.raises(bsm.OptionError, match="needs a mesh with a unit"):
+        encode_options(max_error="1mm")
+    options = encode_options(max_error=Length(1.0, True), theta=3)
     assert options.contract == replace(BALANCED, farthest=1.0, absolute=True)
     assert options.target == bsm.Target("theta_deg", 3.0)
 

@@ -14,7 +14,17 @@ from bsm import PRESETS, __version__
 from bsm.cli import COMMANDS, command_parser, main
 from bsm.commands.flags import PROMISES
 from bsm.files.mesh import write_mesh
-from bsm.ground.lengths import in_own_unit, parse_bytes, parse_length
+from bsm.ground.lengths import (
+    IN_METRES,
+    UNITS,
+    Length,
+    UnitError,
+    in_own_unit,
+    known_unit,
+    parse_bytes,
+    parse_length,
+    unit_named,
+)
 from tests.bsm.test_batch import bsm as program
 from tests.shapes import torus
 from tests.streams import events_of
@@ -233,7 +243,7 @@ def test_the_errors_of_frames_are_drawn_as_a_curve(loop, capsys):
 
 @pytest.mark.parametrize(
     ("given", "expected"),
-    [("0.05mm", (0.05, True)), ("0.1%", (0.001, False)), (" 2e-3 ", (0.002, False)), (0.5, (0.5, False))],
+    [(Length(0.05, True), (0.05, True)), ("0.1%", (0.001, False)), (" 2e-3 ", (0.002, False)), (0.5, (0.5, False))],
 )
 def test_lengths(given, expected):
     assert parse_length("gap", given) == expected
@@ -245,23 +255,56 @@ def test_what_is_no_length(given):
         parse_length("gap", given)
 
 
-@pytest.mark.parametrize("unit", ["mm", "millimeters", "Millimetre", "furlong"])
-def test_the_same_unit_or_an_unknown_one(unit):
-    assert in_own_unit({"max_error": "0.5mm", "size": "3kB"}, {"unit": unit}) == {}
-    assert in_own_unit({"max_error": "0.5%"}, {"unit": unit}) == {}
+@pytest.mark.parametrize("unit", ["mm", "millimeters", "Millimetre", "0.001 m"])
+def test_the_same_unit_by_any_name(unit):
+    options = {"max_error": "0.5mm", "size": "3kB"}
+    assert in_own_unit(options, {"unit": unit}) == {**options, "max_error": Length(0.5, True)}
+    assert in_own_unit({"max_error": "0.5%"}, {"unit": unit}) == {"max_error": Length(0.005, False)}
+
+
+def test_units_are_one_table():
+    for names, meters in UNITS.items():
+        named = unit_named(meters)
+        assert named in names.split() and known_unit(named, "here") == meters
+        for name in names.split():
+            assert known_unit(name.upper(), "here") == known_unit(f"2 {name}", "here") / 2 == meters
+    assert len(IN_METRES) == sum(len(names.split()) for names in UNITS), "no name has two meanings"
+
+
+@pytest.mark.parametrize(
+    ("unit", "words"), [("milimeter", "mean millimeter"), ("parsec", "known are nm"), ("imch", "mean inch"), (7, "7")]
+)
+def test_an_unknown_unit_is_an_error(unit, words, tmp_path):
+    with pytest.raises(UnitError, match=words):
+        known_unit(unit, "here")
+    mesh, frames = torus(8, 7), np.array([torus(8, 7).positions] * 2)
+    for wish in ({"metadata": {"unit": unit}}, {"max_error": f"2{unit}", "metadata": {"unit": "mm"}}):
+        if unit != 7 or "max_error" not in wish:
+            for door in (
+                lambda wish: bsm.encode(mesh, **wish),
+                lambda wish: bsm.encode_sequence(frames, mesh.faces, **wish),
+                lambda wish: bsm.encode_frames([mesh, mesh], **wish),
+            ):
+                with pytest.raises(UnitError, match=words):
+                    door(wish)
+    bsm.save(bsm.TriangleMesh(mesh.positions, mesh.faces, (), {"unit": "furlong"}), tmp_path / "a.ply")
+    result = program("encode", tmp_path / "a.ply", "--max-error", "2mm")
+    assert result.returncode == 2 and "unknown unit 'furlong'" in result.stderr
+    result = program("encode", tmp_path / "a.ply")
+    assert result.returncode == 0 and "its unit furlong is not known" in result.stderr
 
 
 @pytest.mark.parametrize("metadata", [{}, {"unit": ""}, {"unit": 7}, {"name": "mm"}])
 def test_a_length_with_a_unit_needs_a_mesh_that_has_one(metadata):
     for plain in ("0.5%", 0.01, "0.01"):
-        assert in_own_unit({"max_error": plain}, metadata) == {}
+        assert not in_own_unit({"max_error": plain}, metadata)["max_error"].absolute
     with pytest.raises(bsm.OptionError, match=r"has no unit: .* --meta unit=mm .* such as 0\.1%"):
         in_own_unit({"max_error": "0.5mm"}, metadata)
 
 
 def test_another_unit_is_converted(tmp_path):
     mesh, metadata = torus(8, 7), {"unit": "meters"}
-    assert in_own_unit({"max_error": "0.05mm"}, metadata) == {"max_error": "5e-05meters"}
+    assert in_own_unit({"max_error": "0.05mm"}, metadata) == {"max_error": Length(5e-05, True)}
     own, other = (bsm.encode(mesh, metadata=metadata, max_error=text) for text in ("0.05meters", "50mm"))
     assert own == other
     bsm.save(mesh, tmp_path / "a.ply")

@@ -17,7 +17,7 @@ from bsm.bitstream.errors import MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.encoding import options
+from bsm.encoding.given import Wishes, given_frames
 from bsm.files.conventions import shares_of
 from bsm.files.formats.appearance import Appearance, appearance
 from bsm.files.formats.metadata import images_in, kind_of_image, materials_in
@@ -25,6 +25,7 @@ from bsm.files.formats.polygons import Array, unused_name
 from bsm.files.inspection import inspect_stream
 from bsm.files.libraries import warn
 from bsm.files.motion.caches import write_cache
+from bsm.files.motion.frames import Frames
 from bsm.files.output import open_output
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
@@ -364,12 +365,11 @@ def export_object(
         if not animation:
             written = [encode(TriangleMesh(first, faces, attributes), metadata=metadata, **keywords)]
         else:
-            from bsm.codec.sequence.encoder import SequenceEncoder
-
-            metadata["frame_rate"] = scene.render.fps / scene.render.fps_base
-            chosen = options.sequence_options(**keywords)
-            encoder = SequenceEncoder(faces, chosen, len(numbers), metadata, attributes)
-            written = encoder.chunks(_frames(scene, moving, numbers, progress))  # type: ignore[assignment]
+            rate = scene.render.fps / scene.render.fps_base
+            frames = _frames(scene, moving, numbers, progress)
+            source = Frames(faces, len(numbers), frames, tuple(attributes), frame_rate=rate, metadata=metadata)
+            shown = TriangleMesh(first, faces)
+            written = given_frames(source, Wishes(keywords=keywords), shown).chunks(None)  # type: ignore[assignment]
         with open_output(path, overwrite=True) as file:
             size = sum(map(file.write, written))
     finally:

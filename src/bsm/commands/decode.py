@@ -33,7 +33,7 @@ from bsm.files.sequence import SEQUENCE_FORMATS, sequence_kind, sequence_writer
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
 from bsm.files.table import MESH_SUFFIXES, ONE_FILE, WRITTEN_FORMATS
 from bsm.ground.console import Console, printable
-from bsm.ground.lengths import metres, unit_of
+from bsm.ground.lengths import known_unit, metres, unit_of
 from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Job, Task, anywhere, came_to
@@ -149,9 +149,7 @@ def _as_asked(args: DecodeJob, console: Console, mesh: TriangleMesh, kind: str, 
     said = mesh.metadata if exact else as_decoded(mesh.metadata)
     metadata, scale = {n: v for n, v in said.items() if n != "source_name" and (kind == "obj" or not is_link(n))}, 1.0
     if args.unit_out:
-        own, wanted = metres(unit_of(metadata)), metres(args.unit_out)
-        if wanted is None:
-            raise OptionError(f"--unit-out {args.unit_out}: an unknown unit; give m, cm, mm, in or ft")
+        own, wanted = metres(unit_of(metadata)), known_unit(args.unit_out, "--unit-out")
         if own is None:
             console.note(f"{args.input}: not scaled: its unit is {printable(unit_of(metadata)) or 'not known'}")
         else:

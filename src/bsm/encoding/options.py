@@ -1,9 +1,9 @@
 """Options by keyword: `bsm.encode(mesh, theta=5)` and `bsm encode mesh.ply --theta 5` come through here alike."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
-from typing import Any
+from typing import Any, TypeVar
 
 from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.choices import checked, named, suggestion
@@ -12,6 +12,7 @@ from bsm.codec.static.options import CODING, PRESETS, EncodeOptions, Paper, chan
 from bsm.codec.static.targets import WIDEST, Contract, Target
 from bsm.ground.lengths import parse_bytes, parse_length
 
+_Options = TypeVar("_Options")
 TARGETS = {"nmsve_db": "nmsve_db", "theta": "theta_deg", "bpv": "bpv", "size": "size"}
 """Keyword of each target of a mesh, and its kind, see `codec.static.targets`."""
 
@@ -118,3 +119,16 @@ def _fields(what: str, known: set[str], keywords: Mapping[str, Any], targets: Ma
         number = parse_bytes(name, keywords[name]) if name == "size" else checked(name, keywords[name], float)
         given["target"] = Target(targets[name], number)
     return given
+
+
+def chosen_options(
+    options: _Options | None, kind: type[_Options], keywords: Mapping[str, Any], build: Callable[..., _Options | None]
+) -> _Options | None:
+    """Return options that are made, or those of keywords; `ArgumentError` for both."""
+    if options is None:
+        return build(**keywords)
+    if not isinstance(options, kind):
+        raise ArgumentError(f"{kind.__name__} is expected, not {type(options).__name__}; or give options by keyword")
+    if keywords:
+        raise ArgumentError(f"give {kind.__name__}, or keywords such as {next(iter(keywords))}; not both")
+    return options

@@ -15,18 +15,12 @@ Array = npt.NDArray[Any]
 Doubles = npt.NDArray[np.float64]
 
 
-_UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millimeters", 0.0254: "inches", 0.3048: "feet"}
 _TO_Y = {
     "y": ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
     "x": ((0, -1, 0), (1, 0, 0), (0, 0, 1)),
     "z": ((1, 0, 0), (0, 0, 1), (0, -1, 0)),
 }
 """The rotations that turn the axis that a mesh calls up to y."""
-
-
-def unit_named(size: float) -> str:
-    """Return the name of a unit of so many meters, as in metadata."""
-    return _UNITS.get(round(size, 9), f"{size:.9g} meters")
 
 
 @dataclass(frozen=True, eq=False)

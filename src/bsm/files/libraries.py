@@ -1,13 +1,12 @@
 """What other libraries call a mesh, as ours."""
 
-import math
 import os
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from traceback import walk_stack
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,17 +17,14 @@ from bsm.codec.arrays import as_array
 from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.cells import columns_of, of_meshio
-from bsm.files.formats.metadata import plain_fields, without_materials, without_names
+from bsm.files.formats.metadata import plain_fields
 from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, compact, named_column
 from bsm.files.formats.with_trimesh import joined, polygons_of
-from bsm.files.images import largest_side, with_linked_images
+from bsm.files.images import with_linked_images
 from bsm.files.mesh import read_mesh
-from bsm.files.parsing import PRECISION, Ints, is_single_and_far, ranges
+from bsm.files.parsing import Ints, ranges
 from bsm.files.pipes import Input, as_input
 from bsm.files.stream import decode_whole, is_stream
-
-if TYPE_CHECKING:
-    from bsm.codec.static.options import EncodeOptions
 
 _POINTS = ("vertices", "points", "positions")
 _FACES = ("faces", "triangles")
@@ -88,34 +84,6 @@ PROVENANCE = "provenance"
 def as_decoded(metadata: Metadata) -> Metadata:
     """The metadata of a file whose mesh is not exact, so that encoding it says which generation it is."""
     return {PROVENANCE: f"bsm {__version__}", **metadata}
-
-
-def without_provenance(mesh: TriangleMesh) -> TriangleMesh:
-    """The mesh without how the stream was made that it was decoded from: the next one is made otherwise."""
-    own = PROVENANCE if str(mesh.metadata.get(PROVENANCE, "")).startswith("bsm ") else None
-    return replace(mesh, metadata={name: value for name, value in mesh.metadata.items() if name != own})
-
-
-def with_metadata(mesh: TriangleMesh, options: "EncodeOptions | None", metadata: Metadata) -> TriangleMesh:
-    """The mesh with more metadata; without names of attributes that are left out, and materials if all are."""
-    qualities = dict(options.attributes) if options else {}
-    left = {a.name for a in mesh.attributes if qualities.get(a.name, qualities.get("*")) == "none"} - {"material"}
-    bare = qualities.get("*") == "none" and set(qualities.values()) == {"none"}
-    known = without_names(without_materials(mesh.metadata) if bare else mesh.metadata, left)
-    precision = PRECISION if is_single_and_far(mesh.positions) else {}
-    return replace(mesh, metadata={**precision, **known, **metadata})
-
-
-def with_texels(options: "EncodeOptions", mesh: TriangleMesh) -> "EncodeOptions":
-    """Let texture coordinates be off by a quarter of a texel of the largest image, where looks choose their quality."""
-    side, promise = largest_side(mesh.metadata), options.promise
-    asked = dict(options.attributes)
-    if not side or "*" in asked or promise is None or promise.look == math.inf:
-        return options
-    bounds = {
-        a.name: repr(0.25 / side) for a in mesh.attributes if a.semantic == "texcoord" and a.values.dtype.kind == "f"
-    }
-    return replace(options, attributes={**bounds, **asked})
 
 
 def read_any(source: Input, **reading: Any) -> TriangleMesh:

@@ -400,6 +400,25 @@ def state_of(path: str) -> State | None:
     return found or None
 
 
+def digest_of(path: str) -> str | None:
+    from hashlib import sha256
+
+    found = sha256()
+    try:
+        for file in files_behind(path):
+            for chunk in read_chunks(file):
+                found.update(chunk)
+    except OSError:
+        return None
+    return found.hexdigest()
+
+
+def require_there(path: str) -> None:
+    """Raise `FileNotFoundError` unless an input is there, or is a pipe, a URL or a pattern, of which reading tells."""
+    if path != "-" and not is_url(path) and not glob.has_magic(path) and "%" not in path:
+        os.stat(path)
+
+
 def size_of(path: str) -> int | None:
     """Return the bytes of the files of an input or output; None for a pipe, or if a server does not tell."""
     if is_url(path):

@@ -19,11 +19,11 @@ from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.graph import components, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import degenerate, group_rows, weld
-from bsm.codec.static.encoder import Encoder
-from bsm.encoding.options import encode_options
+from bsm.encoding.given import given_part
 from bsm.files.conventions import shares_of
 from bsm.gltf import document as gltf
 from bsm.gltf.coding import COMPONENTS, DRACO, FLOAT, PIECE, TRANSFORM, TRIANGLES, TRIANGULAR, Array, Drawn, Tree, drawn
+from bsm.ground.console import Progress
 
 _TEXCOORD: tuple[Semantic, int] = ("texcoord", 2)
 _SEMANTICS = {"NORMAL": ("normal", 3), "TEXCOORD_0": _TEXCOORD, "TEXCOORD_1": _TEXCOORD}
@@ -231,8 +231,8 @@ def code_bundle(found: Carried | str, pieces: int, options: Mapping[str, Any]) -
     order = {"keep_order": True} if found.opens else {}
     try:
         given = {"threads": 1, **options, **order, "attributes": {**qualities, **asked}}
-        encoder = Encoder(found.mesh, encode_options(**given))
-        stream = encoder.encode()
+        coded = given_part(found.mesh, **given).encode(Progress(""))
+        encoder, stream = coded.encoder, b"".join(coded.attempt.frames)
         decoded = decode(stream)
     except BsmError as error:
         return f"no stream: {error}"

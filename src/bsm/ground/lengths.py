@@ -1,32 +1,51 @@
-"""Lengths with units: `0.05mm`, `0.1%`, `0.001`."""
+"""Lengths with units: `0.05mm`, `0.1%`, `0.001`; and the one table of units."""
 
 import re
 from collections.abc import Mapping
 from numbers import Real
-from typing import Any
+from typing import Any, NamedTuple
 
 from bsm.bitstream.errors import ArgumentError, OptionError
+from bsm.codec.choices import suggestion
 from bsm.codec.geometry.mesh import TriangleMesh
 
 NUMBER = r"((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)"
-LENGTH = re.compile(NUMBER + r" *(%|[a-zA-Zµ]*)")
+LENGTH = re.compile(NUMBER + r" *(%|[a-zA-Zµμ]*)")
 """A number and its unit: % of the diagonal, or the mesh's unit; without a unit, a fraction of the diagonal."""
-IN_METRES = {
-    **dict.fromkeys(("m", "meter", "metre"), 1.0),
-    **dict.fromkeys(("dm", "decimeter", "decimetre"), 0.1),
-    **dict.fromkeys(("cm", "centimeter", "centimetre"), 0.01),
-    **dict.fromkeys(("mm", "millimeter", "millimetre"), 0.001),
-    **dict.fromkeys(("um", "µm", "micron", "micrometer", "micrometre"), 1e-6),
-    **dict.fromkeys(("km", "kilometer", "kilometre"), 1000.0),
-    **dict.fromkeys(("in", "inch", "inche"), 0.0254),
-    **dict.fromkeys(("ft", "foot", "feet"), 0.3048),
+UNITS = {
+    "nm nanometers nanometer nanometre": 1e-9,
+    "um micrometers micrometer micrometre micron µm": 1e-6,
+    "mm millimeters millimeter millimetre": 0.001,
+    "cm centimeters centimeter centimetre": 0.01,
+    "dm decimeters decimeter decimetre": 0.1,
+    "m meters meter metre": 1.0,
+    "km kilometers kilometer kilometre": 1000.0,
+    "mil thou": 2.54e-5,
+    "in inches inch": 0.0254,
+    "ft feet foot": 0.3048,
+    "yd yards yard": 0.9144,
+    "mi miles mile": 1609.344,
 }
-"""Known units, in the singular."""
+"""Each known unit: as it is typed, as metadata have it, other names in the singular; and its meters."""
+IN_METRES = {name: size for names, size in UNITS.items() for name in names.split()}
+_SHORT = ", ".join(names.split()[0] for names in UNITS)
 
 
-def parse_length(name: str, value: Any) -> tuple[float, bool]:
+class Length(NamedTuple):
+    """A length: in the unit of the mesh, or as a fraction of the diagonal."""
+
+    value: float
+    absolute: bool
+
+
+def parse_length(name: str, value: Any) -> Length:
+    """Return a length that needs no unit of a mesh; of others `in_own_unit` has made a `Length`."""
+    if isinstance(value, Length):
+        return value
     number, unit = _parts(name, value)
-    return (number / 100.0, False) if unit == "%" else (number, bool(unit))
+    if unit not in ("", "%"):
+        raise UnitError(f"{name} is in {unit}, which needs a mesh with a unit: {value!r}")
+    return Length(number / 100.0 if unit else number, False)
 
 
 _MANY = re.compile(rf"(?:{NUMBER} *\*? *)?([a-zµ]+)")
@@ -44,7 +63,7 @@ def parse_bytes(name: str, value: Any) -> float:
 
 
 class UnitError(OptionError):
-    """The unit of a mesh is needed, and the mesh does not say it."""
+    """A unit is needed and not given, or not known."""
 
 
 DOUBTFUL = 0.02  # of the diagonal: a bare number from here on may be meant as a length
@@ -53,9 +72,11 @@ DOUBTFUL = 0.02  # of the diagonal: a bare number from here on may be meant as a
 def in_own_unit(
     options: Mapping[str, Any], metadata: Mapping[str, Any], mesh: TriangleMesh | None = None
 ) -> dict[str, Any]:
-    """Convert options that are lengths to the unit of the mesh; `OptionError` if either has no unit."""
+    """Return options with lengths in the unit of the mesh; `UnitError` if a unit is not known, or the mesh has none."""
     value, own, mesh = options.get("max_error"), unit_of(metadata), mesh and mesh.without_isolated_vertices()[0]
-    number, unit = (0.0, "") if value is None else _parts("max_error", value)
+    if value is None or isinstance(value, Length):
+        return dict(options)
+    number, unit = _parts("max_error", value)
     if unit == "" and number >= DOUBTFUL:
         here = f", {number * mesh.diagonal:.3g} {own}".rstrip() + " here" if mesh else ""
         raise OptionError(
@@ -63,20 +84,40 @@ def in_own_unit(
             f"for a length {number:g}{own or 'mm'}"
         )
     if unit in ("", "%"):
-        return {}
+        return {**options, "max_error": parse_length("max_error", value)}
+    asked = known_unit(unit, "max_error")
     if not own:
-        other = "mm" if unit in ("m", "meter", "meters") else "m"
+        other = "mm" if asked == 1.0 else "m"
         long = float((mesh.positions.max(axis=0) - mesh.positions.min(axis=0)).max()) if mesh else 0.0
-        asked = f"is it {long:.3g} {other} or {long:.3g} {unit} long?" if long else "which is it?"
+        which = f"is it {long:.3g} {other} or {long:.3g} {unit} long?" if long else "which is it?"
         raise UnitError(
-            f"max_error is in {unit}, but the mesh has no unit: {asked} Give it, --meta unit={other} or --meta "
+            f"max_error is in {unit}, but the mesh has no unit: {which} Give it, --meta unit={other} or --meta "
             f"unit={unit} (in Python, metadata={{'unit': '{unit}'}}), or give max_error in percent of the diagonal, "
             "such as 0.1%"
         )
-    size, asked_for = metres(own), metres(unit)
-    if size is None or asked_for is None or asked_for == size:
-        return {}
-    return {"max_error": f"{number * asked_for / size:.12g}{own.strip()}"}
+    size = known_unit(own, "the mesh")
+    return {**options, "max_error": Length(number if asked == size else float(f"{number * asked / size:.12g}"), True)}
+
+
+def as_said(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return options with lengths as if the mesh were in their unit, to check what can be checked without a mesh."""
+    value = options.get("max_error")
+    if value is None or isinstance(value, Length):
+        return dict(options)
+    number, unit = _parts("max_error", value)
+    if unit in ("", "%"):
+        return {**options, "max_error": parse_length("max_error", value)}
+    known_unit(unit, "max_error")
+    return {**options, "max_error": Length(number, True)}
+
+
+def known_unit(unit: object, where: str) -> float:
+    """Return the meters of a unit that is known; `UnitError` suggests a similar one."""
+    if isinstance(unit, str) and (size := metres(unit)):
+        return size
+    word = _MANY.fullmatch(str(unit).strip().lower())
+    advice = suggestion(word[2], IN_METRES) if word else ""
+    raise UnitError(f"{where}: unknown unit {unit!r}{advice}{'' if advice else f'; known are {_SHORT}'}")
 
 
 def asked_unit(options: Mapping[str, Any], metadata: Mapping[str, Any]) -> tuple[str, float]:
@@ -98,10 +139,16 @@ def _parts(name: str, value: Any) -> tuple[float, str]:
 
 def metres(unit: str) -> float | None:
     """Return the meters of a unit, such as mm, or of a number of units, such as 0.5 m; None: it is unknown."""
-    found = _MANY.fullmatch(unit.strip().lower())
+    found = _MANY.fullmatch(unit.strip().lower().replace("μ", "µ"))  # mu, and the sign for a millionth
     name = found[2] if found else ""
     size = IN_METRES.get(name, IN_METRES.get(name.removesuffix("s")))
     return None if found is None or size is None else float(found[1] or 1.0) * size or None
+
+
+def unit_named(size: float) -> str:
+    """Return the name of a unit of so many meters, as in metadata."""
+    names = next((names.split()[1] for names, meters in UNITS.items() if abs(meters - size) < 1e-7 * meters), "")
+    return names or f"{size:.9g} meters"
 
 
 def unit_of(metadata: Mapping[str, Any]) -> str:

@@ -12,34 +12,28 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from bsm import __version__
 from bsm.account.comparison import write_permutation
 from bsm.bitstream.errors import HarmError, OptionError, counted
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.encoding.options import encode_options, sequence_options
-from bsm.encoding.simplification import Chosen, encode_source
+from bsm.encoding.given import Recipe, Wishes, given_frames, given_mesh
+from bsm.encoding.simplification import Chosen
 from bsm.files.formats.metadata import images_in
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.images import ImageRule, digests_in, is_link, largest_side, with_links, with_smaller_images
-from bsm.files.libraries import PROVENANCE, with_metadata, with_texels
 from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
-from bsm.files.pipes import size_of
+from bsm.files.pipes import require_there, size_of
 from bsm.files.sequence import open_frames, open_sequence
 from bsm.files.table import WITH_IMAGES_BESIDE
 from bsm.ground.console import Console, Progress, finite
-from bsm.ground.lengths import asked_unit, in_own_unit
-from bsm.jobs.report import digest_of
 from bsm.jobs.run import Batch, run_many
 from bsm.jobs.task import Facts, Job, Task, came_to
 
 READ = 0.08  # of the time of a mesh
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
 """Options that only sequences have; with them a GLB is read as a sequence."""
-_GENERATION = re.compile(r" generation=(\d{1,6})")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,6 +56,17 @@ class EncodeJob(Task):
     dry_run: bool = False
     images: str | None = None
 
+    @property
+    def wishes(self) -> Wishes:
+        origin = {"source_name": Path(self.input).name} if self.recursive else {}
+        return Wishes(
+            keywords={**self.options, "threads": self.threads},
+            metadata={**origin, **self.metadata},
+            simplify=self.simplify,
+            provenance=self.provenance,
+            source=self.input,
+        )
+
 
 def shared_images(run: Batch, asked: EncodeJob, console: Console, jobs: Sequence[Job]) -> tuple[str, ...]:
     """Return the digests of the images that several meshes have in files beside them; reads these meshes first."""
@@ -83,6 +88,10 @@ def _read(job: EncodeJob) -> MeshFile:
 
 
 def encode_one(job: EncodeJob, console: Console) -> Facts:
+    wishes = job.wishes
+    wishes.check()
+    for name in job.members or (job.input,):
+        require_there(name)
     for path in filter(None, (job.output, job.permutation)):
         refuse_to_overwrite(path, job.may_replace(path))
     runs = bool(job.options.get("runs"))
@@ -91,39 +100,35 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     limits, apart = (Limits.service(), True) if job.untrusted else (DEFAULT_LIMITS, None)
     wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
     if job.members:
-        return _encode_sequence(job, console, open_frames(job.members, job.format, limits, wanted, isolated=apart))
+        members = open_frames(job.members, job.format, limits, wanted, isolated=apart)
+        return _encode_sequence(job, wishes, console, members)
     sequence = open_sequence(job.input, job.format, None if plain else wanted, limits, isolated=apart)
     if sequence is not None:
-        return _encode_sequence(job, console, sequence)
+        return _encode_sequence(job, wishes, console, sequence)
     for name, given in (("animation", job.animation), ("mesh", job.cache_mesh)):
         if given is not None:
             raise OptionError(f"--{name} is for sequences; this is a single mesh")
-    return _encode_mesh(job, console)
+    return _encode_mesh(job, wishes, console)
 
 
-def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
-    chosen = encode_options(**job.options, threads=job.threads)
+def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
     with console.progress("reading", until=READ):
         source = _read(job)
     if source.dropped and job.options.get("preset") == "lossless" and not job.force:
         lost = ", ".join(source.dropped)
         raise HarmError(f"lossless would lose contents that no stream holds: {lost}; --force leaves them out")
-    origin = {"source_name": Path(job.input).name} if job.recursive else {}
-    mesh = with_metadata(source.mesh, chosen, {**origin, **job.metadata})
-    left_out = source.mesh.metadata.keys() - mesh.metadata.keys()
-    entries, linked = _images_of(job, mesh.metadata)
-    mesh = replace(mesh, metadata=entries)
-    if lengths := in_own_unit(job.options, mesh.metadata, mesh):
-        chosen = encode_options(**{**job.options, **lengths}, threads=job.threads)
-    chosen, side = with_texels(chosen, source.mesh), largest_side(source.mesh.metadata)
-    begin = time.perf_counter()
-    options = {**job.options, "simplify": job.simplify}
-    known, generations = with_provenance(mesh.metadata, job.provenance, job.input, options, chosen)
-    mesh = replace(mesh, metadata=known)
+    linked: dict[str, bytes] = {}
+
+    def images(metadata: Metadata) -> Metadata:
+        found, files = _images_of(job, metadata)
+        linked.update(files)
+        return found
+
+    given, begin = given_mesh(source.mesh, replace(wishes, images=images)), time.perf_counter()
     if job.simplify and job.permutation:
         raise OptionError("--permutation orders all vertices, and --simplify leaves some out")
     with _written(job, console) as (file, progress):
-        found = encode_source(mesh, chosen, progress, simplify=job.simplify)
+        found = given.encode(progress)
         encoder, result = found.encoder, found.attempt
         file.writelines(result.frames)
         if job.permutation:  # before the stream has its name, so that no stream stands beside another's
@@ -132,26 +137,27 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
             Path(name).parent.mkdir(exist_ok=True)
             write_output(name, data, overwrite=True, follow=str(Path(name).parents[1]))
     seconds = time.perf_counter() - begin
-    notes = [*source.notes, *generations, *found.notes, *(_in_texels(note, mesh, side) for note in encoder.notes)]
-    notes += ["left out: materials, images"] if left_out else []
-    more, summary, facts = _result(job, chosen, found, source.mesh.metadata, mesh.metadata, linked)
+    side = largest_side(source.mesh.metadata)
+    notes = [*source.notes, *given.losses, *found.notes, *(_in_texels(n, given.mesh, side) for n in encoder.notes)]
+    notes += given.notes[len(given.losses) :]
+    more, summary, facts = _result(job, given, found, source.mesh.metadata, linked)
     return _finish(job, console, notes + more, summary, seconds, facts)
 
 
 def _result(
-    job: EncodeJob, chosen: Any, found: Chosen, given: Metadata, sent: Metadata, linked: Mapping[str, bytes]
+    job: EncodeJob, given: Recipe, found: Chosen, source: Metadata, linked: Mapping[str, bytes]
 ) -> tuple[list[str], str, Facts]:
     """Return notes on images and the look of a stream, its sizes and errors in words, and as facts."""
-    encoder, size, promise = found.encoder, found.attempt.size, chosen.promise
-    images = sum(len(value) for value in sent.values() if isinstance(value, bytes))
+    encoder, size, promise = found.encoder, found.attempt.size, given.options.promise
+    images = sum(len(value) for value in given.mesh.metadata.values() if isinstance(value, bytes))
     smaller = "" if job.images or 2 * images < size else "; --images webp:85 makes them smaller"
-    unseen = not chosen.is_grid and (promise is None or promise.look == math.inf)
+    unseen = not given.options.is_grid and (promise is None or promise.look == math.inf)
     notes = ["left out: images"] if job.images == "none" else []
     notes += [f"{images} bytes are {'' if job.images else 'unchanged '}images{smaller}"] if images else []
     notes += [f"no look is promised; measured: {encoder.seen(found.attempt)}"] if unseen else []
     vertices, faces = found.attempt.header.vertices, len(encoder.mesh.faces)
-    errors, numbers = _errors(found, job.simplify, *asked_unit(job.options, sent))
-    (taken, parts), bpv = size_with_parts(job.input, given), 8 * (size - images) / vertices
+    errors, numbers = _errors(found, job.simplify, *given.unit)
+    (taken, parts), bpv = size_with_parts(job.input, source), 8 * (size - images) / vertices
     beside = {name: len(data) for name, data in linked.items()}
     written = size + sum(beside.values())
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
@@ -205,33 +211,26 @@ def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[s
     return f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees{kept}", facts
 
 
-def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
+def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: Frames) -> Facts:
     """Encode one sequence; write each GOP as soon as its frames have arrived."""
     for name in ("images", "simplify"):
         if getattr(job, name):
             raise OptionError(f"--{name} is for single meshes; this is a sequence")
     begin = time.perf_counter()
-    chosen = sequence_options(**{"keep_order": source.rigged > 0, **job.options}, threads=job.threads)
-    source = source.on_sorted_faces() if source.rigged and chosen.keep_order else source
-    if job.permutation and chosen.runs:
+    if job.permutation and job.options.get("runs"):
         raise OptionError("--permutation is the order of one mesh; with --runs the faces change")
-    rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
-    entries = {**source.metadata, **rate, **job.metadata}
-    if lengths := in_own_unit(job.options, entries, None):
-        chosen = sequence_options(**{"keep_order": source.rigged > 0, **job.options, **lengths}, threads=job.threads)
-    metadata, generations = with_provenance(entries, job.provenance, job.input, job.options, chosen)
-    encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
-    numbers, size = count(), 0
+    given, numbers, size = given_frames(source, wishes), count(), 0
+    given = replace(given, frames=(frame for frame, _ in zip(given.frames, numbers)))
+    encoder, chosen = given.encoder, given.encoder.options
     with _written(job, console) as (file, progress):
-        frames: Any = source.meshes or source.frames
-        for chunk in encoder.chunks((frame for frame, _ in zip(frames, numbers)), progress):
+        for chunk in given.chunks(progress):
             size += file.write(chunk)
             file.flush()
         if job.permutation:  # before the stream has its name, so that no stream stands beside another's
             write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
-    notes = [*source.notes, *generations, *encoder.notes, *([describe_runs(runs)] if runs else [])]
+    notes = [*source.notes, *given.losses, *encoder.notes, *([describe_runs(runs)] if runs else [])]
     look, seen = math.inf if chosen.promise is None else chosen.promise.look, encoder.worst_look
     if look == math.inf and seen is not None:
         where = "in the frame with the largest normal error"
@@ -261,30 +260,3 @@ def _finish(job: EncodeJob, console: Console, notes: list[str], summary: str, se
     console.note(f"{job.input} -> {job.output}: {summary}; {seconds:.2f} s")
     output = None if job.dry_run else job.output
     return {"input": job.input, "output": output, **facts, "seconds": seconds, "notes": notes}
-
-
-def with_provenance(
-    metadata: Metadata, asked: bool | None, path: str, given: Mapping[str, Any], options: Any
-) -> tuple[Metadata, list[str]]:
-    """Return metadata with a provenance entry, if it is requested or the input has one, and notes."""
-    said = str(metadata.get(PROVENANCE, ""))
-    if not said.startswith("bsm "):
-        return {**metadata, **({PROVENANCE: _words(path, given, options, 1)} if asked else {})}, []
-    found = _GENERATION.search(said)
-    generation = 1 + int(found[1] if found else 1)
-    more = "" if getattr(options, "is_grid", False) else ": errors add up, so encode the original if you have it"
-    notes = [f"the mesh was decoded from a stream, so this is generation {generation}{more}"]
-    kept = {name: value for name, value in metadata.items() if name != PROVENANCE}
-    whole = asked or " sha256=" in said
-    words = _words(path, given, options, generation) if whole else f"bsm {__version__} generation={generation}"
-    return kept if asked is False else {**kept, PROVENANCE: words}, notes
-
-
-def _words(path: str, given: Mapping[str, Any], options: Any, generation: int) -> str:
-    parts = [f"bsm {__version__}", given.get("preset") or ("balanced" if options.promise else "none")]
-    plain = {name: value for name, value in given.items() if name != "preset" and isinstance(value, str | int | float)}
-    parts += [f"{name}={value}" for name, value in plain.items() if value is not False]
-    parts += [f"generation={generation}"] if generation > 1 else []
-    if Path(path).is_file():
-        parts.append(f"sha256={digest_of(path)}")
-    return " ".join(parts)

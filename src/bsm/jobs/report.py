@@ -109,11 +109,11 @@ def recorded(work: Work, task: Task, console: Console) -> Facts:
     """Do a task and record the state of input and output; skip it if both are as in `task.before`."""
     state, before = pipes.state_of(task.input), task.before
     as_before = before is not None and state is not None and before.get("input_state") == state
-    if before and as_before and before.get("output_sha256") == digest_of(before["output"]):
+    if before and as_before and before.get("output_sha256") == pipes.digest_of(before["output"]):
         return {**before, "resumed": True}
     apart = replace(console, kept=[])
     facts = _compared(work, task, apart) if task.output in task.doubtful else work(task, apart)
-    return {"notes": apart.kept, **facts, "input_state": state, "output_sha256": digest_of(facts["output"])}
+    return {"notes": apart.kept, **facts, "input_state": state, "output_sha256": pipes.digest_of(facts["output"])}
 
 
 def _compared(work: Work, task: Task, console: Console) -> Facts:
@@ -125,22 +125,9 @@ def _compared(work: Work, task: Task, console: Console) -> Facts:
     with tempfile.TemporaryDirectory() as folder:
         second = str(Path(folder, path.name))
         facts = work(replace(task, output=second), console)
-        if digest_of(second) != digest_of(task.output):
+        if pipes.digest_of(second) != pipes.digest_of(task.output):
             raise refuse
     return {**facts, "output": task.output}
-
-
-def digest_of(path: str) -> str | None:
-    from hashlib import sha256
-
-    found = sha256()
-    try:
-        for file in pipes.files_behind(path):
-            for chunk in pipes.read_chunks(file):
-                found.update(chunk)
-    except OSError:
-        return None
-    return found.hexdigest()
 
 
 def totals(files: Sequence[Facts]) -> Facts:

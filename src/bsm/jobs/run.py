@@ -16,7 +16,7 @@ from bsm.files.output import refuse_collisions, refuse_to_overwrite
 from bsm.ground.console import Console, Progress, print_json
 from bsm.ground.exits import exit_of, report_error, worded
 from bsm.ground.lengths import UnitError
-from bsm.jobs.report import NOTHING, Earlier, Report, digest_of, options_of, read_report, recorded, table, totals
+from bsm.jobs.report import NOTHING, Earlier, Report, options_of, read_report, recorded, table, totals
 from bsm.jobs.task import Facts, Job, Outcome, Outcomes, Task, Tasks, Work, anywhere, came_to, outcome_of
 
 LEAST = 1 << 16  # bytes that an input counts as, for the work that does not depend on its size
@@ -181,7 +181,7 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
         n for n in replaceable if (pipes.state_of_remote(n) is not None if pipes.is_url(n) else os.path.lexists(n))
     }
     named = replaceable & earlier.outputs.keys()
-    mine = frozenset(name for name in named if name not in there or earlier.outputs[name] == digest_of(name))
+    mine = frozenset(name for name in named if name not in there or earlier.outputs[name] == pipes.digest_of(name))
     return replace(
         asked,
         input=job.input,

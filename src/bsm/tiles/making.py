@@ -13,14 +13,12 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import farthest_from_surface
 from bsm.codec.geometry.welding import degenerate, row_numbers
-from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions
+from bsm.encoding.given import given_part
 from bsm.encoding.simplification import collapsed, compact
 from bsm.files.formats.npz import write_npy
 from bsm.files.images import ImageRule
-from bsm.files.libraries import with_texels
 from bsm.files.output import open_output, write_output
-from bsm.ground.console import Console
+from bsm.ground.console import Console, Progress
 from bsm.jobs.task import Facts, Task
 from bsm.tiles.atlas import Skin, cut_out, joined_skins, side_of_texel, skin_of, textured, wedges_of
 from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, along_curve, load_plan
@@ -59,9 +57,9 @@ def tile_one(job: TileJob, console: Console) -> Facts:
         with open_output(folder / f"{name}.mesh", overwrite=True, follow=False) as file:
             for table in (np.array(error), places, mesh.faces, skin, *(_of_vertices(a, mesh) for a in mesh.attributes)):
                 write_npy(file, table)
-    options = EncodeOptions(grid_cell=plan.lattice.cell, grid_origin=plan.lattice.origin, threads=1)  # type: ignore[arg-type]
-    sent = replace(sent, positions=plan.lattice.positions(places))
-    data = Encoder(sent, with_texels(options, sent)).encode()
+    sent, cells = replace(sent, positions=plan.lattice.positions(places)), plan.lattice
+    part = given_part(sent, grid_cell=cells.cell, grid_origin=tuple(cells.origin), threads=1)
+    data = b"".join(part.encode(Progress("")).attempt.frames)
     write_output(job.output, data, overwrite=True, follow=False)
     ends = {"low": places.min(axis=0).tolist(), "high": places.max(axis=0).tolist()}
     counts = {"vertices": len(places), "faces": len(mesh.faces), "apart": error, "joined": joined}

@@ -28,17 +28,14 @@ from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
 from bsm.codec.geometry.metrics import distances_to_surface, farthest_from_surface, surface_distance
 from bsm.codec.look.measure import look
-from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import PROMISES
 from bsm.codec.sequence.step_search import KNOTS, shading_error
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS as ALL
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import Contract
-from bsm.encoding.options import encode_options, sequence_options
-from bsm.encoding.simplification import encode_source
+from bsm.encoding.given import Wishes, given_frames, given_mesh
 from bsm.files.formats.polygons import MeshFile
-from bsm.files.libraries import with_texels, without_provenance
 from bsm.files.mesh import by_name, parts_of, read_mesh, size_with_parts
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name
@@ -235,19 +232,19 @@ def made(
     report("encoding", 0.0)
     begin = time.perf_counter()
     source: TriangleMesh | Frames = given.mesh if isinstance(given, MeshFile) else given
+    wishes = Wishes(keywords={"preset": preset})
     notes, less = list(given.notes), isinstance(given, MeshFile) and bool(given.dropped)
     if isinstance(source, TriangleMesh):
-        chosen = with_texels(encode_options(preset=preset), source)
-        found = encode_source(without_provenance(source), chosen, Progress(""), simplify=False)
+        asked = given_mesh(source, wishes)
+        found = asked.encode(Progress(""))
         stream = b"".join(found.attempt.frames)
-        notes += found.encoder.losses
+        notes += [*asked.losses, *found.encoder.losses]
     else:
         frames = np.array(list(source.frames))
         source = replace(source, frames=iter(frames))
-        kept = {**source.metadata, **({"frame_rate": source.frame_rate} if source.frame_rate else {})}
-        encoder = SequenceEncoder(source.faces, sequence_options(preset=preset), len(frames), kept, source.attributes)
-        stream = b"".join(encoder.chunks(iter(frames), Progress("")))
-        notes += encoder.losses
+        moving = given_frames(replace(source, count=len(frames), frames=iter(frames)), wishes)
+        stream = b"".join(moving.chunks(Progress("")))
+        notes += [*moving.losses, *moving.encoder.losses]
     seconds = time.perf_counter() - begin
     report("comparing", _ENCODING)
     content = compared(name, stream, source, size=size, preset=preset)

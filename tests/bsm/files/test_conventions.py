@@ -10,7 +10,7 @@ import pytest
 from bsm import Attribute, FormatError, MeshError, TriangleMesh, __version__, read_mesh
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.cli import main
-from bsm.files.conventions import placement, unit_named
+from bsm.files.conventions import placement
 from bsm.files.formats.appearance import Texture, appearance, in_mtl
 from bsm.files.formats.metadata import in_words, materials_in
 from bsm.files.formats.polygons import Column, Part, joined_parts
@@ -18,7 +18,7 @@ from bsm.files.mesh import write_mesh, written_mesh
 from bsm.files.motion.frames import Shared
 from bsm.files.sequence import sequence_writer
 from bsm.gltf.coding import MATTE
-from bsm.ground.lengths import metres
+from bsm.ground.lengths import metres, unit_named
 from tests.bsm.files.test_file_attributes import png
 from tests.gltf import unpack
 

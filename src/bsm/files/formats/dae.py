@@ -14,12 +14,12 @@ import numpy as np
 from bsm.bitstream.errors import imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Semantic
-from bsm.files.conventions import unit_named
 from bsm.files.formats.appearance import Material, Texture, as_text
 from bsm.files.formats.metadata import Beside, Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, cut_holes, joined_parts
 from bsm.files.parsing import Doubles, Ints, as_library_error, in_words
 from bsm.files.unread import Taken, rows_of
+from bsm.ground.lengths import unit_named
 
 _SEMANTICS: dict[str, Semantic] = {"NORMAL": "normal", "TEXCOORD": "texcoord", "COLOR": "color"}
 _MOST_ERRORS = 8  # of pycollada that notes name

@@ -18,13 +18,13 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
-from bsm.files.conventions import placement, unit_named
+from bsm.files.conventions import placement
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import Material, appearance, as_text, held_by, lost, one_line, within
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
 from bsm.files.parsing import NO_DOUBLES, Doubles, Ints, as_format_error, as_library_error, single_suffices
 from bsm.files.unread import Taken, rows_of
-from bsm.ground.lengths import metres
+from bsm.ground.lengths import metres, unit_named
 
 _SIZES = (1e-6, 0.001, 0.01, 0.0254, 0.3048, 1.0)  # of the units in meters, as lib3mf counts them
 _KNOWN = ("Title", "Designer", "Description", "Copyright", "LicenseTerms", "Rating", "CreationDate", "Application")

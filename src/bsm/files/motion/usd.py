@@ -32,7 +32,7 @@ from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, between, painted_like
 from bsm.files.parsing import Doubles, Ints, as_format_error, as_library_error, require_counts, single_suffices
 from bsm.files.unread import Said, Taken, rows_of
-from bsm.ground.lengths import metres, unit_of
+from bsm.ground.lengths import metres, unit_named, unit_of
 
 _COORDINATES = "st"  # what texture coordinates are called
 _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader_float2"
@@ -671,7 +671,7 @@ class _Stage:
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         of_materials, absent = materials.metadata(self._limits)
-        metadata = {"up": up, "unit": conventions.unit_named(unit), **named, **found.metadata, **of_materials}
+        metadata = {"up": up, "unit": unit_named(unit), **named, **found.metadata, **of_materials}
         metadata |= {"provenance": said} if (said := self.stage.GetRootLayer().comment).startswith("bsm ") else {}
         own = self.parts[0].prim.GetPath()
         metadata |= {"prim": str(own)} if len(self.parts) == 1 and own.pathElementCount > 1 else {}
