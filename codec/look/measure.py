@@ -23,11 +23,13 @@ from bsm.codec.look.pictures import (
     BACKGROUND,
     LEAST_PIXELS,
     MOST_PIXELS,
+    TOWARDS,
     Canvas,
     Normals,
     Picture,
     Shape,
     Size,
+    axes,
     cameras,
     checker_steepness,
     difference,
@@ -242,19 +244,13 @@ class LookMetric:
             pictures.append(self._drawn(placed, np.ascontiguousarray(mesh.faces, np.int32), normals))
         return summed(np.array([difference(*pair) for pair in zip(*pictures, strict=True)])).distance
 
-    def pictures(self, other: TriangleMesh) -> tuple[Picture, Picture]:
-        """Samples of both meshes from the side where they differ most, each of shape (pixels, pixels)."""
+    def view(self, other: TriangleMesh) -> Matrix:
+        """The axes of the camera that sees both meshes differ most, as rows: right, up, towards the camera."""
         placed = self._placed(other.positions)
         shape = Shape.of(placed, other.faces)
         drawn = self._drawn(placed, shape.faces, shape.normals(placed))
         originals = self._each(self._pictures.picture, self._sides)
-        most = max(self._sides, key=lambda side: float(difference(originals[side], drawn[side])[0]))
-        both = []
-        for at, made in ((self._placed(self._mesh.positions), self._shape), (placed, shape)):
-            canvas = Canvas(self.pixels)
-            canvas.draw(at, made.faces, made.normals(at), self._cameras[most], owned=False)
-            both.append(canvas.samples)
-        return both[0], both[1]
+        return axes(TOWARDS[max(self._sides, key=lambda side: float(difference(originals[side], drawn[side])[0]))])
 
     def _placed(self, positions: Positions) -> Positions:
         with np.errstate(over="ignore"):

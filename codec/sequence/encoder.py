@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from types import MappingProxyType
@@ -89,6 +89,10 @@ class SequenceEncoder:
         The numbers of the first frames of all runs so far.
     samples : int
         Vertices times frames so far.
+    max_error, max_error_relative : float
+        The largest error of a vertex so far, in the unit of the mesh, and over the diagonal of the first frame.
+    attribute_errors : mapping of str to float
+        The largest error so far of each attribute that may move.
     kg : float
         The error of Karni and Gotsman so far, in percent, measured on decoded frames.
     worst_look : float or None
@@ -133,6 +137,18 @@ class SequenceEncoder:
     @property
     def kg(self) -> float:
         return self._verifier.kg
+
+    @property
+    def max_error(self) -> float:
+        return self._verifier.farthest
+
+    @property
+    def max_error_relative(self) -> float:
+        return self._verifier.farthest_relative
+
+    @property
+    def attribute_errors(self) -> Mapping[str, float]:
+        return self._verifier.attribute_errors
 
     @property
     def worst_look(self) -> float | None:

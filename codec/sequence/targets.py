@@ -22,6 +22,7 @@ class SequenceComparison:
     theta_deg: float
     nmsve_db: float
     rms_relative: float
+    max_error: float
     max_error_relative: float
     flicker: float
 
@@ -54,6 +55,7 @@ def compare_runs(runs: Runs) -> tuple[SequenceComparison, list[dict[str, float]]
         theta_deg=float(np.mean([frame.theta_deg for frame in seen])),
         nmsve_db=10.0 * math.log10(nmsve) if nmsve > 0.0 else -math.inf,
         rms_relative=math.sqrt(float(np.mean([frame["rms_relative"] ** 2 for frame in each]))),
+        max_error=max(frame.max_error for frame in seen),
         max_error_relative=max(frame["max_error_relative"] for frame in each),
         flicker=_percent(flicker, motion if motion > 1e-13 * extent else 0.0),  # less is a constant speed, rounded
     )

@@ -35,6 +35,10 @@ class ExpectedFrame:
     moving: tuple[Expected, ...] = ()
 
 
+def diagonal_of(positions: Positions) -> float:
+    return float(np.linalg.norm(np.ptp(positions, axis=0))) or 1.0
+
+
 class SequenceVerifier:
     """Decodes a sequence chunk by chunk, measures the promise, and collects originals and results in `shown`."""
 
@@ -46,6 +50,8 @@ class SequenceVerifier:
         self._ended = False
         self._wrong = self._extent = 0.0  # sums of squares over all frames
         self._worst: tuple[float, Positions, Positions, Faces] | None = None
+        self.farthest = self.farthest_relative = 0.0  # the largest error of a vertex so far, and over the diagonal
+        self.attribute_errors: dict[str, float] = {}  # the largest errors so far of attributes that move
         self.faces: Faces = np.zeros((0, 3), np.int32)
 
     @property
@@ -96,6 +102,7 @@ class SequenceVerifier:
         require(bool(self._meshes), "the decoder returned a mesh that was not encoded")
         self._original, self._carried = self._meshes.popleft()
         self._matched = self._original.matched(faces, vertices)
+        self._diagonal = 0.0
         self._checked, self.faces, self._once = False, faces, np.unique(self._matched, return_index=True)[1]
 
     def _compare(self, frame: FrameEvent) -> None:
@@ -110,6 +117,8 @@ class SequenceVerifier:
             self._checked = True
         for each in expected.moving:
             decoded = np.asarray(frame.attributes[each.number].values, np.float64)
+            name, apart = frame.attributes[each.number].name, np.abs(decoded[self._once] - each.values)
+            self.attribute_errors[name] = max(self.attribute_errors.get(name, 0.0), float(apart.max(initial=0.0)))
             off = each.bound.between(decoded[self._once], each.values.astype(np.float64))  # averages count no copies
             require(off <= 1.0, f"a decoded attribute that moves is {off:.3g} times as far off as it may be")
             require(np.array_equal(decoded, decoded[self._once][self._matched]), "decoded copies of a vertex differ")
@@ -123,8 +132,11 @@ class SequenceVerifier:
             self._shown.append((original, decoded, faces))
         self._wrong += float(apart.sum())
         self._extent += float(np.square(original - original.mean(axis=0)).sum())
+        far, self._diagonal = math.sqrt(float(apart.max())), self._diagonal or diagonal_of(original)
+        self.farthest = max(self.farthest, far)
+        self.farthest_relative = max(self.farthest_relative, far / self._diagonal)
         if self._promise is not None:
-            far, most = math.sqrt(float(apart.max())), self._promise.reach(units.scale, 1.0)
+            most = self._promise.reach(units.scale, 1.0)
             rounding = ROUNDING * most + 8.0 * float(np.finfo(np.float64).eps * np.abs(original).max())
             require(far <= most + rounding, f"a vertex of frame {frame.index} is off by {far:.4g}")
         error = shading_error(original, decoded, faces)

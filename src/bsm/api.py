@@ -296,7 +296,8 @@ def encode_sequence(
 
     wishes, frames = _wishes(None, options, keywords, metadata, provenance), frames_of(positions)
     shown = TriangleMesh(frames[0], faces)  # type: ignore[arg-type]
-    source = Frames(shown.faces, len(frames), iter(frames), mesh_attributes)  # type: ignore[arg-type]
+    moving: dict[str, Any] = {"attributes": mesh_attributes, "meshes": iter(frames)}
+    source = Frames(shown.faces, len(frames), iter(()), **moving)
     return _joined(given_frames(source, wishes, shown), progress)
 
 

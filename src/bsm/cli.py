@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from bsm import __version__
+from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.codec.choices import suggestion
 from bsm.commands.synonyms import OPTIONS, advice_on_command, refuse_misplaced
 from bsm.files.output import refuse_collisions
@@ -18,6 +19,7 @@ from bsm.ground.console import Console
 from bsm.ground.exits import EXITS, USAGE, Terminated, behind, exit_of, is_expected, report_error
 
 _SUMMARIES = Path(__file__).with_name("commands") / "commands.txt"
+_EXAMPLES = [line.split(": ", 1) for line in (_SUMMARIES.parent / "examples.txt").read_text("utf-8").splitlines()]
 COMMANDS = dict(line.split(": ", 1) for line in _SUMMARIES.read_text("utf-8").splitlines())
 FILES = (
     *("IN", "MESH", "SCENE", "A", "B", "FOLDER", "OUT", "OUT.glb"),
@@ -25,6 +27,13 @@ FILES = (
 )
 """What files and folders are called in the help."""
 _WRITTEN = {"output", "report", "save", "picture", "map", "work"}
+_DAMAGED = "--tolerant decodes the undamaged parts"
+_ADVICE: dict[str, dict[type[BaseException], str]] = {"decode": {CorruptError: _DAMAGED, TruncatedError: _DAMAGED}}
+"""The advice of a command on an error."""
+_USED = {
+    "encode": "--output --preset --max-error --look --size --attribute --images --simplify --meta --recursive --jobs"
+}
+"""The options of a command that the help begins with."""
 _WITHOUT_FILES = ("info", "compare", "verify", "curve")
 """Commands that write no file. They accept -f nevertheless, so that scripts can always pass it."""
 _WITH_FORCE = {
@@ -36,6 +45,7 @@ _WITH_FORCE = {
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return an exit code of `bsm.ground.exits`."""
     words, as_json = list(sys.argv[1:] if arguments is None else arguments), False
+    options: frozenset[str] | None = None
     try:
         if words[:1] == ["help"]:
             words = [*words[1:2], "--help"]
@@ -48,7 +58,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(given := getattr(args, "inputs", None), list) and hasattr(args, "output"):
             refuse_misplaced(words[0], given, recursive=getattr(args, "recursive", False))
         refuse_collisions(*named)
-        code: int | None = args.run(args, Console(quiet=args.quiet, json=as_json))
+        options = frozenset(parser._option_string_actions)
+        code: int | None = args.run(args, Console(quiet=args.quiet, json=as_json, options=options))
         if sys.stdout is not None:  # closed by the shell
             sys.stdout.flush()
         return code or 0
@@ -56,7 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         error = behind(raised)
         if not is_expected(error):
             raise
-        report_error(error, as_json=as_json)
+        report_error(error, as_json=as_json, options=options, advice=_ADVICE.get(words[0], {}).get(type(error), ""))
         return exit_of(error).code
 
 
@@ -121,7 +132,9 @@ def _common(name: str) -> "Parser":
 
 
 def _sentence(name: str) -> str:
-    return f"{COMMANDS[name][0].upper()}{COMMANDS[name][1:]}."
+    """The purpose of a command, and examples."""
+    examples = "".join(f"\n  {example}" for command, example in _EXAMPLES if command == name)
+    return f"{COMMANDS[name][0].upper()}{COMMANDS[name][1:]}.{examples and f'{chr(10)}{chr(10)}examples:{examples}'}"
 
 
 def _complete(parser: "Parser", name: str) -> "Parser":
@@ -129,6 +142,8 @@ def _complete(parser: "Parser", name: str) -> "Parser":
     module = importlib.import_module(f"bsm.commands.{name}")
     module.add_arguments(parser)
     parser.set_defaults(run=module.run)
+    if name in _USED:
+        parser.begin_with(_USED[name].split())
     return parser
 
 
@@ -150,6 +165,18 @@ class Parser(argparse.ArgumentParser):
     def __init__(self, **keywords: Any) -> None:
         super().__init__(**{"formatter_class": Formatter, **keywords})
         self._negative_number_matcher = re.compile(r"-[\d.][\d.,e+-]*$")  # points and boxes begin with numbers, too
+
+    def begin_with(self, options: Sequence[str]) -> None:
+        """Let the help begin with these options, and the rest follow in its groups."""
+        positionals, usual, *groups = self._action_groups
+        used = self.add_argument_group("options that are used most")
+        moved = [self._option_string_actions[option] for option in options]
+        for group in (usual, *groups):
+            group._group_actions[:] = [action for action in group._group_actions if action not in moved]
+        used._group_actions[:], usual.title = moved, "all commands, inputs and outputs"
+        with_presets = [group for group in groups if group.description and "preset" in group.description]
+        rest = [group for group in groups if group not in with_presets]
+        self._action_groups[:] = [positionals, used, *with_presets, usual, *rest]
 
     def format_help(self) -> str:
         self.usage = f"{self.prog}{self._inputs()}"
@@ -176,7 +203,9 @@ class Parser(argparse.ArgumentParser):
             name = word.partition("=")[0]
             if not name.startswith("-"):
                 self.error(f"{word}: one input too many")
-            self.error(f"unknown option {name}{suggestion(name, self._option_string_actions)}")
+            instead = OPTIONS | {option: option for option in self._option_string_actions}
+            similar = suggestion(name, instead).removeprefix("; did you mean ").removesuffix("?")
+            self.error(f"unknown option {name}{f'; did you mean {instead[similar]}?' if similar else ''}")
         return args
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:

@@ -1,6 +1,8 @@
 """What a host may do wrong, frames from a start on, and programs of examples, compiled from the one file."""
 
 import ctypes
+import os
+import re
 import subprocess
 from ctypes import byref
 from pathlib import Path
@@ -10,7 +12,10 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm.bitstream.container.wire import MAGIC
+from bsm.cli import main
 from tests.library.conftest import linked
+from tests.shapes import torus
 from tools.amalgamate import ROOT
 from tools.bsmdec import (
     BLOCK,
@@ -184,6 +189,27 @@ def test_frames_from_a_start_on_are_those_of_the_whole(library: ctypes.CDLL, nam
         assert np.array_equal(frame, other)
     for frame, other in zip(found.shown[::-1], shown[::-1], strict=False):
         assert all(np.array_equal(frame[key], other[key]) for key in other)
+
+
+def test_the_example_reads_a_scene(tmp_path: Path) -> None:
+    """With cgltf, where the compiler finds it: its folder is in C_INCLUDE_PATH."""
+    look = ["cc", "-E", "-include", "cgltf.h", "-x", "c", os.devnull]
+    if subprocess.run(look, capture_output=True, check=False).returncode:
+        pytest.skip("no cgltf.h: put it into a folder of C_INCLUDE_PATH")
+    program = linked(compiled(), ROOT / "library/examples/gltf.c", tmp_path / "gltf", "-std=c11")
+    mesh = torus(24, 16)
+    bsm.save(mesh, tmp_path / "ring.glb")
+    assert main(["glb", str(tmp_path / "ring.glb"), "-o", str(tmp_path / "small.glb"), "-q"]) == 0
+    told = subprocess.run([program, tmp_path / "small.glb"], check=True, capture_output=True, text=True).stdout
+    name, counts, place = re.fullmatch(r"(.*): (\d+ vertices, \d+ triangles), the first at (.*)\n", told).groups()
+    assert (name, counts) == ("ring", f"{len(mesh.positions)} vertices, {len(mesh.faces)} triangles")
+    far = np.linalg.norm(mesh.positions - np.array(place.split(), float), axis=1).min()
+    assert far < 1e-3 * mesh.diagonal
+    scene = (tmp_path / "small.glb").read_bytes()
+    place = scene.index(MAGIC) + 40
+    (tmp_path / "bad.glb").write_bytes(scene[:place] + bytes([scene[place] ^ 255]) + scene[place + 1 :])
+    refused = subprocess.run([program, tmp_path / "bad.glb"], capture_output=True, text=True, check=False)
+    assert refused.returncode == 1 and "checksum" in refused.stderr
 
 
 def test_the_example_goes_through_all_frames(tmp_path: Path) -> None:

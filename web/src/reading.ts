@@ -176,7 +176,7 @@ export async function readMesh(given: Given, beside: Given[] = [], decoding: Sce
 
 function readingOf(mesh: Reading["mesh"], said: string[], lost: Set<string>, used: string[], less: boolean): Reading {
     const notes = lost.size > 0 ? [`Left out: ${[...lost].join(", ")}. bsm encode keeps more.`, ...said] : said;
-    return { mesh, used, notes, less: less || lost.size > 0 };
+    return { mesh, used, notes, less: less || [...lost].some((what) => what !== "cameras") };
 }
 
 /** Attributes that stay while vertices move. */

@@ -2,17 +2,20 @@
 
 import io
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import ArgumentError, FormatError, MeshError, public
+from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Faces, Mask, Order, Positions
-from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compare_values
+from bsm.codec.decoding import decode
+from bsm.codec.geometry.attributes import Attribute, AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.graph import canonical, canonical_order
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
 from bsm.codec.geometry.metrics import Comparison, compare, face_geometry
@@ -20,6 +23,7 @@ from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.static.preamble_encoding import join, joined
 from bsm.files.conventions import shares_of
 from bsm.files.formats.npz import write_npy
+from bsm.files.images import largest_side
 from bsm.files.output import open_output
 from bsm.files.pipes import as_input
 
@@ -117,17 +121,31 @@ def _collapsed(original: TriangleMesh, other: TriangleMesh) -> str:
     return ", which are the same but for those that collapsed where vertices merged" if same else ""
 
 
+@dataclass(frozen=True, eq=False)
+class FramePair:
+    """Vertices of frames before and after, shape (T, n, 3), that are the same, their faces, and equal corners."""
+
+    before: Positions
+    after: Positions
+    faces: Faces
+    corners: Order
+    others: Order
+
+
 def paired_frames(
     original: Positions, faces: Faces, decoded: Positions, others: Faces, order: Order | None = None
-) -> tuple[Positions, Positions, Faces]:
-    """The vertices that faces use in frames, shape (T, n, 3), the same ones of decoded frames, and their faces."""
+) -> FramePair:
+    """Find the vertices that faces use in frames, shape (T, n, 3), and which decoded vertices and corners they are."""
     whole = TriangleMesh(original[0], faces), TriangleMesh(decoded[0], others)
     (mesh, kept), (other, other_kept) = (side.without_isolated_vertices() for side in whole)
     before = original[:, kept]
     index = group_rows(np.concatenate(before, axis=1))
     apart = TriangleMesh(np.column_stack([index] * 3), mesh.faces)  # where vertices that part have two places
     rows = numbering(apart, other, None if order is None else order_of_used(order, *whole))
-    return before, np.where(rows[:, None] < 0, before, decoded[:, other_kept[rows]]), mesh.faces
+    after = np.where(rows[:, None] < 0, before, decoded[:, other_kept[rows]])
+    alike = len(mesh.faces) == len(other.faces) and bool((rows >= 0).all())  # or faces have collapsed
+    none = np.empty(0, np.int64)
+    return FramePair(before, after, mesh.faces, *(paired_corners(mesh, other, rows) if alike else (none, none)))
 
 
 def one_each(before: Positions, after: Positions, faces: Faces, kept: int) -> tuple[Order, Faces]:
@@ -245,23 +263,109 @@ def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) 
     positions = compare(first, second, faces)  # refuses sizes that overflow below
     flattened = int((_flat_faces(second, faces) & ~_flat_faces(first, faces)).sum())
     places = [len(first_of(group_rows(np.ascontiguousarray(points, np.float64)))) for points in (first, second)]
-    found: dict[str, AttributeComparison | None] = {}
-    areas = np.repeat(face_geometry(original.positions, original.faces).areas, 3)[paired.corners]
-    after = {attribute.name: attribute for attribute in decoded.attributes}
-    own = {attribute.name for attribute in original.attributes}
-    named = (other for other in reversed(decoded.attributes) if other.name not in own and other.semantic != "generic")
-    renamed = {other.semantic: other for other in named}
-    for attribute in original.attributes:
-        other = after[attribute.name] if attribute.name in after else renamed.pop(attribute.semantic, None)
-        found[attribute.name] = None
-        if other is not None and other.components == attribute.components:
-            values = at_corners(attribute, original.faces).reshape(-1, attribute.components)[paired.corners]
-            others = at_corners(other, decoded.faces).reshape(-1, attribute.components)[paired.others]
-            if attribute.semantic == "color" and values.dtype != others.dtype:
-                values, others = map(shares_of, (values, others))
-            found[attribute.name] = compare_values(values, others, areas if attribute.semantic == "normal" else None)
     counts = {"flattened": flattened, "merged": max(0, places[0] - places[1])}
-    return MeshComparison(**asdict(positions), attributes=found, **counts)
+    return MeshComparison(**asdict(positions), attributes=compare_attributes(original, decoded, paired), **counts)
+
+
+def compare_attributes(
+    original: TriangleMesh, decoded: TriangleMesh, paired: Pair
+) -> dict[str, AttributeComparison | None]:
+    """Compare attributes at the corners of faces; None: an attribute is missing."""
+    areas = np.repeat(face_geometry(original.positions, original.faces).areas, 3)[paired.corners]
+    return {
+        one.name: None if other is None else _compare_one(one, other, (original.faces, decoded.faces), paired, areas)
+        for one, other in _same_attributes(original.attributes, decoded.attributes)
+    }
+
+
+def _same_attributes(
+    original: Sequence[Attribute], decoded: Sequence[Attribute]
+) -> Iterator[tuple[Attribute, Attribute | None]]:
+    """Attributes and what became of them: one of the name, or one of the meaning, as three.js says uv for texcoord."""
+    after, own = {attribute.name: attribute for attribute in decoded}, {attribute.name for attribute in original}
+    named = (other for other in reversed(decoded) if other.name not in own and other.semantic != "generic")
+    renamed = {other.semantic: other for other in named}
+    for attribute in original:
+        other = after[attribute.name] if attribute.name in after else renamed.pop(attribute.semantic, None)
+        yield attribute, other if other and other.components == attribute.components else None
+
+
+def _compare_one(
+    attribute: Attribute,
+    other: Attribute,
+    faces: tuple[Faces, Faces],
+    paired: Pair | FramePair,
+    areas: npt.NDArray[np.float64],
+) -> AttributeComparison:
+    """Compare an attribute at the corners that are the same; normals by angles, if areas of corners are given."""
+    values = at_corners(attribute, faces[0]).reshape(-1, attribute.components)[paired.corners]
+    others = at_corners(other, faces[1]).reshape(-1, attribute.components)[paired.others]
+    if attribute.semantic == "color" and values.dtype != others.dtype:
+        values, others = map(shares_of, (values, others))
+    return compare_values(values, others, areas if attribute.semantic == "normal" and len(areas) else None)
+
+
+Errors: TypeAlias = dict[str, float]
+"""Errors of an attribute by their names."""
+
+
+def errors_of(found: Mapping[str, AttributeComparison | None], original: TriangleMesh) -> dict[str, Errors | None]:
+    """Return the errors of attributes by their names; those of texture coordinates in texels, too."""
+    side, known = largest_side(original.metadata), dict[str, Errors | None]()
+    for attribute in original.attributes:
+        errors = found.get(attribute.name)
+        numbers = errors and {what: value for what, value in asdict(errors).items() if value is not None}
+        if numbers and side and attribute.semantic == "texcoord":
+            numbers["max_error_texels"] = side * numbers["max_error"]
+        known[attribute.name] = numbers or None
+    return known
+
+
+def lost_attributes(original: TriangleMesh, stream: bytes) -> dict[str, Errors | None]:
+    """Return the errors of attributes after a stream, as `bsm compare` finds them; none where it cannot compare."""
+    found: dict[str, AttributeComparison | None] = {}
+    with suppress(MeshError):
+        decoded = decode(stream, Limits.wide()) if original.attributes else original
+        first, second = (mesh.without_isolated_vertices()[0] for mesh in (original, decoded))
+        found = compare_attributes(first, second, pair(first, second)) if original.attributes else {}
+    return errors_of(found, original) if found else {}
+
+
+def errors_of_frames(
+    before: Sequence[Sequence[Attribute]],
+    after: Sequence[Sequence[Attribute]],
+    faces: tuple[Faces, Faces],
+    paired: FramePair,
+    first: int = 0,
+) -> dict[str, Errors | None]:
+    """Return the largest errors of attributes over frames, the first of which has this number; None: missing."""
+    found: dict[str, Errors | None] = {}
+    seen: dict[str, tuple[Attribute, Attribute | None]] = {}
+    for number, (now, then) in enumerate(zip(before, after, strict=True)):
+        for one, other in _same_attributes(now, then) if len(paired.corners) else ():
+            if (known := seen.get(one.name)) and known[0] is one and known[1] is other:
+                continue
+            seen[one.name] = one, other
+            errors = None if other is None else _compare_one(one, other, faces, paired, np.empty(0))
+            found[one.name] = None if errors is None else _larger(found.get(one.name), errors, first + number)
+    return found
+
+
+def _larger(known: Errors | None, errors: AttributeComparison, frame: int) -> Errors:
+    """The larger errors, and the frame that has the largest."""
+    if known and known["max_error"] >= errors.max_error:
+        return known
+    return {"max_error": errors.max_error, "range": errors.range, "worst_frame": frame}
+
+
+def worded_errors(errors: Errors) -> str:
+    """The largest error of an attribute in words; nothing if there is none."""
+    if not errors["max_error"]:
+        return "no error"
+    if "max_angle_deg" in errors:
+        return f"largest error {errors['max_angle_deg']:.3g} degrees"
+    texels = f", {errors['max_error_texels']:.3g} texels" if "max_error_texels" in errors else ""
+    return f"largest error {errors['max_error']:.3g}{texels}"
 
 
 def _flat_faces(positions: Positions, faces: Faces) -> Mask:

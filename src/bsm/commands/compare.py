@@ -2,7 +2,7 @@
 
 import argparse
 import errno
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -10,16 +10,29 @@ from typing import Any
 
 import numpy as np
 
-from bsm.account.comparison import Pair, compare_meshes, one_each, order_of_used, pair, paired_frames, read_permutation
+from bsm.account.comparison import (
+    Errors,
+    Pair,
+    compare_meshes,
+    errors_of,
+    errors_of_frames,
+    one_each,
+    order_of_used,
+    pair,
+    paired_frames,
+    read_permutation,
+)
+from bsm.account.drawing import Panel, drawing, last_color
+from bsm.account.images import compare_images
 from bsm.bitstream.errors import BsmError, MeshError, OptionError, counted
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic
-from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
-from bsm.codec.geometry.metrics import Reference, folded_edges, rms_over_edge, surface_distance
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh, require_sizes
+from bsm.codec.geometry.metrics import Reference, distances_to_surface, folded_edges, rms_over_edge, surface_distance
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_flags, limits_of
-from bsm.files.images import largest_side
+from bsm.files.images import with_linked_images
 from bsm.files.mesh import by_name, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Wanted
@@ -31,14 +44,13 @@ from bsm.files.table import MESH_SUFFIXES
 from bsm.ground.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.ground.exits import exit_of, worded
 from bsm.ground.lengths import length, metres, unit_of
-from bsm.ground.pictures import DEFAULT_VIEW, colors_of, png, render, side_by_side
+from bsm.ground.pictures import DEFAULT_VIEW, colors_of
 from bsm.jobs.plan import STREAM_SUFFIXES, files_in
 from bsm.jobs.report import largest_error
 from bsm.jobs.task import Facts
 
 COLORED = ("ply", "obj", "glb")  # formats that hold colors of vertices
 ATTRIBUTE_LOOKS: dict[Semantic, str] = {"texcoord": "checker", "color": "colors"}
-SHOWN = 99.0  # percentile of the distances that has the last color: single vertices shall not make all others blue
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -113,7 +125,7 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
         more: dict[str, float] = {}
         if args.look or args.picture:
             progress.stage("comparing pictures")
-            seen, more = _seen(args, original, decoded)
+            seen, more = _seen(args, original, decoded, console)
         progress.stage("comparing")
         try:
             order = order_of_used(read_permutation(args.permutation), *whole) if args.permutation else None
@@ -123,21 +135,31 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
                 raise
             console.note(f"vertices are not compared: {str(error).partition(';')[0]}")
             compared = _apart(original, decoded) if args.surface else {}
-    attributes = compared.pop("attributes", {})
+    attributes, images = compared.pop("attributes", {}), compare_images(original.metadata, decoded.metadata)
     if args.json:
-        shown = {"look": asdict(seen) | more} if seen else {}
+        shown: dict[str, Any] = {"look": asdict(seen) | more} if seen else {}
+        shown |= {"images": [image.facts() for image in images]} if images else {}
         print_json({**compared, **shown, **({"attributes": attributes} if attributes else {})})
         return
     unit = unit_of(original.metadata) or unit_of(decoded.metadata)
     looks = {"look": seen.distance, **{f"look_{name}": value for name, value in more.items()}} if seen else {}
     for line in (*([sentence(compared, unit)] if "max_error" in compared else []), *explained(compared | looks)):
         print(line)
+    for line in _lines_of(attributes):
+        print(line)
+    for image in images:
+        print(printable(str(image)))
+
+
+def _lines_of(attributes: dict[str, Errors | None]) -> Iterator[str]:
     for name, errors in attributes.items():
         words = (f"{what} {value:.4g}" for what, value in errors.items()) if errors else ["missing"]
-        print(f"{printable(name)}: {', '.join(words)}")
+        yield f"{printable(name)}: {', '.join(words)}"
 
 
-def _seen(args: argparse.Namespace, original: TriangleMesh, decoded: TriangleMesh) -> tuple[Look, dict[str, float]]:
+def _seen(
+    args: argparse.Namespace, original: TriangleMesh, decoded: TriangleMesh, console: Console
+) -> tuple[Look, dict[str, float]]:
     """Return the look of a mesh, and that in flat shading, of texture coordinates and of colors; write the picture."""
     if args.picture:
         refuse_to_overwrite(args.picture, args.force)
@@ -148,8 +170,21 @@ def _seen(args: argparse.Namespace, original: TriangleMesh, decoded: TriangleMes
         under = None if values is None else AttributeLook(original, semantic, values).compare(decoded)
         more |= {} if under is None else {name: under}
     if args.picture:
-        write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
+        titles = (Path(args.original).name, Path(args.decoded).name)
+        meshes = [Panel(mesh, title) for mesh, title in zip((original, decoded), titles)]
+        picture = drawing((*meshes, _errors_of(original, decoded)), original, console, looker.view(decoded))
+        write_output(args.picture, picture, overwrite=args.force)
     return seen, more
+
+
+def _errors_of(original: TriangleMesh, decoded: TriangleMesh) -> Panel:
+    """The error of each vertex; where the faces differ, its distance from the surface of the original."""
+    try:
+        paired = pair(original, decoded)
+    except MeshError:
+        far = distances_to_surface(decoded.positions, original.positions, original.faces)
+        return Panel(decoded, "distance from the original", far)
+    return Panel(paired.original, "error", np.linalg.norm(paired.positions - paired.original.positions, axis=1))
 
 
 def explained(numbers: dict[str, Any]) -> list[str]:
@@ -165,15 +200,10 @@ def _compared(
     if paired.joined:
         console.note("vertices at one position are merged for this comparison")
     if args.map:
-        _write_map(args.map, paired.original, paired.positions, overwrite=args.force)
-    result = asdict(compare_meshes(original, decoded, paired))
-    attributes = {
-        name: errors and {what: value for what, value in errors.items() if value is not None}
-        for name, errors in result.pop("attributes").items()
-    }
-    for attribute in original.attributes if (side := largest_side(original.metadata)) else ():
-        if attribute.semantic == "texcoord" and (errors := attributes[attribute.name]):
-            errors["max_error_texels"] = side * errors["max_error"]
+        _write_map(args, paired.original, paired.positions, original.metadata, console)
+    compared = compare_meshes(original, decoded, paired)
+    result = {name: value for name, value in asdict(compared).items() if name != "attributes"}
+    attributes = errors_of(compared.attributes, original)
     before, after, faces = paired.original.positions, paired.positions, paired.original.faces
     result |= {"folded_before": folded_edges(before, faces), "folded_after": folded_edges(after, faces)}
     if args.surface:  # what the literature on denoising measures
@@ -210,7 +240,7 @@ def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh
     """A mesh file or a stream."""
     with about(path):
         if is_stream(path):
-            return decode_whole(read_chunks(path), limits_of(args.limits))
+            return with_linked_images(decode_whole(read_chunks(path), limits_of(args.limits)), path)
         source = read_mesh(path)
     for note in source.notes:
         console.note(f"{path}: {note}")
@@ -238,18 +268,20 @@ def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
     return True
 
 
-Pieces = list[tuple[Positions, Faces]]
-"""Frames, shape (T, n, 3), and their faces, shape (m, 3), of one run after the other."""
+Attributes = Sequence[Attribute]
+Pieces = list[tuple[Positions, Faces, list[Attributes]]]
+"""Frames, shape (T, n, 3), their faces, shape (m, 3), and the attributes of each, of one run after the other."""
 
 
-def _pieces_of(frames: Iterable[tuple[Positions, Faces]]) -> Pieces:
-    found: list[tuple[list[Positions], Faces]] = []
-    for positions, faces in frames:
+def _pieces_of(frames: Iterable[tuple[Positions, Faces, Attributes]]) -> Pieces:
+    found: list[tuple[list[Positions], Faces, list[Attributes]]] = []
+    for positions, faces, attributes in frames:
         same = found and len(found[-1][0][0]) == len(positions) and np.array_equal(found[-1][1], faces)
         if not same:
-            found.append(([], faces))
+            found.append(([], faces, []))
         found[-1][0].append(positions)
-    return [(np.array(positions), faces) for positions, faces in found]
+        found[-1][2].append(attributes)
+    return [(np.array(positions), faces, attributes) for positions, faces, attributes in found]
 
 
 def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -> Pieces | None:
@@ -262,18 +294,18 @@ def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -
             if header is None or not header.gop_frames:
                 return None
             stream = SequenceStream(chunks, limits=limits_of(args.limits))
-            return _pieces_of((frame, stream.faces) for _, frame in stream.changing_frames())
+            return _pieces_of((frame, stream.faces, stream.attributes) for _, frame in stream.changing_frames())
         source = open_sequence(path, wanted=wanted)
         if source is None:
             return None
         if source.meshes is None:
-            return [(np.array(list(source.frames)), source.faces)]
-        return _pieces_of((mesh.positions, mesh.faces) for mesh in source.meshes)
+            return _pieces_of((frame, source.faces, source.attributes) for frame in source.frames)
+        return _pieces_of((mesh.positions, mesh.faces, mesh.attributes) for mesh in source.meshes)
 
 
 def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pieces, progress: Progress) -> str:
     """Return the errors of a sequence, as text."""
-    counts = [[len(frames) for frames, _ in side] for side in (original, decoded)]
+    counts = [[len(frames) for frames, _, _ in side] for side in (original, decoded)]
     if sum(counts[0]) != sum(counts[1]):
         raise MeshError(f"{args.original} has {sum(counts[0])} frames and {args.decoded} {sum(counts[1])}")
     if counts[0] != counts[1]:
@@ -284,11 +316,17 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     if args.permutation and len(original) > 1:
         raise OptionError("--permutation is the order of one mesh, and the faces change")
     order = read_permutation(args.permutation) if args.permutation else None
-    runs = []
+    runs: list[tuple[Positions, Positions, Faces]] = []
+    attributes: dict[str, Errors | None] = {}
     for first, second in zip(original, decoded, strict=True):
-        before, after, faces = paired_frames(*first, *second, order)
-        kept, faces = one_each(before, after, faces, len(second[1]))
-        runs.append((before[:, kept], after[:, kept], faces))
+        paired = paired_frames(*first[:2], *second[:2], order)
+        kept, faces = one_each(paired.before, paired.after, paired.faces, len(second[1]))
+        done = sum(len(before) for before, _, _ in runs)
+        for name, errors in errors_of_frames(first[2], second[2], (first[1], second[1]), paired, done).items():
+            known = attributes.get(name, errors)
+            larger = (errors and known) and max(errors, known, key=lambda one: one["max_error"])
+            attributes[name] = larger or None
+        runs.append((paired.before[:, kept], paired.after[:, kept], faces))
     compared, of_frames = compare_runs(runs)
     result = asdict(compared)
     if args.look:
@@ -296,7 +334,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
         result.update(_looks(runs, progress))
         progress.stage("comparing")
     if Path(args.decoded).is_file() and is_stream(args.decoded):
-        samples = sum(frames[..., 0].size for frames, _ in decoded)
+        samples = sum(frames[..., 0].size for frames, _, _ in decoded)
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / samples
     if args.picture:
         from bsm.evaluation.curve import frame_errors
@@ -304,12 +342,13 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
         refuse_to_overwrite(args.picture, args.force)
         write_output(args.picture, frame_errors(of_frames, Path(args.decoded).name), overwrite=args.force)
     if args.json:
-        numbers = {name: finite(value) for name, value in result.items()}
+        numbers: dict[str, Any] = {name: finite(value) for name, value in result.items()}
+        numbers |= {"attributes": attributes} if attributes else {}
         return as_json({**numbers, "frames": of_frames})
     worst = max(range(len(of_frames)), key=lambda number: of_frames[number]["max_error_relative"])
     lines = explained(result)
     lines.append(f"{'worst_frame':<18} {worst:<12} the frame with the largest vertex error")
-    return "\n".join(lines)
+    return "\n".join([*lines, *_lines_of(attributes)])
 
 
 def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]:
@@ -329,19 +368,25 @@ def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]
     }
 
 
-def _write_map(path: str, original: TriangleMesh, positions: Positions, *, overwrite: bool) -> None:
+def _write_map(
+    args: argparse.Namespace, original: TriangleMesh, positions: Positions, metadata: Metadata, console: Console
+) -> None:
     """Write the original with the distance of each vertex from `positions`, shape (n, 3), as colors."""
+    path, overwrite = args.map, args.force
     kind = "png" if Path(path).suffix.lower() == ".png" else format_of_name(path)
     if kind not in ("png", *COLORED):
         raise OptionError(f"{path}: a map of distances is a picture (.png) or a mesh (.{', .'.join(COLORED)})")
     refuse_to_overwrite(path, overwrite)
     distances = np.linalg.norm(positions - original.positions, axis=1)
-    top = float(np.percentile(distances, SHOWN)) or float(distances.max(initial=0.0)) or 1.0
+    top, largest = last_color(distances), float(distances.max(initial=0.0))
+    unit = unit_of(metadata)
+    console.note(f"{path}: red is {length(top, unit)} and more; the largest error is {length(largest, unit)}")
     if kind == "png":
-        heat = colors_of(distances / top)[original.faces].mean(axis=1) / 255.0
-        views = DEFAULT_VIEW, DEFAULT_VIEW * np.array([[-1.0], [1.0], [-1.0]])  # from the front, and from behind
-        drawn = [render(original.positions, original.faces, view=view, colors=heat) for view in views]
-        write_output(path, png(np.hstack(drawn)), overwrite=overwrite)
+        whole = replace(original, metadata=metadata)
+        behind = DEFAULT_VIEW * np.array([[-1.0], [1.0], [-1.0]])
+        panel = Panel(whole, f"error of {Path(args.decoded).name}", distances)
+        picture = drawing([panel], whole, console, DEFAULT_VIEW, behind)
+        write_output(path, picture, overwrite=overwrite)
         return
     color = Attribute("color", np.rint(colors_of(distances / top)).astype(np.uint8), "vertex", "color")
     mesh = replace(original.bare, attributes=(color, Attribute("distance", distances)))

@@ -32,6 +32,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     which = "comma-separated codecs: ours, paper (SVD and orthogonal iterations, 12 bits), draco, or "
     add("--codecs", "LIST", f"{which}single lines such as svd,oi-r2 (default: all)", default=",".join(GROUPS))
     blocks = "number of blocks for the codecs of the paper (default: blocks of 500 vertices)"
+    points = "points of another codec: CSV with the columns label, bpv, theta_deg or nmsve_db, and mesh if there are "
+    add(
+        "--points",
+        "FILE",
+        f"{points}several; kept with the other results. May be repeated",
+        action="append",
+        default=[],
+    )
     add("--blocks", "K", blocks, type=within(1))
     add("--repeat", "N", "repeat each measurement; the fastest counts (default 1)", type=within(1), default=1)
     add("--csv", "", "also write the tables as FOLDER/*.csv")
@@ -69,6 +77,9 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
             with console.progress(f"{Path(path).stem}, {curve.label}") as progress:
                 result = rates.run_curve(curve, mesh, Path(path).stem, args.repeat, progress, console.note)
             rates.write_result(result, folder)
+    meshes = {result["mesh"]["name"]: result["mesh"] for result in rates.read_results(folder)}
+    for rival in (rival for path in args.points for rival in rates.read_points(path, meshes)):
+        rates.write_result(rival, folder)
     results = list(rates.read_results(folder))
     if not results:
         raise OptionError(f"{folder} contains no results; name meshes to measure")

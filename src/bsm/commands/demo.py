@@ -2,11 +2,12 @@
 
 import argparse
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from bsm.bitstream.errors import DependencyError
+from bsm.account.drawing import Panel, drawing
 from bsm.codec.arrays import Positions
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -16,7 +17,7 @@ from bsm.encoding.options import encode_options
 from bsm.evaluation.sample import knot
 from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.ground.console import Console, print_json
-from bsm.ground.pictures import bounds_of, colors_of, png, render, with_titles
+from bsm.ground.pictures import DEFAULT_VIEW
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -67,13 +68,6 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
 def _drawn(sample: TriangleMesh, positions: Positions, titles: tuple[str, ...], console: Console) -> bytes:
     """A picture of the sample, of its decoded mesh, and of the error."""
-    bounds, far = bounds_of(sample.positions), np.linalg.norm(positions - sample.positions, axis=1)
-    top = float(np.percentile(far, 99)) or 1.0
-    heat = colors_of(far / top)[sample.faces].mean(axis=1) / 255.0
-    drawn = ((sample.positions, None), (positions, None), (sample.positions, heat))
-    pictures = [render(placed, sample.faces, bounds=bounds, colors=colors) for placed, colors in drawn]
-    try:
-        return with_titles(pictures, titles, 100.0 * top / sample.diagonal)
-    except DependencyError as problem:
-        console.note(f"no titles: {problem}")
-        return png(np.hstack(pictures))
+    errors = Panel(sample, titles[-1], np.linalg.norm(positions - sample.positions, axis=1))
+    meshes = (Panel(sample, titles[0]), Panel(replace(sample, positions=positions), titles[1]))
+    return drawing((*meshes, errors), sample, console, DEFAULT_VIEW)

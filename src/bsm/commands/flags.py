@@ -68,7 +68,10 @@ def within(least: int, most: float = math.inf) -> Callable[[str], int]:
     """A type of options that are whole numbers in a closed range."""
 
     def whole_number(text: str) -> int:
-        number = int(text)
+        try:
+            number = int(text)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"a whole number is expected, not {text!r}") from None
         if number < least:
             raise argparse.ArgumentTypeError(f"{number} is less than {least}")
         if number > most:
@@ -174,7 +177,9 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
 
 def add_preset_flags(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("quality and size", PROMISES)
-    group.add_argument("--preset", choices=PRESETS, default=argparse.SUPPRESS, help="see above (default: balanced)")
+    group.add_argument(
+        "--preset", choices=PRESETS, default=argparse.SUPPRESS, help="a promise of the table (default: balanced)"
+    )
     add_flags(group, "bounds")
     add_flags(group.add_mutually_exclusive_group(), "targets")
 

@@ -5,6 +5,7 @@ import shlex
 from collections.abc import Iterator
 from pathlib import Path
 
+from bsm.account.images import changed
 from bsm.bitstream.errors import HarmError, OptionError
 from bsm.commands.flags import add_flags, adder
 from bsm.files.images import ImageRule, with_linked_images
@@ -88,6 +89,7 @@ def _notes_on(found: Compressed, document: Document, before: int, *, shrinks: bo
         yield f"the result is larger than the input{because}"
     if found.error[1] > VISIBLE:
         yield "small components are coarse; use --preset fine or near-lossless"
+    yield from changed(list(found.images))
     yield from (f"{note}{f' ({count} times)' if count > 1 else ''}" for note, count in found.notes.items())
     images = sum(len(document.image(number)[1] or b"") for number in range(len(document.items("images"))))
     if not shrinks and 2 * images > len(found.data):

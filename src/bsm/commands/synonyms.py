@@ -38,7 +38,8 @@ def refuse_misplaced(command: str, inputs: Sequence[str], *, recursive: bool) ->
     missing = [name for name in inputs if "://" not in name and name != "-" and not os.path.exists(name)]
     for name in missing:
         if _UNIT.fullmatch(name) and not os.path.dirname(name):
-            raise OptionError(f"{name}: no such file; if it is a unit, write it without a space, such as 0.1{name}")
+            example = "20" if name.lower().endswith(("b", "bytes")) and name != "dB" else "0.1"
+            raise OptionError(f"{name}: no such file; if it is a unit, write it without a space: {example}{name}")
         if _NUMBER.fullmatch(name):
             raise OptionError(
                 f"{name}: no such file, and the option before it takes no value; see bsm {command} --help"

@@ -61,7 +61,7 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
 
     def ended(job: Job, outcome: Outcome) -> None:
         if outcome.error is not None:
-            report_error(outcome.error, as_json=args.json)
+            report_error(outcome.error, as_json=args.json, options=console.options)
 
     many = asked(Batch, args, report=str(work / "tiles.json"))
     with console.progress(until=0.5 if args.tileset else 0.96):

@@ -38,7 +38,7 @@ _TEXELS = 0.25  # how far texture coordinates may be off
 
 @dataclass(frozen=True, kw_only=True)
 class Wishes:
-    """What a user asks for: keywords of `bsm.encoding.options`, or `options` that are made, and other wishes."""
+    """Wishes of a user: keywords of `bsm.encoding.options`, or `options` that are made, metadata and others."""
 
     keywords: Mapping[str, Any] = field(default_factory=dict)
     options: Any = None
@@ -49,7 +49,7 @@ class Wishes:
     images: Callable[[Metadata], Metadata] = dict
 
     def check(self) -> None:
-        """Raise what is wrong whatever the mesh is; a sequence and a mesh have different options."""
+        """Raise errors that no mesh could avoid; a sequence and a mesh have different options."""
         if unit := self.metadata.get("unit"):
             known_unit(unit, "metadata")
         if self.options is not None:
@@ -103,7 +103,7 @@ class Wishes:
 class Recipe:
     """A mesh, the options for the wishes, the unit of errors, and how many of it are one of the mesh's.
 
-    `losses` are notes on what was not asked for, `notes` are all.
+    `losses` are notes on unrequested changes, `notes` are all.
     """
 
     mesh: TriangleMesh

@@ -1,17 +1,20 @@
 """Rate against error: codecs run over meshes at several settings, written down as JSON, compared."""
 
+import csv
 import io
 import json
 import math
+import re
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
+from itertools import cycle
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from bsm.bitstream.errors import CorruptError, MeshError, imported
+from bsm.bitstream.errors import CorruptError, FormatError, MeshError, imported
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Positions
 from bsm.codec.decoding import decode
@@ -26,6 +29,7 @@ from bsm.codec.static.targets import Target
 from bsm.evaluation.sample import knot
 from bsm.files.inspection import inspect_stream
 from bsm.files.output import open_output, write_output
+from bsm.files.pipes import as_input
 from bsm.ground.console import finite
 
 
@@ -255,11 +259,55 @@ def write_result(result: Result, folder: Path) -> Path:
 
 
 def read_results(folder: Path) -> Iterator[Result]:
+    """Read results of this program, or of others in the same form: `codec`, `label`, `mesh`, `points`."""
     for path in sorted(folder.glob("*.*.json")):
-        result = json.loads(path.read_text())
-        if result.get("schema") != SCHEMA:
-            raise CorruptError(f"{path}: schema {result.get('schema')} is not {SCHEMA}; run the evaluation again")
-        yield result
+        try:
+            result = json.loads(path.read_text())
+            if result.get("schema") != SCHEMA:
+                raise CorruptError(f"{path}: schema {result.get('schema')} is not {SCHEMA}; run the evaluation again")
+            points = [_POINT | point for point in result["points"]]
+            if any(not point["bpv_total"] > 0.0 for point in points):
+                raise ValueError("a point without bpv_total")
+            _ = title_of(result), result["codec"] + result["label"]
+        except CorruptError:
+            raise
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise FormatError(f"{path}: these are not points of a curve: {type(error).__name__}: {error}") from error
+        yield {**result, "points": points}
+
+
+_POINT: Result = {"settings": {}, "bpv_total": 0.0, **dict.fromkeys(("nmsve_db", "theta_deg"))}
+"""The entries of every point; None: it was not measured, or is exact."""
+
+
+def read_points(path: str, meshes: Mapping[str, Result]) -> list[Result]:
+    """Read points of other codecs from CSV: label, bpv, theta_deg or nmsve_db, and mesh if there are several."""
+    rows = csv.DictReader(io.StringIO(as_input(path).read_all().decode("utf-8-sig", "replace")))
+    named, measures = rows.fieldnames or [], [name for name in MEASURES if name in (rows.fieldnames or ())]
+    if not {"label", "bpv"} <= {*named} or not measures:
+        raise FormatError(
+            f"{path}: its first line must name label, bpv, and theta_deg or nmsve_db, not {', '.join(named)}"
+        )
+    found: dict[tuple[str, str], Result] = {}
+    for row in rows:
+        where = f"{path}: line {rows.line_num}"
+        mesh = row.get("mesh") or (next(iter(meshes)) if len(meshes) == 1 else "")
+        if mesh not in meshes:
+            raise FormatError(f"{where}: the column mesh must be one of {', '.join(meshes)}, not {mesh!r}")
+        try:
+            point = (
+                _POINT | {"bpv_total": float(row["bpv"])} | {name: float(row[name]) for name in measures if row[name]}
+            )
+        except (TypeError, ValueError) as error:
+            raise FormatError(f"{where}: a number is missing or wrong: {error}") from error
+        if not point["bpv_total"] > 0.0 or not all(math.isfinite(point[name] or 0.0) for name in measures):
+            raise FormatError(f"{where}: bits per vertex must be above 0, and errors finite")
+        codec = re.sub(r"[^\w-]+", "-", row["label"] or "").strip("-").lower() or "rival"
+        if codec in STYLES:
+            raise FormatError(f"{where}: {row['label']} is a codec that is measured here; give another label")
+        begun: Result = {"schema": SCHEMA, "codec": codec, "label": row["label"], "mesh": meshes[mesh], "points": []}
+        found.setdefault((mesh, codec), begun)["points"].append(point)
+    return list(found.values())
 
 
 def timed(work: Callable[[], Any], repeats: int, clock: Callable[[], float] = time.perf_counter) -> tuple[float, Any]:
@@ -385,7 +433,8 @@ STYLES = {
     "oi-r2-cold": ("#b79bd6", "p"),
     "doi-r1": ("#17a2b8", "*"),
 }
-"""The color and the marker of each line, in every picture."""
+"""The color and the marker of each line, in every picture; others take turns."""
+OTHERS = (("#e377c2", "d"), ("#7f7f7f", "H"), ("#bcbd22", "8"), ("#000000", "x"), ("#8c564b", "+"))
 _LOOK: dict[Any, Any] = {
     **{"font.family": "serif", "mathtext.fontset": "dejavuserif", "font.size": 8, "axes.titlesize": 8},
     **{"legend.fontsize": 7, "legend.frameon": False, "axes.spines.top": False, "axes.spines.right": False},
@@ -447,8 +496,9 @@ def draw_rates(panels: Mapping[str, Mapping[str, Line]], rate: str, measure: str
         for axes in grid.flat[len(panels) :]:
             axes.remove()
         for axes, (title, lines) in zip(grid.flat, panels.items()):
+            others = cycle(OTHERS)
             for codec, (label, points) in lines.items():
-                color, marker = STYLES[codec]
+                color, marker = STYLES.get(codec) or next(others)
                 shown[label] = axes.plot(*zip(*sorted(points)), marker=marker, color=color)[0]
             rates = [x for _, points in lines.values() for x, _ in points]
             axes.set(xscale="log", xlabel=rate, title=title)
@@ -522,7 +572,7 @@ def distinct(lines: Mapping[str, Line]) -> dict[str, Line]:
 def lines_of(results: Sequence[Result], measure: str) -> dict[str, Line]:
     """The lines of one mesh for one of `MEASURES`, by codec; labels tell the range of targets, where there are any."""
     lines = {}
-    for result in sorted(results, key=lambda changed_options: list(STYLES).index(changed_options["codec"])):
+    for result in sorted(results, key=lambda result: [*STYLES, result["codec"]].index(result["codec"])):
         points = points_of(result["points"], measure)
         targets = [p["settings"]["target"]["value"] for p in points if "target" in p["settings"]]
         asked = f", asked for {targets[0]:g} to {targets[-1]:g}{UNITS[measure]}" if targets else ""

@@ -13,7 +13,7 @@ from bsm.files.formats.metadata import images_in, kind_of_image
 
 _PNG_OR_JPEG = re.compile(rb"\A\x89PNG.{12}(.{4})(.{4})|\xff[\xc0-\xc2]\0[\x0b\x11\x14]\x08(..)(..)", re.DOTALL)
 _WEBP = re.compile(rb"RIFF.{4}WEBP(?:VP8X.{8}(...)(...)|VP8 .{7}\x9d\x01\x2a(..)(..)|VP8L.{4}/(.{4}))", re.DOTALL)
-_MOST_PIXELS = 1 << 26  # of an image that is written anew
+MOST_PIXELS = 1 << 26  # of an image that is written anew
 _LINK = re.compile(r"(?:\.\./)*images/([0-9a-f]{32})\.\w{1,5}")
 
 
@@ -39,7 +39,7 @@ def smaller(data: bytes, rule: ImageRule) -> bytes | None:
     pillow = imported("PIL.Image", "images are written with Pillow", "formats")
     try:  # what Pillow does not know is an OSError
         image = pillow.open(io.BytesIO(data))
-        if image.width * image.height > _MOST_PIXELS:
+        if image.width * image.height > MOST_PIXELS:
             return None
         found = _written(image, rule, pillow.Resampling.LANCZOS)
     except (OSError, ValueError, SyntaxError, pillow.DecompressionBombError):
@@ -78,12 +78,24 @@ def with_smaller_images(metadata: Metadata, rule: ImageRule) -> Metadata:
 
 def side_of_image(data: bytes) -> int:
     """Return the pixels of the longer side of a PNG, JPEG or WebP; 0 for others."""
+    return max(size_of_image(data))
+
+
+def size_of_image(data: bytes) -> tuple[int, int]:
+    """Return the width and height of a PNG, JPEG or WebP in pixels; 0 for others."""
     if match := _WEBP.match(data):
         wide, high, *plain, packed = (int.from_bytes(number or b"", "little") for number in match.groups())
-        return max(*plain, *(1 + side for side in (wide, high, packed & 0x3FFF, packed >> 14 & 0x3FFF)))
+        if match[3]:
+            return plain[0] & 0x3FFF, plain[1] & 0x3FFF
+        return (wide + 1, high + 1) if match[1] else (1 + (packed & 0x3FFF), 1 + (packed >> 14 & 0x3FFF))
     signed = data.startswith((b"\x89PNG", b"\xff\xd8"))  # a JPEG may contain a smaller one
-    found = (number for sides in _PNG_OR_JPEG.findall(data) for number in sides) if signed else ()
-    return max((int.from_bytes(number, "big") for number in found), default=0)
+    found = _PNG_OR_JPEG.findall(data) if signed else ()
+    sizes = (
+        (int.from_bytes(a, "big"), int.from_bytes(b, "big"))
+        for wide, high, y, x in found
+        for a, b in ((wide, high), (x, y))
+    )
+    return max(sizes, default=(0, 0))
 
 
 def largest_side(metadata: Metadata) -> int:

@@ -36,6 +36,12 @@ _FOREIGN = {
     ("frd",): "convert it to .vtu with ccx2paraview",
     ("op2", "odb", "med", "unv", "rst", "d3plot"): "save it as .vtu, for instance with meshio or ParaView",
     ("step", "stp", "iges", "igs", "brep"): "it holds surfaces; export triangles, for instance with FreeCAD",
+    (
+        "urdf",
+        "sdf",
+        "xacro",
+        "mjcf",
+    ): "it names the meshes of a robot; encode their folder: bsm encode -r FOLDER -o OUT/",
     ("las", "laz", "e57", "pcd", "pts"): "it holds points; point clouds are not supported",
     ("zip", "gz", "bz2", "xz", "tar", "tgz"): "it contains files: unpack it, and read its contents",
 }

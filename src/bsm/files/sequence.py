@@ -19,16 +19,16 @@ import numpy as np
 from bsm.bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.runs import is_empty
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
 from bsm.files.formats.polygons import CutAlike
-from bsm.files.mesh import by_name, is_apart, kind_of, read_cut, read_mesh, save_written, written_mesh
+from bsm.files.mesh import by_name, is_apart, kind_of, parts_of, read_cut, read_mesh, save_written, written_mesh
 from bsm.files.motion import folder
-from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
+from bsm.files.motion.caches import CACHES, mesh_beside, mesh_of, read_cache, write_cache
 from bsm.files.motion.frames import Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
-from bsm.files.pipes import Input, Source, as_input, is_pipe, is_url
+from bsm.files.pipes import Input, Source, as_input, files_behind, is_pipe, is_url, size_of
 from bsm.files.table import FORMATS, GLTF, ONE_FILE, RATE, SEQUENCES_READ, TIMES, WRITTEN_FORMATS
 
 _ISOLATED = ("bsm.files.isolation", "frames_isolated")  # it loads this module
@@ -89,6 +89,20 @@ def open_frames(
         return frames
     read = partial(read_cut, file_format=file_format, limits=limits, cut=CutAlike(), isolated=isolated)
     return folder.read_files(ordered, read, wanted)
+
+
+def size_of_sequence(paths: Sequence[str], metadata: Metadata, mesh: str | None = None) -> int | None:
+    """The bytes of all files that a sequence was read from, each once: lists and theirs, caches and their mesh."""
+    if any(is_url(path) or path == "-" for path in paths):
+        return size_of(paths[0])
+    found: list[str] = []
+    for path in (file for name in paths for file in files_behind(name)):
+        kind = Path(path).suffix[1:].lower()
+        found += [path, *(folder.listed(path, kind, DEFAULT_LIMITS)[0] if kind in folder.LISTS else ())]
+        found += [mesh or mesh_beside(path)] if kind in CACHES else []
+    named = parts_of(found[-1] if len(found) > 1 else found[0], metadata) if found else {}
+    files = {os.path.realpath(str(file)) for file in (*found, *filter(None, named.values()))}
+    return sum(os.path.getsize(file) for file in files if os.path.isfile(file)) or None
 
 
 @contextmanager

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from bsm.account.images import ImageComparison
 from bsm.bitstream.errors import FormatError, UnsupportedError
 from bsm.codec.threads import ordered_map
 from bsm.files.images import ImageRule
@@ -20,7 +21,7 @@ from bsm.gltf.scene import parents_of, places_of
 
 @dataclass(frozen=True)
 class Compressed:
-    """A .glb, how many of its primitives are coded, why others are not, and notes: how many for each."""
+    """A .glb, how many of its primitives are coded, why others are not, notes with their counts, errors, images."""
 
     data: bytes
     coded: int
@@ -28,6 +29,7 @@ class Compressed:
     fallback: bytes = b""
     notes: Mapping[str, int] = field(default_factory=dict)
     error: tuple[float, float] = (0.0, 0.0)
+    images: tuple[ImageComparison, ...] = ()
 
 
 @as_format_error("glTF")
@@ -82,7 +84,9 @@ def compress(
             left["a stream would not be smaller"] += primitives
     data = scene.finished(images)
     worst = (max(error for error, _ in errors), max(share for _, share in errors))
-    return Compressed(data, done, dict(left), b"".join(scene.plain) if fallback else b"", notes, worst)
+    return Compressed(
+        data, done, dict(left), b"".join(scene.plain) if fallback else b"", notes, worst, (*scene.images,)
+    )
 
 
 @as_format_error("glTF")

@@ -9,6 +9,7 @@ from urllib.parse import quote
 
 import numpy as np
 
+from bsm.account.images import ImageComparison, compare_image
 from bsm.bitstream.errors import UnsupportedError
 from bsm.files.images import ImageRule, smaller
 from bsm.gltf import document as gltf
@@ -103,6 +104,7 @@ class Rewritten(gltf.Growing):
         self._moved: set[int] = set()  # bufferViews whose bytes are in the new buffer
         self._virtual = 0  # bytes of what decoders fill
         self.plain: list[bytes] = []
+        self.images: list[ImageComparison] = []
 
     def view(self, data: bytes, **more: Any) -> int:
         view = super().view(data, **more)
@@ -162,6 +164,8 @@ class Rewritten(gltf.Growing):
         for number, image in enumerate(self.tree.get("images", [])):
             data = self._document.image(number)[1] if rule or "uri" in image else None
             found = smaller(data, rule) if data and rule else None
+            name = self._document.image(number)[0] or f"image {number}"
+            self.images += [compare_image(name, data, found or data)] if data and rule else []
             kind = f"image/{rule.kind}" if rule and found else image.get("mimeType") or (data and gltf.mime_of(data))
             if data and kind and (found or "uri" in image):
                 image.pop("uri", None)

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 import shutil
 import sys
 import threading
@@ -28,10 +29,11 @@ class Console:
     kept: list[str] | None = None
     json: bool = False
     heard: Callable[[int, int], None] | None = None
+    options: frozenset[str] | None = None  # of the command; texts advise no others
     _running: "list[Progress]" = field(default_factory=list, compare=False)
 
     def note(self, text: str) -> None:
-        text = printable(text)
+        text = printable(for_command(text, self.options))
         if self.kept is not None:
             self.kept.append(text)
         elif not self.quiet:
@@ -164,6 +166,21 @@ class Progress:
         """Say it again each second, so that silence does not look like the end."""
         while not self._over.wait(_PATIENCE if time.monotonic() - self._begun < _PATIENCE else max(_SECOND, 0.1)):
             self._say(_SECOND / 2 if self._lines else 0.0)
+
+
+_CLAUSES = re.compile(r"(; |\? |(?<=\w)\. )")
+_OPTION = re.compile(r"(?<![\w/.-])--?[a-z][\w-]*")
+_OTHER = re.compile(r"\b(?:bsm|pip|python|python3|cc) [a-z-]")  # their options are not those of this command
+
+
+def for_command(text: str, options: frozenset[str] | None) -> str:
+    """Return a text without the clauses that advise an option which the command does not have."""
+    if options is None:
+        return text
+    first, *rest = _CLAUSES.split(text)
+    pairs = zip(rest[::2], rest[1::2], strict=True)
+    kept = [(mark, clause) for mark, clause in pairs if _OTHER.search(clause) or {*_OPTION.findall(clause)} <= options]
+    return first + "".join(mark + clause for mark, clause in kept)
 
 
 def printable(text: str) -> str:

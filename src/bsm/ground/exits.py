@@ -6,7 +6,7 @@ import sys
 from dataclasses import dataclass
 
 from bsm.bitstream import errors as failures
-from bsm.ground.console import say
+from bsm.ground.console import for_command, say
 
 
 class Terminated(SystemExit):
@@ -74,13 +74,16 @@ def behind(error: BaseException) -> BaseException:
     return error
 
 
-def report_error(error: BaseException, *, as_json: bool = False) -> None:
-    """Write an error to standard error; as a line of JSON if all lines are JSON."""
+def report_error(
+    error: BaseException, *, as_json: bool = False, options: frozenset[str] | None = None, advice: str = ""
+) -> None:
+    """Write an error to standard error, as a line of JSON if all lines are; `options` are those of the command."""
     if isinstance(error, BrokenPipeError):
         # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return
-    text = exit_of(error).meaning if isinstance(error, _SIGNALS) else worded(error)
+    text = exit_of(error).meaning if isinstance(error, _SIGNALS) else for_command(worded(error), options)
+    text += f"; {advice}" if advice else ""
     say(text if as_json else f"bsm: {text}", "error" if as_json else None)
 
 

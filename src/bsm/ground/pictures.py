@@ -4,7 +4,7 @@ import io
 import struct
 import zlib
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -17,12 +17,6 @@ from bsm.codec.look.pictures import SAMPLES, Canvas
 SCALE = np.array([(49, 54, 149), (116, 173, 209), (255, 255, 191), (244, 109, 67), (165, 0, 38)], np.float64)
 """Colors from 0 to 1, evenly: after ColorBrewer's RdYlBu."""
 Image = npt.NDArray[np.float64]
-_LOUDER = 4.0  # how much larger a difference is drawn than it is
-
-
-def side_by_side(first: npt.NDArray[Any], second: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Two pictures and, from white to black, four times their difference."""
-    return np.hstack([first, second, 1.0 - np.minimum(_LOUDER * np.abs(first - second), 1.0)])
 
 
 def png(picture: npt.NDArray[Any]) -> bytes:
@@ -37,25 +31,34 @@ def png(picture: npt.NDArray[Any]) -> bytes:
     )
 
 
+class Bar(NamedTuple):
+    """A bar of `colors_of` up to a number; larger ones, up to `largest`, have the last color."""
+
+    top: float
+    largest: float
+    label: str
+
+
 def with_titles(
-    pictures: Sequence[Image], titles: Sequence[str], top: float | None = None, figures: Mapping[str, str] | None = None
+    pictures: Sequence[Image], titles: Sequence[str], bar: Bar | None = None, figures: Mapping[str, str] | None = None
 ) -> bytes:
-    """A PNG file of pictures under titles, with a bar of `colors_of` up to `top` percent, and text; by matplotlib."""
-    imported("matplotlib", "titles need matplotlib", "eval")
+    """A PNG file of pictures under titles, with a bar under the last one, and text; by matplotlib."""
+    for name in ("matplotlib.figure", "PIL.Image"):  # by which matplotlib writes
+        imported(name, "titles need matplotlib", "eval")
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import ListedColormap, Normalize
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(3.2 * len(pictures), 3.6), dpi=120, layout="constrained")
-    places = figure.subplots(1, len(pictures))
+    places = figure.subplots(1, len(pictures), squeeze=False)[0]
     for axes, title, picture in zip(places, titles, pictures, strict=True):
         axes.imshow(picture.clip(0.0, 1.0))
         axes.set_title(title, fontsize=11)
         axes.axis("off")
-    if top is not None:
+    if bar is not None:
         colors = ListedColormap(colors_of(np.linspace(0.0, 1.0, 256)) / 255.0)
-        bar = ScalarMappable(Normalize(0.0, top), colors)
-        figure.colorbar(bar, ax=places[-1], location="bottom", shrink=0.8, label="% of the diagonal")
+        scale, ends = ScalarMappable(Normalize(0.0, bar.top), colors), "max" if bar.largest > bar.top else "neither"
+        figure.colorbar(scale, ax=places[-1], location="bottom", shrink=0.8, label=bar.label, extend=ends)
     with io.BytesIO() as file:
         figure.savefig(file, format="png", metadata={"Software": None, **(figures or {})})
         return file.getvalue()

@@ -2,7 +2,6 @@
 
 import math
 import os
-import re
 import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -12,20 +11,21 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from bsm.account.comparison import write_permutation
+from bsm.account.comparison import Errors, lost_attributes, worded_errors, write_permutation
+from bsm.account.images import ImageComparison, changed, compare_images
 from bsm.bitstream.errors import HarmError, OptionError, counted
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.mesh import Metadata
 from bsm.encoding.given import Recipe, Wishes, given_frames, given_mesh
 from bsm.encoding.simplification import Chosen
 from bsm.files.formats.metadata import images_in
 from bsm.files.formats.polygons import MeshFile
-from bsm.files.images import ImageRule, digests_in, is_link, largest_side, with_links, with_smaller_images
+from bsm.files.images import ImageRule, digests_in, is_link, with_links, with_smaller_images
 from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
-from bsm.files.pipes import require_there, size_of
-from bsm.files.sequence import open_frames, open_sequence
+from bsm.files.pipes import require_there
+from bsm.files.sequence import open_frames, open_sequence, size_of_sequence
 from bsm.files.table import WITH_IMAGES_BESIDE
 from bsm.ground.console import Console, Progress, finite
 from bsm.jobs.run import Batch, run_many
@@ -92,8 +92,6 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     wishes.check()
     for name in job.members or (job.input,):
         require_there(name)
-    for path in filter(None, (job.output, job.permutation)):
-        refuse_to_overwrite(path, job.may_replace(path))
     runs = bool(job.options.get("runs"))
     asked = (job.animation, job.cache_mesh, *(job.options.get(name) for name in _OF_SEQUENCES))
     plain = all(choice is None for choice in asked)
@@ -137,11 +135,20 @@ def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
             Path(name).parent.mkdir(exist_ok=True)
             write_output(name, data, overwrite=True, follow=str(Path(name).parents[1]))
     seconds = time.perf_counter() - begin
-    side = largest_side(source.mesh.metadata)
-    notes = [*source.notes, *given.losses, *found.notes, *(_in_texels(n, given.mesh, side) for n in encoder.notes)]
+    attributes = {} if found.apart is not None else lost_attributes(source.mesh, b"".join(result.frames))
+    notes = [*source.notes, *given.losses, *found.notes, *(_measured(note, attributes) for note in encoder.notes)]
     notes += given.notes[len(given.losses) :]
+    anew = _lost_of_images(job, source.mesh.metadata, given.mesh.metadata)
+    notes += changed(anew)
     more, summary, facts = _result(job, given, found, source.mesh.metadata, linked)
+    facts |= {"attribute_errors": attributes} if attributes else {}
+    facts |= {"images": [image.facts() for image in anew]} if anew else {}
     return _finish(job, console, notes + more, summary, seconds, facts)
+
+
+def _lost_of_images(job: EncodeJob, before: Metadata, after: Metadata) -> list[ImageComparison]:
+    """What images have lost that were written anew; Pillow reads no others."""
+    return compare_images(before, after) if job.images not in (None, "keep", "none", "link") else []
 
 
 def _result(
@@ -170,11 +177,10 @@ def _result(
     return notes, summary, {**facts, "look": encoder.look, "binding": encoder.binding}
 
 
-def _in_texels(note: str, mesh: TriangleMesh, side: int) -> str:
-    """Return a note of the encoder; one on texture coordinates also says how many texels of the largest image."""
-    found = re.fullmatch(r"(.*): .*within ([\d.e-]+)", note)
-    placed = found and any(a.name == found[1] and a.semantic == "texcoord" for a in mesh.attributes)
-    return f"{note}, {side * float(found[2]):.2g} texels" if found and placed and side else note
+def _measured(note: str, attributes: Mapping[str, Errors | None]) -> str:
+    """Return a note of an encoder; that on an attribute with its largest error."""
+    errors = attributes.get(note.partition(": ")[0])
+    return f"{note}; {worded_errors(errors)}" if errors else note
 
 
 def _images_of(job: EncodeJob, metadata: Metadata) -> tuple[Metadata, dict[str, bytes]]:
@@ -198,8 +204,7 @@ def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[s
     relative, value = error.max_error_relative, error.max_error * per_own
     if apart is not None:
         relative, value = apart / (found.original.diagonal or 1.0), apart * per_own
-    share = f"{100 * relative:.3g} % of the diagonal"
-    words = f"{value:.3g} {unit} ({share})" if unit else share
+    words = _length(value, relative, unit)
     facts: Facts = dict.fromkeys(("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db", "faces_before"))
     facts |= {"max_error_relative": relative, "error_of": "vertices" if apart is None else "surfaces"}
     facts |= {"max_error": value, "unit": unit} if unit else {}
@@ -209,6 +214,11 @@ def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[s
     facts |= {name: finite(getattr(error, name)) for name in ("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db")}
     kept = "; all triangles are kept" if simplify else ""
     return f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees{kept}", facts
+
+
+def _length(value: float, relative: float, unit: str) -> str:
+    share = f"{100 * relative:.3g} % of the diagonal"
+    return f"{value:.3g} {unit} ({share})" if unit else share
 
 
 def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: Frames) -> Facts:
@@ -231,6 +241,8 @@ def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: F
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
     notes = [*source.notes, *given.losses, *encoder.notes, *([describe_runs(runs)] if runs else [])]
+    attributes: dict[str, Errors | None] = {name: {"max_error": e} for name, e in encoder.attribute_errors.items()}
+    notes = [_measured(note, attributes) for note in notes]
     look, seen = math.inf if chosen.promise is None else chosen.promise.look, encoder.worst_look
     if look == math.inf and seen is not None:
         where = "in the frame with the largest normal error"
@@ -238,17 +250,26 @@ def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: F
     kept = "" if seen is None or look == math.inf else f"look {seen:.2f} of {look:g} in the worst frame drawn, "
     done, vertices, faces = next(numbers), len(encoder.vertex_order), len(encoder.face_order)
     bpvf = 8 * size / encoder.samples
-    taken = sum(size_of(name) or 0 for name in job.members) if job.members else size_of(job.input)
+    taken = size_of_sequence(job.members or (job.input,), source.metadata, job.cache_mesh)
     summary = f"{counted(frames=done)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
-    summary += f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}KG error {encoder.kg:.3g} %"
+    summary += f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}"
+    unit, per_own = given.unit
+    error, relative = encoder.max_error * per_own, encoder.max_error_relative
+    asked = f", {job.options['max_error']} asked for" if job.options.get("max_error") else ""
+    summary += f"largest vertex error {_length(error, relative, unit)}{asked}, KG error {encoder.kg:.3g} %"
+    summary += ", copies of a vertex counted once" if job.options.get("kg") else ""
     facts: Facts = {"frames": done, "vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": size}
     facts |= {"bytes": size, "bpvf_total": bpvf, "kg": finite(encoder.kg)}
+    facts |= {"max_error_relative": relative, **({"max_error": error, "unit": unit} if unit else {})}
+    facts |= {"attribute_errors": attributes} if attributes else {}
     return _finish(job, console, notes, summary, seconds, facts)
 
 
 @contextmanager
 def _written(job: EncodeJob, console: Console) -> Iterator[tuple[Any, Progress]]:
-    """Open the output, and report progress while it is written."""
+    """Open the output, which must not be there unless it may be replaced, and report progress while it is written."""
+    if job.permutation:
+        refuse_to_overwrite(job.permutation, job.may_replace(job.permutation))
     output = open_output(job.output, overwrite=job.may_replace(job.output), follow=job.follow)
     with output as file, console.progress("encoding") as progress:
         yield file, progress

@@ -4,7 +4,8 @@ import errno
 import json
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import asdict, dataclass, replace
 from itertools import chain
 from pathlib import Path
@@ -19,6 +20,7 @@ from bsm.jobs.task import Facts, Job, Task, Work
 
 _OF_ONE_RUN = {"quiet", "force", "threads", "input", "output", "replaceable", "doubtful", "fresh", "before"}
 _EVERY = 1.0  # seconds between two versions of a report, at least
+_WAYS = ("input", "output")
 _SHOWN = 20  # rows of a table, if fewer failed
 _SHARE = 0.02  # largest share of the time for writing reports
 
@@ -178,15 +180,32 @@ def table(files: Sequence[Facts]) -> Iterator[str]:
     """Bytes, ratio, error and time of files, failures first, then the largest errors; lines of text."""
     rows = sorted(files, key=lambda facts: ("error" not in facts, -(facts.get("max_error_relative") or 0.0)))
     rows = rows[: max(_SHOWN, sum("error" in facts for facts in rows))]
+    users = Counter(part for facts in files for way in _WAYS for part in facts.get(f"{way}_parts") or ())
+    shared = {part for part, count in users.items() if count > 1}
     unit, notes = _unit(files), sum(len(facts.get("notes") or ()) for facts in files)
     width = max([len(facts["input"]) for facts in rows] + [5])
     yield f"{'input':{width}} {'bytes':>12} {'to':>12} {'ratio':>7} {'error':>10} {'seconds':>8}"
     for facts in rows:
-        yield f"{facts['input']:{width}} {_cells(facts, unit)}"
+        yield f"{facts['input']:{width}} {_cells(_alone(facts, shared), unit)}"
+    if shared:
+        sizes = (
+            sum({p: s for f in files for p, s in (f.get(f"{w}_parts") or {}).items() if p in shared}.values())
+            for w in _WAYS
+        )
+        yield f"{counted(files=len(shared))} of several rows, which count once: {' -> '.join(map(str, sizes))} bytes"
     if left := len(files) - len(rows):
         yield f"and {left} more, with smaller errors, in the report"
     if notes:
         yield f"{counted(notes=notes)} on these files in the report"
+
+
+def _alone(facts: Facts, shared: Set[str]) -> Facts:
+    """The facts of a file without the bytes of those that others use, too."""
+    less = {
+        f"{way}_bytes": sum(size for part, size in (facts.get(f"{way}_parts") or {}).items() if part in shared)
+        for way in _WAYS
+    }
+    return facts | {name: facts[name] - size for name, size in less.items() if size}
 
 
 def _cells(facts: Facts, unit: str) -> str:

@@ -61,7 +61,7 @@ def run_jobs(
         if isinstance(outcome.error, UnitError) and asked_once > 1:
             return  # the same question for each file
         if outcome.error is not None:
-            report_error(outcome.error, as_json=console.json)
+            report_error(outcome.error, as_json=console.json, options=console.options)
         elif show and not console.json:
             print(f"{job.input}:\n{show(outcome.facts)}\n", flush=True)
 

@@ -3,6 +3,7 @@
 import math
 import multiprocessing
 import os
+import re
 import shutil
 import signal
 import tempfile
@@ -49,6 +50,7 @@ from bsm.ground.exits import worded
 
 DRACO_LEVEL = 10
 DRACO_BITS = range(4, 25)
+_SCENERY = re.compile(r"cameras?|(lights? of )?KHR_lights_punctual")
 NO_STREAM = "the pipe does not contain a BSM stream; encode it: bsm encode - -o - | ..."
 PRESETS = ("small", "balanced", "fine", "near-lossless")
 _EVERY = 0.1  # seconds between two reports of a process
@@ -180,12 +182,13 @@ def _over_time(
     facts: dict[str, Any] = {"diagonal": float(np.linalg.norm(extent_of(before[0]))) or 1.0}
     kept, some = np.unique(decoder.faces), np.linspace(0, len(before) - 1, min(KNOTS, len(before))).round().astype(int)
     try:
-        first, second, shared = paired_frames(before, faces, decoded, decoder.faces)
+        paired = paired_frames(before, faces, decoded, decoder.faces)
+        first, second, shared = paired.before, paired.after, paired.faces
         errors = np.linalg.norm(first - second, axis=2).max(axis=1) / facts["diagonal"]
         shaded = [shading_error(*both, shared) for both in zip(first, second, strict=True)]
         with suppress(MeshError):  # vertices that were merged have no error of their own
-            ours, theirs, _ = paired_frames(decoded, decoder.faces, before, faces)
-            off[:, kept] = np.linalg.norm(ours - theirs, axis=2)
+            back_again = paired_frames(decoded, decoder.faces, before, faces)
+            off[:, kept] = np.linalg.norm(back_again.before - back_again.after, axis=2)
     except MeshError:
         for frame, (now, then) in enumerate(zip(decoded, before, strict=True)):
             off[frame, kept] = distances_to_surface(now[kept], then, faces)
@@ -233,7 +236,7 @@ def made(
     begin = time.perf_counter()
     source: TriangleMesh | Frames = given.mesh if isinstance(given, MeshFile) else given
     wishes = Wishes(keywords={"preset": preset})
-    notes, less = list(given.notes), isinstance(given, MeshFile) and bool(given.dropped)
+    notes, less = list(given.notes), _lost_data(given)
     if isinstance(source, TriangleMesh):
         asked = given_mesh(source, wishes)
         found = asked.encode(Progress(""))
@@ -249,6 +252,11 @@ def made(
     report("comparing", _ENCODING)
     content = compared(name, stream, source, size=size, preset=preset)
     return replace(content, facts={**content.facts, "seconds": seconds, "notes": notes, "less": less})
+
+
+def _lost_data(given: MeshFile | Frames) -> bool:
+    """Whether so much of a file is left out that sizes cannot be compared: more than cameras and lights."""
+    return isinstance(given, MeshFile) and not all(map(_SCENERY.fullmatch, given.dropped))
 
 
 @dataclass(frozen=True, eq=False)
@@ -320,7 +328,7 @@ def against(before: Given, given: Given, limits: Limits) -> Content:
     layers = (replace(first, detail=PurePath(before.name).name), second, *(rivals if stream else ()))
     read = [(PurePath(each.name).name, each.source) for each in (before, given) if not isinstance(each.source, bytes)]
     notes = [f"{which}: {note}" for which, source in read for note in source.notes]
-    said = {"notes": notes, "less": any(source.dropped for _, source in read if isinstance(source, MeshFile))}
+    said = {"notes": notes, "less": any(_lost_data(source) for _, source in read)}
     return replace(content, layers=layers, facts={**content.facts, **said} | ({} if stream else {"draco": None}))
 
 

@@ -50,7 +50,7 @@ def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
     if size < (needed := cache.start + 12 * cache.points * cache.frames):
         raise TruncatedError(f"{what}, which take {needed} bytes; it has {size}")
     require_counts(limits, vertices=cache.points, frames=cache.frames)
-    beside = _beside(path) if wanted.mesh is None else os.fspath(wanted.mesh)
+    beside = mesh_beside(path) if wanted.mesh is None else os.fspath(wanted.mesh)
     with about(beside):
         mesh = read_mesh(beside, limits=limits, isolated=False).mesh
     if len(mesh.positions) != cache.points:
@@ -106,7 +106,7 @@ def _doubles(data: bytes, kind: str) -> Doubles:
         return np.frombuffer(data, kind).astype(np.float64)
 
 
-def _beside(path: str) -> str:
+def mesh_beside(path: str) -> str:
     candidates = [str(Path(path).with_suffix(suffix)) for suffix in MESH_SUFFIXES]
     found = next((name for name in candidates if os.path.isfile(name)), None)
     if found is None:

@@ -177,8 +177,12 @@ def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], want
     last = read(count - 1) if first.attributes and not runs else first
     own = [attribute for attribute in first.attributes if attribute.name != EMPTY]
     kept = tuple(attribute for attribute in own if _as_in(last, attribute) is not None)
-    left = [attribute.name for attribute in own if attribute not in kept]
-    notes += [f"left out, for they move or change: {', '.join(left)}"] if left else []
+    left = [attribute for attribute in own if attribute not in kept]
+    normals, others = ([a.name for a in left if (a.semantic == "normal") is normal] for normal in (True, False))
+    notes += (
+        [f"left out: {', '.join(normals)}; a sequence has no normals, which follow from positions"] if normals else []
+    )
+    notes += [f"left out, for they move or change: {', '.join(others)}"] if others else []
     same = [attribute.name for attribute in kept if not can_move(attribute)]
     notes += [f"{', '.join(same)}: as the first frame {'of each run ' * runs}has them"] if count > 1 and same else []
     changes = runs or len(same) < len(kept) or any(name.startswith(SHOWN) for name in first.metadata)
