@@ -10,9 +10,9 @@ import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
-from functools import partial
 from itertools import count as count_from
 from pathlib import Path
+from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -22,12 +22,12 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.runs import is_empty
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
-from bsm.files.formats.polygons import CutAlike
+from bsm.files.formats.polygons import CutAlike, MeshFile, joined_files
 from bsm.files.mesh import by_name, is_apart, kind_of, parts_of, read_cut, read_mesh, save_written, written_mesh
 from bsm.files.motion import folder
 from bsm.files.motion.caches import CACHES, mesh_beside, mesh_of, read_cache, write_cache
-from bsm.files.motion.frames import Frames, FrameWriter, Shared, Wanted
-from bsm.files.output import open_output, refuse_to_overwrite
+from bsm.files.motion.frames import USUAL_RATE, Frames, FrameWriter, Shared, Wanted
+from bsm.files.output import open_output, refuse_to_overwrite, write_output
 from bsm.files.pipes import Input, Source, as_input, files_behind, is_pipe, is_url, size_of
 from bsm.files.table import FORMATS, GLTF, ONE_FILE, RATE, SEQUENCES_READ, TIMES, WRITTEN_FORMATS
 
@@ -55,8 +55,8 @@ def open_sequence(
     if kind == "abc":
         raise UnsupportedError("Alembic is not read here: export it from Blender as USD, or with the extension for BSM")
     if kind in folder.LISTS and given.is_file:
-        names, times = folder.listed(given.name, kind, limits)
-        return open_frames(names, None, limits, replace(asked, times=times), isolated=isolated)
+        names, times, parts = folder.listed(given.name, kind, limits)
+        return open_frames(names, None, limits, replace(asked, times=times, parts=parts), isolated=isolated)
     moves = kind in SEQUENCES_READ and kind not in ("npz", "npy") and (kind not in GLTF or wanted is not None)
     head = b"" if moves else given.peek(len(NPY))
     piped = head == NPY or file_format == "npy"
@@ -87,8 +87,17 @@ def open_frames(
         paths = [os.path.abspath(name) for name in ordered]
         frames: Frames = by_name(*_ISOLATED)(paths, file_format, limits, kinds[0], wanted)
         return frames
-    read = partial(read_cut, file_format=file_format, limits=limits, cut=CutAlike(), isolated=isolated)
-    return folder.read_files(ordered, read, wanted)
+    ends = np.cumsum(wanted.parts or [1] * len(ordered)).tolist()
+    groups = [ordered[begin:end] for begin, end in zip([0, *ends], ends, strict=False)]
+    by_label = {", ".join(group): group for group in groups}
+    cuts = [CutAlike() for _ in range(max(map(len, groups)))]
+
+    def read(label: str) -> MeshFile:
+        group = by_label[label]
+        files = [read_cut(name, file_format, limits, cut, isolated=isolated) for name, cut in zip(group, cuts)]
+        return joined_files(files, group, limits)
+
+    return folder.read_files([", ".join(group) for group in groups], read, wanted)
 
 
 def size_of_sequence(paths: Sequence[str], metadata: Metadata, mesh: str | None = None) -> int | None:
@@ -128,6 +137,9 @@ def sequence_writer(
         shared = replace(shared, held=FORMATS[kind].times)
         if kind in CACHES:
             yield enter(_cache_writer(path, kind, faces, count, overwrite, follow, shared))
+            return
+        if kind == "pvd":
+            yield enter(_list_writer(path, faces, overwrite, follow, shared))
             return
         file = enter(open_output(path, overwrite=overwrite, follow=follow))
         if kind == "npz":
@@ -175,6 +187,26 @@ def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
         write(frame)
 
     return take
+
+
+@contextmanager
+def _list_writer(path: str, faces: Faces, overwrite: bool, follow: bool | str, shared: Shared) -> Iterator[FrameWriter]:
+    """A list for ParaView, and a folder beside it, called like it, with a VTP for each time."""
+    refuse_to_overwrite(path, overwrite)
+    rows, below = list[str](), Path(path).with_suffix("")
+
+    with folder.write_files(str(below), "vtp", overwrite=overwrite) as write:
+
+        def write_mesh(mesh: TriangleMesh, _: int) -> tuple[str, ...]:
+            number = len(rows)
+            time = shared.code(number) / (shared.frame_rate or USUAL_RATE)
+            name = escape(f"{below.name}/{number:05d}.vtp")
+            rows.append(f'<DataSet timestep="{time:.9g}" part="0" file="{name}"/>\n')
+            return write(mesh, number)
+
+        yield _of_files(write_mesh, "vtp", faces, shared)
+        text = f'<VTKFile type="Collection" version="0.1"><Collection>\n{"".join(rows)}</Collection></VTKFile>\n'
+        write_output(path, text.encode(), overwrite=overwrite, follow=follow)
 
 
 @contextmanager

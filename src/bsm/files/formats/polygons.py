@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain, count
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, imported, public
 from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.attributes import MOST_NAME_BYTES, Attribute, Domain, Semantic
+from bsm.codec.geometry.attributes import MOST_COMPONENTS, MOST_NAME_BYTES, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.conventions import shares_of
 from bsm.files.formats.metadata import fitting, named
@@ -281,7 +282,7 @@ class Polygons:
         places, owner, folded = (cut or triangulate)(positions, sizes, corners)
         if folded:
             notes.append(f"{CROSSING}: {folded}")
-        finite = [_finite(column, notes) for column in self.columns]
+        finite = [_finite(narrow, notes) for column in self.columns for narrow in _narrow(column)]
         attributes, refused = attributes_of(finite, len(positions), len(sizes), places, owner)
         metadata, too_large = fitting(self.metadata, limits.metadata_bytes)
         dropped = (*left_out, *refused, *too_large)
@@ -385,6 +386,45 @@ def joined_parts(given: Iterable[Part], counts: Sequence[tuple[int, int]], limit
         metadata["name"] = parts[0].name
     positions = np.concatenate([np.empty((0, 3)), *(part.positions for part in parts)])
     return Polygons(positions, sizes, corners, tuple(notes), (), tuple(columns), metadata)
+
+
+def joined_files(files: Sequence[MeshFile], names: Sequence[str], limits: Limits) -> MeshFile:
+    """Return the meshes of files as the parts of one."""
+    if len(files) == 1:
+        return files[0]
+    parts = []
+    for name, mesh in zip(names, (file.mesh for file in files), strict=True):
+        columns = [
+            Column(
+                a.name,
+                a.values,
+                a.domain,
+                a.semantic,
+                None if a.indices is None else a.indices.ravel().astype(np.int64),
+            )
+            for a in mesh.attributes
+        ]
+        corners = mesh.faces.ravel().astype(np.int64)
+        whole = Polygons(mesh.positions, np.full(len(mesh.faces), 3), corners, (), (), tuple(columns))
+        parts.append(part_of(whole, Path(name).stem))
+    counts = [(len(file.mesh.positions), len(file.mesh.faces)) for file in files]
+    found = joined_parts(parts, counts, limits, 1 << 62)
+    notes = dict.fromkeys(note for file in files for note in file.notes)
+    metadata = {**files[0].mesh.metadata, **found.metadata}
+    return replace(found, notes=(*notes, *found.notes), metadata=metadata).checked(limits)
+
+
+_MOST_NARROW = 32
+_AXES = {6: "xx yy zz xy yz xz", 9: "xx xy xz yx yy yz zx zy zz"}
+
+
+def _narrow(column: Column) -> list[Column]:
+    """Return a column of more numbers than an attribute has as one of each, named by axes if it is a tensor."""
+    width = column.values.shape[1]
+    if not MOST_COMPONENTS < width <= _MOST_NARROW:
+        return [column]
+    names = _AXES[width].split() if width in _AXES else map(str, range(width))
+    return [replace(column, name=f"{column.name}.{name}", values=column.values[:, [k]]) for k, name in enumerate(names)]
 
 
 def _finite(column: Column, notes: list[str]) -> Column:

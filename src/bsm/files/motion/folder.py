@@ -30,6 +30,7 @@ from bsm.files.table import FORMATS, MESH_SUFFIXES, START, STEP
 
 _NUMBERS = re.compile(r"((?:(?<![^\W_])-)?\d+)")  # a "-" that follows a letter or a digit is a hyphen
 _SIGNED, _DECIMALS = re.compile(r"-?\d+"), re.compile(r"((?:(?<![^\W_])-)?\d+(?:\.\d+)?)")
+_TIME = re.compile(r"((?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
 _PLACE = re.compile(r"%(0?)(\d*)d")
 
 
@@ -68,8 +69,35 @@ def separate_meshes(path: str, file_format: str | None = None) -> list[str]:
     return names
 
 
+def _differing(names: Sequence[str]) -> list[str]:
+    """The parts of paths below the folder that they share."""
+    paths = [os.path.abspath(name) for name in names]
+    shared = os.path.commonpath([os.path.dirname(path) for path in paths]) if paths else ""
+    return [os.path.relpath(path, shared) for path in paths]
+
+
+def times_in(names: Sequence[str]) -> list[float]:
+    """Times in seconds that folders are called, or numbers with an exponent in names; none if there are no such."""
+    rows = [os.path.splitext(name)[0].split(os.sep) for name in _differing(names)]
+    varying = [place for place, values in enumerate(zip(*rows)) if len(set(values)) > 1]
+    if len({*map(len, rows)}) != 1 or len(varying) != 1:
+        return []
+    (place,), last = varying, varying[0] == len(rows[0]) - 1
+    words = [_TIME.split(row[place]) for row in rows]
+    if any(len(found) != 3 or found[::2] != words[0][::2] for found in words):
+        return []
+    looks = re.compile(r"e[-+]" if last or any(words[0][::2]) else r"[.]|e[-+]", re.I)
+    return [float(found[1]) for found in words] if any(looks.search(found[1]) for found in words) else []
+
+
 def in_order(names: Sequence[str]) -> list[str]:
-    ordered = sorted(names, key=_natural)
+    if times := times_in(names):
+        ordered = [name for _, name in sorted(zip(times, names, strict=True))]
+        if twice := next((n for n in range(1, len(times)) if sorted(times)[n] == sorted(times)[n - 1]), 0):
+            raise MeshError(f"{ordered[twice - 1]} and {ordered[twice]} have one time; name one file for each")
+        return ordered
+    keys = dict(zip(names, map(_natural, _differing(names)), strict=True))
+    ordered = sorted(names, key=keys.__getitem__)
     _require_clear(ordered)
     _require_one_series(ordered)
     numbers = _numbers(ordered)
@@ -84,13 +112,13 @@ def in_order(names: Sequence[str]) -> list[str]:
 
 def _require_one_series(ordered: Sequence[str]) -> None:
     """Refuse two files for one frame, and two series of frames; names that are alike but for numbers are one."""
-    stems = [str(Path(name).with_suffix("")) for name in ordered]
+    stems = [os.path.splitext(name)[0] for name in _differing(ordered)]
     counts = Counter(stems)
     if twice := [name for name, stem in zip(ordered, stems, strict=True) if counts[stem] > 1][:2]:
         raise MeshError(f"{twice[0]} and {twice[1]} are two files for one frame; name the files of one format")
     series: dict[str, list[str]] = {}
     for name, stem in zip(ordered, stems, strict=True):
-        series.setdefault(_DECIMALS.sub("#", os.path.basename(stem)), []).append(name)
+        series.setdefault(_DECIMALS.sub("#", stem), []).append(name)
     if len(series) > 1 and all(len(names) > 1 for names in series.values()):
         those = " and ".join(common_name(names) for names in [*series.values()][:2])
         raise MeshError(f"these files are {len(series)} series of frames, {those}; name the files of one, as a pattern")
@@ -98,7 +126,7 @@ def _require_one_series(ordered: Sequence[str]) -> None:
 
 def _require_clear(ordered: Sequence[str]) -> None:
     """Refuse names whose numbers can be read in two ways, with another order each."""
-    bases = [os.path.basename(name) for name in ordered]
+    bases = _differing(ordered)
     shapes = [_NUMBERS.sub("#", base) for base in bases]
     other = next((place for place, shape in enumerate(shapes) if shape != shapes[0]), 0)
     why = ""
@@ -111,6 +139,9 @@ def _require_clear(ordered: Sequence[str]) -> None:
         falls = next((place for place in range(1, len(decimals)) if decimals[place] < decimals[place - 1]), 0)
         if falls and len({number.partition(".")[0] for number in varying[0]}) > 1:
             other, why = falls, "as decimal numbers they are the other way round"
+    for keys in zip(*(map(_natural, base.split(os.sep)) for base in bases)):
+        if falls := next((place for place in range(1, len(keys)) if keys[place] < keys[place - 1]), 0):
+            other, why = falls, "folders and names both count"
     if why:
         first = ordered[other - 1 if other else 0]
         raise MeshError(f"the order of {first} and {ordered[other]} is unclear: {why}, or number the files from 0 on")
@@ -118,8 +149,8 @@ def _require_clear(ordered: Sequence[str]) -> None:
 
 def look_like_frames(names: Sequence[str]) -> bool:
     """Whether files are called like the frames of one animation: alike but for a number that counts up evenly."""
-    ordered = sorted(names, key=_natural)
-    steps = np.diff(_numbers(ordered))
+    keys = dict(zip(names, map(_natural, _differing(names)), strict=True))
+    steps = np.diff(_numbers(sorted(names, key=keys.__getitem__)))
     return len(steps) > 0 and steps.min() > 0 and bool((steps == steps.min()).all())
 
 
@@ -132,13 +163,13 @@ def common_name(names: Sequence[str]) -> str:
 
 
 def _natural(name: str) -> list[str | int]:
-    parts = _NUMBERS.split(os.path.basename(name))
+    parts = _NUMBERS.split(name)
     return [int(part) if place % 2 else part for place, part in enumerate(parts)]
 
 
 def _numbers(ordered: Sequence[str]) -> list[int]:
     """The number that counts the files; none, if there is none that alone tells them apart."""
-    parts = [_NUMBERS.split(os.path.basename(name)) for name in ordered]
+    parts = [_NUMBERS.split(name) for name in _differing(ordered)]
     if len({len(of_one) for of_one in parts}) != 1:
         return []
     differing = [place for place, values in enumerate(zip(*parts)) if len(set(values)) > 1]
@@ -167,6 +198,7 @@ def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], want
     metadata = {name: value for name, value in first.metadata.items() if name != TIME_VALUE}
     if TIME_VALUE in first.metadata and not times:
         times = [float(read(number).metadata.get(TIME_VALUE, "nan")) for number in range(count)]
+    times = times or times_in(names)
     known = rate_of_times(np.array(times, np.float64))
     if rate and times and known != rate:
         notes.append(
@@ -219,8 +251,8 @@ def _with_faces_of(
 LISTS = ("pvd", "series")  # of ParaView, files and their times
 
 
-def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]]:
-    """Return the files of a list, and their times."""
+def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float], list[int]]:
+    """Return the files of a list, the times, and how many files each time has."""
     limits.check("metadata_bytes", os.path.getsize(path))
     data = Path(path).read_bytes()
     try:
@@ -228,18 +260,19 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
             rows = [(float(entry["time"]), str(entry["name"])) for entry in json.loads(data)["files"]]
         else:
             found = (element.attrib for element in elements_of(data) if element.tag == "DataSet")
-            rows = [(float(entry.get("timestep", place)), entry["file"]) for place, entry in enumerate(found)]
+            rows = [(float(entry.get("timestep", 0.0)), entry["file"]) for entry in found]
         if not all(math.isfinite(time) for time, _ in rows):
             raise ValueError("a time is not finite")
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError) as error:
         raise FormatError(f"this is not a .{kind} file of ParaView: {type(error).__name__}: {error}") from error
-    if not rows or len({time for time, _ in rows}) < len(rows):
-        raise MeshError("the list names no file, or two for one time; join the parts of a time to one file")
+    if not rows:
+        raise MeshError("the list names no file")
     names = []
-    for _, name in sorted(rows):
+    for _, name in (rows := sorted(rows, key=lambda row: row[0])):
         with about(name):
             names.append(str(file_beside(Path(path).resolve().parent, name)))
-    return names, [time for time, _ in sorted(rows)]
+    counts = Counter(time for time, _ in rows)
+    return names, [*counts], [*counts.values()]
 
 
 def _numbering(names: Sequence[str]) -> dict[str, float]:

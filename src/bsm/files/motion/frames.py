@@ -77,6 +77,7 @@ class Wanted:
     mesh: str | os.PathLike[str] | None = None
     runs: bool = False
     times: Sequence[float] = ()  # of the files of frames
+    parts: Sequence[int] = ()  # how many files there are for each time, if not one
 
 
 class FrameWriter(Protocol):
