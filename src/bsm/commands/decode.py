@@ -16,13 +16,13 @@ import numpy as np
 from bsm.account.comparison import read_permutation, reorder
 from bsm.bitstream.errors import BsmError, OptionError, counted
 from bsm.codec.arrays import Faces, Order
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.commands.flags import add_flags, add_inputs, adder, asked, limits_of, refuse_two_on_one_pipe
 from bsm.files.formats.metadata import Written
 from bsm.files.images import is_link, with_linked_images
 from bsm.files.inspection import inspect_stream
 from bsm.files.libraries import as_decoded
-from bsm.files.mesh import by_name, format_of_name, save_written, unknown_suffix, written_mesh
+from bsm.files.mesh import by_name, format_of_name, save_written, unheard, unknown_suffix, written_mesh
 from bsm.files.motion.folder import is_numbered, mesh_files, names_many
 from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, no_link, output_inside, refuse_collisions, refuse_to_overwrite
@@ -99,13 +99,14 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def _as_source(job: Job) -> Job:
-    """Give the output the name of the file that a stream was made of; a format that is not written becomes OBJ."""
+    """Give the output the name of the file that a stream was made of; a format that is not written becomes another."""
     name = ""
     with suppress(BsmError, OSError):  # decoding it will say so
         name = str(inspect_stream(read_chunks(job.input)).metadata.get("source_name", ""))
     if name != Path(name).name or name.startswith(".") or Path(name).suffix.lower() not in MESH_SUFFIXES:
         return job
-    name = name if format_of_name(name) else f"{name}.obj"
+    other = "glb" if Path(name).suffix.lower() in (".dae", ".gltf") else "vtp"  # which hold units, and fields
+    name = name if format_of_name(name) else f"{name}.{other}"
     return replace(job, output=no_link(str(Path(job.output).with_name(name))))
 
 
@@ -141,7 +142,13 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     counts = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
     with console.progress("writing"):
         file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
+        _note_unheard(args, console, mesh.metadata, kind)
         return counts | _saved(args, console, output, kind, file, f"{counted(**counts)}, ", seconds)
+
+
+def _note_unheard(args: DecodeJob, console: Console, metadata: Metadata, kind: str) -> None:
+    if said := unheard(metadata, kind):
+        console.note(f"{args.input}: other programs do not read {said} in {kind}; write GLB or USD, or --unit-out m")
 
 
 def _as_asked(args: DecodeJob, console: Console, mesh: TriangleMesh, kind: str, *, exact: bool) -> TriangleMesh:
@@ -234,6 +241,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     if lost:
         because = " with --permutation" if args.permutation else ""
         console.note(f"{args.input}: not written to {kind}{because}: {', '.join(lost)}")
+    _note_unheard(args, console, said, kind)
     if names_many(output) and (others := len(mesh_files(output)) - count) > 0:
         console.note(f"{output}: {others} other meshes are there and count as frames; remove them")
     seconds = time.perf_counter() - begin

@@ -26,9 +26,11 @@ from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
 from bsm.files.parsing import PRECISION, gunzipped, plain_text
 from bsm.files.pipes import Input, Source, as_input, is_url
 from bsm.files.table import FORMATS, GLTF, MESH_FORMATS, USD_FORMATS, WRITTEN_FORMATS, format_of_bytes, other_kind
+from bsm.ground.lengths import metres
 
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
 _ALL = 1 << 62
+_UNITLESS = ("obj", "ply", "off", "vtp")  # where metadata, which only we read, say the unit
 _WAY = "convert it to GLB, OBJ, PLY or VTU first, with the program that made it"
 _FOREIGN = {
     ("fbx", "blend", "abc", "3ds", "x3d", "wrl"): "convert it to GLB, OBJ or PLY first, for instance with Blender",
@@ -175,6 +177,14 @@ def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[s
         mesh = TriangleMesh(mesh.positions.astype("f4"), mesh.faces, mesh.attributes, metadata)
     written: Written = by_name(*FORMATS[file_format].writer.split(":"))(mesh, Path(path).stem)
     return written
+
+
+def unheard(metadata: Metadata, file_format: str) -> str:
+    """Return the unit and the axis of a mesh that other programs do not learn from a format, in words."""
+    unit, up = str(metadata.get("unit", "")), str(metadata.get("up", "")).lower()
+    said = [f"the unit ({unit})"] if file_format in _UNITLESS and metres(unit) not in (None, 1.0) else []
+    said += [f"the upward axis ({up})"] if file_format == "obj" and up in ("x", "z") else []
+    return " and ".join(said)
 
 
 def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: bool = True) -> tuple[str, ...]:

@@ -227,6 +227,7 @@ def _in_other_case(folder: Path, name: str) -> str:
     return str(found)
 
 
+MOST_TEXT = 1 << 13  # characters of a comment; readers of PLY look for the end of a header in its first 64 KiB
 _MOST_BYTES = 1 << 15  # of the remarks of one file
 _MOST_ENTRIES = 1 << 15  # that are taken from a file: a decoder charges work for each
 _ENTRY_BYTES = 16

@@ -26,6 +26,8 @@ _KNOWN = {b"", b"mtllib", *_NUMBERS, *(keyword.encode() for keyword in STATES.va
 _COLORS = 3  # numbers of a color that every reader takes; some count a fourth as a coordinate
 _COUNTED = {"vertices": b"\nv ", "faces": b"\nf "}
 _FEW = 8
+_OF_EXPORTERS = re.compile(r"(?i)\W*(\d+ |object|group|mesh|material|vert|texture|normal|face|end|total|smooth|$)")
+"""Comments amid the data that repeat what the data are."""
 _MOST_NAME = 1 << 10  # characters: a name is repeated wherever a group of faces begins
 _MOST_NUMBERS = 3  # of a texture coordinate or a normal
 
@@ -75,10 +77,21 @@ def read_obj(data: bytes, limits: Limits, seen: tuple[int, int, int] | None = No
     metadata: dict[str, materials.Value] = {**names}
     libraries = dict.fromkeys(text_of(library) for library in lines.of(b"mtllib"))
     metadata |= {"mtllib": "\n".join(libraries)} if libraries else {}
-    remarks = (text.decode(errors="replace") for text in re.findall(rb"^#([^\r\n]*)", data, re.M))
-    metadata |= materials.parse_remarks(remarks)
+    metadata |= _comments(data, dropped)
     found = (*columns, *states)
     return Polygons(points.columns(0, 3), sizes, placed(0, b"v"), tuple(notes), tuple(dropped), found, metadata)
+
+
+def _comments(data: bytes, dropped: list[str]) -> dict[str, materials.Value]:
+    """Return what comments say: metadata of ours, and the text ahead of the first line of data."""
+    begin = re.search(rb"^[ \t]*[^#\s]", data, re.M)
+    lines = [(found.start(), text_of(found[1])) for found in re.finditer(rb"^#([^\r\n]*)", data, re.M)]
+    found = materials.parse_remarks(line for _, line in lines)
+    others = [(at, line) for at, line in lines if line and not line.startswith(("meta ", "MRGB "))]
+    ahead = "\n".join(line for at, line in others if begin is None or at < begin.start())
+    later = sum(at >= (begin.start() if begin else 0) and not _OF_EXPORTERS.match(line) for at, line in others)
+    dropped += [f"comments amid the data ({later})"] if later else []
+    return {**({"comment": ahead} if 0 < len(ahead) < materials.MOST_TEXT else {}), **found}
 
 
 class _Lines:
@@ -187,7 +200,10 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
         library.written |= {f"material.{n}.{word}" for n, m in library.materials.items() for word in m} - {*unsaid}
     library.written |= {f"{what}.{number}.name" for what in STATES for number in names[what]}
     library.written |= {f"{what}.names" for what in STATES if names[what]}
-    lines, omitted = materials.remarks(mesh.metadata, library.written | {"mtllib"})
+    comment = mesh.metadata.get("comment")
+    free = comment.split("\n") if isinstance(comment, str) else []
+    lines, omitted = materials.remarks(mesh.metadata, library.written | {"mtllib"} | ({"comment"} if free else set()))
+    lines = [*(one_line(line) for line in free), *lines]
     parts = [*(f"# {line}\n" for line in lines)]
     parts += [f"mtllib {one_line(name)}\n" for name in libraries if name]
     parts.append(_points(mesh, color))

@@ -315,9 +315,6 @@ def _wedges(table: _Table, corners: int, sizes: Ints) -> tuple[list[Column], lis
 # ------------------------------------------------------------------------------------------------------------ writing
 
 
-_MOST_TEXT = 1 << 13  # characters of a comment; readers look for the end of a header in its first 64 KiB
-
-
 def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
     """The binary PLY of a mesh; values of corners are those of vertices where all corners of each have the same."""
     library = formats.Library(mesh, stem)
@@ -328,7 +325,7 @@ def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
     if [*order] != [*range(len(order))]:
         images += formats.remarks({f"image.{number}.name": name for number, name in order.items()})[0]
     texts = {word: text for word in COMMENTS if isinstance(text := mesh.metadata.get(word), str)}
-    texts = {word: text for word, text in texts.items() if len(text) < _MOST_TEXT}
+    texts = {word: text for word, text in texts.items() if len(text) < formats.MOST_TEXT}
     free = [f"{word} {one_line(line)}" for word, text in texts.items() for line in text.split("\n")]
     comments, omitted = formats.remarks(mesh.metadata, library.written | texts.keys())
     single = np.float32 if single_suffices(mesh.positions) else np.float64

@@ -92,6 +92,8 @@ def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str]]:
         else:
             names.append(text_of(mark[2]))
     if len(lines) != 3 * len(facets) or not (facets or re.search(rb"endsolid", data, re.IGNORECASE)):
+        if facets and len(lines) > 3 * len(facets) and re.search(rb"endfacet[^\n]*\s+endsolid[^\n]*\s*\Z", data, re.I):
+            raise FormatError(f"{len(facets)} facets have {len(lines)} corners; cut them into triangles")
         raise TruncatedError(f"the STL file is cut short: {len(lines)} corners in {len(facets)} finished triangles")
     used, of_facet = np.unique(np.array(facets, np.int64), return_inverse=True)
     called = [("", *names)[solid] for solid in used.tolist()]

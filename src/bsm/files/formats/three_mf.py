@@ -1,5 +1,5 @@
 """3MF by lib3mf, the library of the 3MF Consortium: objects where the build places them, read as one mesh; a mesh is
-written as an object for each part, with the colors of its materials."""
+written as an object for each part, with the colors of its materials, or of corners."""
 
 import ctypes
 import io
@@ -15,7 +15,7 @@ import numpy as np
 
 from bsm.bitstream.errors import MeshError, counted, imported
 from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.attributes import Attribute, at_corners
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
 from bsm.files.conventions import placement
@@ -31,7 +31,7 @@ _KNOWN = ("Title", "Designer", "Description", "Copyright", "LicenseTerms", "Rati
 _TAKEN = Taken(rows_of("3mf"))
 _FILES = re.compile(r"\[Content_Types\]\.xml|(.*/)?_rels/.*|.*\.model|.*/", re.IGNORECASE)  # those of each package
 _ELSE = "write PLY, OBJ or OFF"
-_MOST_OBJECTS = 1 << 10
+_MOST_OBJECTS, _MOST_COLORS = 1 << 10, 1 << 18
 _Painted = Literal["color", "texcoord"]
 
 
@@ -233,6 +233,12 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     sorting, objects = _objects(mesh)
     held |= {f"{sorting.name}.names", *(f"{sorting.name}.{n}.name" for n in objects)} if sorting else {"name"}
     painted = _colored(library, model, which, materials, held) if materials else None
+    color = formats.first(mesh, "color", (3, 4), "vertex", "corner", "face")
+    if color is not None and (tinted := _tinted(library, model, at_corners(color, mesh.faces))) is not None:
+        plain = [number for number, words in materials.items() if not words.keys() - {"name"}]
+        painted = tinted if painted is None else np.where(np.isin(which, plain), tinted, painted)
+    else:
+        color = None
     for name, rows in objects.values():
         item, used = model.AddMeshObject(), np.unique(mesh.faces[rows]) if sorting else np.arange(len(positions))
         corners = np.searchsorted(used, mesh.faces[rows]).astype(np.uint32)
@@ -253,8 +259,10 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     largest = max(float(np.abs(positions).max(initial=0)), 1e-30)
     writer.SetDecimalPrecision(int(np.clip(8 - math.floor(math.log10(largest)), 0, 15)))  # more of them go wrong
     data = _table(writer, "writer_writetobuffer", ctypes.c_uint8).tobytes()
-    shown = [numbers if materials else None, sorting]
-    return formats.Written(data, formats.left_out(mesh, shown, [name for name in mesh.metadata if name not in held]))
+    shown = [numbers if materials else None, sorting, color]
+    finer = () if color is None or color.values.dtype == np.uint8 else (f"{color.name} beyond 8 bits",)
+    lost = formats.left_out(mesh, shown, [name for name in mesh.metadata if name not in held])
+    return formats.Written(data, (*lost, *finer))
 
 
 def _objects(mesh: TriangleMesh) -> tuple[Attribute | None, dict[int, tuple[str, Ints]]]:
@@ -269,6 +277,21 @@ def _objects(mesh: TriangleMesh) -> tuple[Attribute | None, dict[int, tuple[str,
 def _counted(rows: Array, kind: Any) -> tuple[Any, Any]:
     """The number of rows, and a table of them, as lib3mf takes it."""
     return ctypes.c_uint64(len(rows)), (kind * len(rows)).from_buffer_copy(rows.tobytes())
+
+
+def _tinted(library: Any, model: Any, colors: Array) -> Array | None:
+    """Return the colors of the corners of each triangle as properties; None for more of them than are written."""
+    shares = np.rint(255 * conventions.shares_of(colors).clip(0, 1)).astype(np.uint8).reshape(-1, colors.shape[2])
+    opaque = np.full((len(shares), 4), 255, np.uint8)
+    opaque[:, : shares.shape[1]] = shares
+    used, where = np.unique(opaque.view(np.uint32)[:, 0], return_inverse=True)
+    if len(used) > _MOST_COLORS:
+        return None
+    group = model.AddColorGroup()
+    places = [group.AddColor(library.Color(*rgba)) for rgba in used.view(np.uint8).reshape(-1, 4).tolist()]
+    given = np.zeros(len(colors), np.dtype(library.TriangleProperties))
+    given["ResourceID"], given["PropertyIDs"] = group.GetUniqueResourceID(), np.array(places)[where].reshape(-1, 3)
+    return given
 
 
 def _colored(library: Any, model: Any, numbers: Ints, materials: Mapping[int, Material], held: set[str]) -> Array:
