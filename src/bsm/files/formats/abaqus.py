@@ -48,7 +48,7 @@ class _Keyword:
 
 
 def _keywords(lines: list[str]) -> Iterator[_Keyword]:
-    """The keywords of a file with what they say, and the lines of data after them."""
+    """The keywords of a file with the lines of data after them."""
     open_ = None
     for number, row in enumerate(lines, 1):
         line = row.strip()
@@ -140,7 +140,7 @@ def _placed(keyword: _Keyword) -> Doubles:
 
 
 def _surface(scope: _Scope, names: dict[str, int], table: Keywords, limits: Limits) -> tuple[Part, tuple[str, ...]]:
-    """The surface of a scope, and what it leaves out."""
+    """The surface of a scope, and the names of the rest."""
     rows = [
         (line, [word.strip() or "0" for word in row.split(",")][:4]) for line, those in scope.nodes for row in those
     ]

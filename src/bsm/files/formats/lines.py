@@ -34,7 +34,7 @@ class Keywords:
 
     @property
     def named(self) -> tuple[str, ...]:
-        """What was left out, with its count."""
+        """Return the keywords that were left out, with their counts."""
         found = [f"{keyword} ({count})" for keyword, count in self.left.items() if f"-{keyword}" not in self._harmless]
         return (*found[:_MOST_NAMED], *([f"{len(found) - _MOST_NAMED} other keywords"] * (len(found) > _MOST_NAMED)))
 

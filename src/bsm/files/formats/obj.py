@@ -27,7 +27,7 @@ _COLORS = 3  # numbers of a color that every reader takes; some count a fourth a
 _COUNTED = {"vertices": b"\nv ", "faces": b"\nf "}
 _FEW = 8
 _OF_EXPORTERS = re.compile(r"(?i)\W*(\d+ |object|group|mesh|material|vert|texture|normal|face|end|total|smooth|$)")
-"""Comments amid the data that repeat what the data are."""
+"""Comments amid the data that exporters write."""
 _MOST_NAME = 1 << 10  # characters: a name is repeated wherever a group of faces begins
 _MOST_NUMBERS = 3  # of a texture coordinate or a normal
 

@@ -420,7 +420,7 @@ _AXES = {6: "xx yy zz xy yz xz", 9: "xx xy xz yx yy yz zx zy zz"}
 
 def _narrow(column: Column) -> list[Column]:
     """Return a column of more numbers than an attribute has as one of each, named by axes if it is a tensor."""
-    width = column.values.shape[1]
+    width = column.values.shape[1] if column.values.ndim > 1 else 1
     if not MOST_COMPONENTS < width <= _MOST_NARROW:
         return [column]
     names = _AXES[width].split() if width in _AXES else map(str, range(width))

@@ -234,11 +234,14 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     held |= {f"{sorting.name}.names", *(f"{sorting.name}.{n}.name" for n in objects)} if sorting else {"name"}
     painted = _colored(library, model, which, materials, held) if materials else None
     color = formats.first(mesh, "color", (3, 4), "vertex", "corner", "face")
-    if color is not None and (tinted := _tinted(library, model, at_corners(color, mesh.faces))) is not None:
-        plain = [number for number, words in materials.items() if not words.keys() - {"name"}]
-        painted = tinted if painted is None else np.where(np.isin(which, plain), tinted, painted)
-    else:
+    shades = None if color is None else _bytes_of(at_corners(color, mesh.faces))
+    looks = [number for number, words in materials.items() if words.keys() - {"name"}]
+    hidden = np.isin(which, looks)  # a triangle has the color of its material, or of its corners
+    tinted = None if shades is None else _tinted(library, model, shades)
+    if shades is None or tinted is None or (shades[hidden] != 255).any():
         color = None
+    else:
+        painted = tinted if painted is None else np.where(hidden, painted, tinted)
     for name, rows in objects.values():
         item, used = model.AddMeshObject(), np.unique(mesh.faces[rows]) if sorting else np.arange(len(positions))
         corners = np.searchsorted(used, mesh.faces[rows]).astype(np.uint32)
@@ -279,12 +282,16 @@ def _counted(rows: Array, kind: Any) -> tuple[Any, Any]:
     return ctypes.c_uint64(len(rows)), (kind * len(rows)).from_buffer_copy(rows.tobytes())
 
 
+def _bytes_of(colors: Array) -> Array:
+    """Return colors of corners, shape (m, 3, c), as bytes with an opacity."""
+    shares = conventions.shares_of(colors).clip(0, 1)
+    opaque = np.pad(shares, ((0, 0), (0, 0), (0, 4 - colors.shape[2])), constant_values=1.0)
+    return np.rint(255 * opaque).astype(np.uint8)
+
+
 def _tinted(library: Any, model: Any, colors: Array) -> Array | None:
     """Return the colors of the corners of each triangle as properties; None for more of them than are written."""
-    shares = np.rint(255 * conventions.shares_of(colors).clip(0, 1)).astype(np.uint8).reshape(-1, colors.shape[2])
-    opaque = np.full((len(shares), 4), 255, np.uint8)
-    opaque[:, : shares.shape[1]] = shares
-    used, where = np.unique(opaque.view(np.uint32)[:, 0], return_inverse=True)
+    used, where = np.unique(colors.reshape(-1, 4).view(np.uint32)[:, 0], return_inverse=True)
     if len(used) > _MOST_COLORS:
         return None
     group = model.AddColorGroup()

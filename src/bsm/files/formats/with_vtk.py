@@ -149,7 +149,7 @@ def _part(data: Any, name: str, left: dict[str, None]) -> Part | None:
 
 
 def _through(step: Any, data: Any) -> Any:
-    """What a filter makes of a set of data."""
+    """Return the output of a filter for a set of data."""
     step.SetInputData(data)
     for what in ("PassVerts", "PassLines"):
         getattr(step, f"Set{what}", int)(0)

@@ -77,7 +77,7 @@ def _differing(names: Sequence[str]) -> list[str]:
 
 
 def times_in(names: Sequence[str]) -> list[float]:
-    """Times in seconds that folders are called, or numbers with an exponent in names; none if there are no such."""
+    """Times in seconds that folders are called, or numbers with an exponent in names; or nothing."""
     rows = [os.path.splitext(name)[0].split(os.sep) for name in _differing(names)]
     varying = [place for place, values in enumerate(zip(*rows)) if len(set(values)) > 1]
     if len({*map(len, rows)}) != 1 or len(varying) != 1:
