@@ -11,7 +11,7 @@ import bsm
 from bsm import Attribute, BsmWarning, FormatError, LimitError, Limits, MeshError, TriangleMesh, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.files.formats.metadata import images_in, materials_in
-from bsm.files.formats.polygons import meaning_of
+from bsm.files.formats.polygons import Column, Polygons, meaning_of
 from bsm.files.libraries import as_mesh
 from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from bsm.files.sequence import open_sequence
@@ -865,3 +865,59 @@ def test_formats_of_other_libraries_do_not_leak_in(kind, tmp_path):
     (tmp_path / f"a.{kind}").write_text("1 2 3\n")
     with pytest.raises(FormatError, match=f"{kind} is not a mesh format"):
         read_mesh(tmp_path / f"a.{kind}")
+
+
+def test_comments_of_an_obj_come_back_or_are_named(tmp_path):
+    text = f"# 3D Slicer output. SPACE=RAS\n# by hand\n{THREE}# 3 vertices\n# twice as fine here\nf 1 2 3\n"
+    (tmp_path / "a.obj").write_text(text)
+    mesh, _, dropped = vars(read_mesh(tmp_path / "a.obj")).values()
+    assert (
+        mesh.metadata["comment"] == "3D Slicer output. SPACE=RAS\nby hand" and "comments amid the data (1)" in dropped
+    )
+    for kind, line in (("obj", "# 3D Slicer output. SPACE=RAS"), ("ply", "comment 3D Slicer output. SPACE=RAS")):
+        write_mesh(tmp_path / f"b.{kind}", mesh)
+        assert line in (tmp_path / f"b.{kind}").read_bytes().decode("latin-1").splitlines()
+        assert read_mesh(tmp_path / f"b.{kind}").mesh.metadata["comment"] == mesh.metadata["comment"]
+
+
+def test_a_unit_that_others_do_not_read_is_a_note(tmp_path):
+    (tmp_path / "a.obj").write_text(f"{THREE}f 1 2 3\n")
+    for meta, told in ((("unit=mm", "up=z"), "the unit (mm) and the upward axis (z)"), (("unit=m", "up=y"), "")):
+        words = [word for one in meta for word in ("--meta", one)]
+        program("encode", tmp_path / "a.obj", "-f", "--quick", *words)
+        done = program("decode", tmp_path / "a.bsm", "-f", "-o", tmp_path / "b.obj", text=True)
+        assert (
+            done.returncode == 0 and ("other programs do not read" in done.stderr) == bool(told) and told in done.stderr
+        )
+
+
+def test_facets_of_four_corners_are_told_from_a_file_that_is_cut(tmp_path):
+    corners = "".join(f"vertex {x} {y} 0\n" for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    text = f"solid a\nfacet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\nendsolid a\n"
+    (tmp_path / "a.stl").write_text(text)
+    with pytest.raises(bsm.FormatError, match="1 facets have 4 corners"):
+        read_mesh(tmp_path / "a.stl")
+    (tmp_path / "a.stl").write_text(text[:-20])
+    with pytest.raises(bsm.TruncatedError):
+        read_mesh(tmp_path / "a.stl")
+
+
+def test_colors_of_corners_stay_in_a_3mf(tmp_path):
+    pytest.importorskip("lib3mf")
+    colors = np.array([[255, 0, 0, 128], [0, 255, 0, 255], [1, 2, 3, 255], [9, 9, 9, 9]], np.uint8)
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    attribute = bsm.Attribute("color", colors, semantic="color")
+    mesh = bsm.TriangleMesh(square, np.array([[0, 1, 2], [0, 2, 3]]), (attribute,))
+    assert "color" not in write_mesh(tmp_path / "a.3mf", mesh)
+    found = read_mesh(tmp_path / "a.3mf").mesh
+    shown = next(a for a in found.attributes if a.semantic == "color")
+    assert (shown.values[shown.indices] == colors[mesh.faces]).all()
+
+
+def test_tensors_are_attributes_of_their_axes():
+    values = np.arange(24.0).reshape(4, 6)
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    column = Column("stress", values)
+    found = Polygons(square, np.array([4]), np.arange(4), columns=(column,)).checked(bsm.Limits()).mesh
+    assert [a.name for a in found.attributes] == [f"stress.{axes}" for axes in ("xx", "yy", "zz", "xy", "yz", "xz")]
+    assert np.array_equal(np.column_stack([a.values for a in found.attributes]), values)

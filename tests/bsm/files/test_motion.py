@@ -1,6 +1,7 @@
 """Sequences in the files of other programs: read as those show them, written so that those read them."""
 
 import json
+import re
 import shutil
 import struct
 import subprocess
@@ -27,8 +28,9 @@ from bsm.api import decode_frames
 from bsm.files import conventions
 from bsm.files.formats.metadata import named, names_in
 from bsm.files.mesh import read_mesh, write_mesh
-from bsm.files.motion.folder import in_order, look_like_frames
+from bsm.files.motion.folder import in_order, look_like_frames, times_in
 from bsm.files.motion.frames import Shared, Wanted, painted_like
+from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
 from bsm.gltf.scene import Keyframes, matrix_of, read_gltf
 from tests.bsm.program import run as bsm
@@ -917,3 +919,51 @@ def test_what_we_write(tmp_path):
     save_frames(tmp_path / "a.glb", "glb", positions, faces, shared)
     shown = shown_by_three(tmp_path / "a.glb", 25, 9)
     assert np.abs(shown - positions).max() < 1e-6
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        [f"times/{time}/wall.vtp" for time in ("0", "0.05", "0.1", "0.15", "1", "2", "10")],
+        [f"w_{time}.obj" for time in ("9e-06", "1e-05", "1.1e-05")],
+        [f"scans/f{number}/mesh.obj" for number in range(8, 12)],
+        [f"{number}/mesh_{number}.obj" for number in range(8, 12)],
+    ],
+)
+def test_frames_are_ordered_by_what_differs_in_their_paths(names):
+    for given in (names, names[::-1], sorted(names)):
+        assert in_order(given) == names
+    looks = names if names[0].startswith(("times", "w_")) else []
+    assert times_in(names) == [float(re.split("[/_]", name)[1].removesuffix(".obj")) for name in looks]
+
+
+@pytest.mark.parametrize(
+    "names", [["a/f1.obj", "a/f2.obj", "b/f1.obj"], ["0.1/a.vtp", "0.10/a.vtp", "0.2/a.vtp"], ["1/f2.obj", "2/f1.obj"]]
+)
+def test_paths_without_one_order_are_refused(names):
+    with pytest.raises(MeshError, match=r"is unclear|one time"):
+        in_order(names)
+
+
+def test_parts_of_a_pvd_at_one_time_are_joined_and_a_pvd_is_written(tmp_path):
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    faces = np.array([[0, 1, 2], [0, 2, 3]])
+    for number in range(3):
+        write_mesh(tmp_path / f"p{number}.vtp", TriangleMesh(np.add(square, (3 * number, 0, number)), faces))
+    rows = '<DataSet timestep="0.5" file="p0.vtp"/><DataSet timestep="0.5" file="p1.vtp"/>'
+    rows += '<DataSet timestep="2" file="p1.vtp"/><DataSet timestep="2" file="p2.vtp"/>'
+    head = '<VTKFile type="Collection" version="0.1"><Collection>{}</Collection></VTKFile>'
+    (tmp_path / "a.pvd").write_text(head.format(rows))
+    frames = open_sequence(str(tmp_path / "a.pvd"))
+    assert [frame[:, 0].max() for frame in frames.frames] == [4, 7] and frames.frame_rate == pytest.approx(1 / 1.5)
+    (tmp_path / "b.pvd").write_text(
+        head.format(re.sub(' timestep="[^"]*"', "", rows.partition('<DataSet timestep="2"')[0]))
+    )
+    assert open_sequence(str(tmp_path / "b.pvd")).count == 1
+    bsm("encode", tmp_path / "a.pvd", "-f", "--quick", "-o", tmp_path / "a.bsm")
+    done = bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / "out.pvd")
+    assert done.returncode == 0, done.stderr
+    text = (tmp_path / "out.pvd").read_text()
+    assert re.findall('timestep="(.*?)" .*file="(.*?)"', text) == [("0.5", "out/00000.vtp"), ("2", "out/00001.vtp")]
+    assert open_sequence(str(tmp_path / "out.pvd")).count == 2
+    assert size_of(str(tmp_path / "out.pvd")) > sum(path.stat().st_size for path in (tmp_path / "out").iterdir())

@@ -9,10 +9,10 @@ import shutil
 import sys
 import tempfile
 import zipfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import chain
 from pathlib import Path
 from typing import Any, BinaryIO, TypeAlias
@@ -60,6 +60,7 @@ class Materials:
         self._pxr, self._shade, self._geom, self._path, self._stage = pxr, pxr.UsdShade, pxr.UsdGeom, path, stage
         self._known: dict[tuple[tuple[str, str | int | float], ...], int] = {}
         self._images: dict[str, int] = {}
+        self._packages: dict[str, str] = {}  # that images are in, if not in the stage itself
         self._sets, self._unsaid = set[str](), set[str]()
 
     def of_faces(self, prim: Any, faces: int, time: Any) -> tuple[Ints, list[tuple[str, Ints]]]:
@@ -86,7 +87,18 @@ class Materials:
         entries = formats.described({number: dict(words) for words, number in self._known.items()})
         names = {f"image.{number}.name": name for name, number in self._images.items()}
         if not zipfile.is_zipfile(self._path):
-            return formats.fetched({**entries, **names}, formats.Beside(Path(self._path).parent, limits).read)
+            beside = formats.Beside(Path(self._path).parent, limits)
+
+            def read(name: str) -> bytes | str:
+                if name not in self._packages:
+                    return beside.read(name)
+                found = beside.find(self._packages[name])
+                if isinstance(found, str):
+                    return found
+                with zipfile.ZipFile(found) as package:
+                    return _packed(package, name, limits.frame_bytes)
+
+            return formats.fetched({**entries, **names}, read)
         with zipfile.ZipFile(self._path) as package:
             return formats.fetched({**entries, **names}, lambda name: _packed(package, name, limits.frame_bytes))
 
@@ -128,10 +140,13 @@ class Materials:
         for name, (kind, number, painted) in _INPUTS.items():
             value = self._value(surface, name, 3 if kind == "Color3f" else 1) or _USUAL.get(name)
             if texture := self._source(surface, name) if painted else None:
-                image = texture.GetInput("file").Get() if texture.GetInput("file") else None
+                files = texture.GetInput("file").GetValueProducingAttributes() if texture.GetInput("file") else []
+                image = files[0].Get() if files else None
                 if image is not None and image.path:
-                    _, packed, inside = str(image.resolvedPath).rpartition("[")
+                    outside, packed, inside = str(image.resolvedPath).rpartition("[")
                     folder = Path(self._path).resolve().parent
+                    if packed and Path(outside).resolve() != Path(self._path).resolve():
+                        self._packages[inside.rstrip("]")] = os.path.relpath(outside, folder)
                     path = inside.rstrip("]") if packed else os.path.relpath(inside or folder / image.path, folder)
                     look[painted] = self._placed(texture, self._images.setdefault(path, len(self._images)))
                 space = texture.GetInput("sourceColorSpace")
@@ -394,32 +409,44 @@ class _Shape:
 class _Instancer:
     """The instances of a point instancer, which are placed at any time."""
 
-    def __init__(self, pxr: Any, prim: Any, first: Any) -> None:
+    def __init__(self, pxr: Any, prim: Any) -> None:
         self._pxr, self.prim = pxr, prim
         self._instancer = pxr.UsdGeom.PointInstancer(prim)
         self._placed: tuple[float, Doubles] = (np.nan, np.empty((0, 4, 4)))
-        self._kinds: Ints = np.array(self._instancer.GetProtoIndicesAttr().Get(first) or [], np.int64)
-        mask = self._instancer.ComputeMaskAtTime(first)
-        self._numbers = np.flatnonzero(np.array(mask, np.bool_)) if mask else np.arange(len(self._kinds))
         self._roots = [prim.GetStage().GetPrimAtPath(path) for path in self._instancer.GetPrototypesRel().GetTargets()]
         below = [list(pxr.Usd.PrimRange.AllPrims(root)) if root else [] for root in self._roots]
         self._meshes = [[one for one in prims if one.IsA(pxr.UsdGeom.Mesh)] for prims in below]
         inner = (one for prims in below for one in prims if one.IsA(pxr.UsdGeom.PointInstancer))
         self.inner = [str(one.GetPath()) for one in inner]
 
-    def instances(self) -> Iterator[tuple[Any, _Instance]]:
-        """The meshes of each instance, and which one that is."""
-        for number in self._numbers.tolist():
-            kind = int(self._kinds[number])
+    @lru_cache(2)  # noqa: B019
+    def shown(self, time: float) -> frozenset[tuple[int, int]]:
+        """The instances that are there at a time, and their prototypes."""
+        code = self._pxr.Usd.TimeCode(time)
+        kinds = np.array(self._instancer.GetProtoIndicesAttr().Get(code) or [], np.int64)
+        mask = self._instancer.ComputeMaskAtTime(code)
+        numbers = np.flatnonzero(np.array(mask, np.bool_)) if mask else np.arange(len(kinds))
+        return frozenset(zip(numbers.tolist(), kinds[numbers].tolist(), strict=True))
+
+    def instances(self, times: Iterable[float]) -> Iterator[tuple[Any, _Instance]]:
+        """The meshes of each instance that is there at one of the times, and which one that is."""
+        for number, kind in sorted({one for time in times for one in self.shown(time)}):
             if not 0 <= kind < len(self._roots):
                 raise FormatError(f"{self.prim.GetPath()} names prototype {kind} of {len(self._roots)}")
             for mesh in self._meshes[kind]:
-                yield mesh, (self, number, self._roots[kind])
+                yield mesh, (self, number, self._roots[kind], kind)
+
+    @property
+    def changes(self) -> list[float]:
+        """The times at which instances may appear, vanish or become others."""
+        every = (self._instancer.GetProtoIndicesAttr(), self._instancer.GetInvisibleIdsAttr())
+        return [time for attr in every if attr.GetNumTimeSamples() > 1 for time in attr.GetTimeSamples()]
 
     @property
     def times(self) -> list[float]:
         every = (self._instancer.GetPositionsAttr(), self._instancer.GetOrientationsAttr())
-        return [time for attr in (*every, self._instancer.GetScalesAttr()) for time in attr.GetTimeSamples()]
+        moves = [time for attr in (*every, self._instancer.GetScalesAttr()) for time in attr.GetTimeSamples()]
+        return moves + self.changes
 
     def place(self, number: int, time: Any, cache: Any) -> Doubles:
         """Return the matrix that places an instance, with its prototype's transform, in the world."""
@@ -429,14 +456,16 @@ class _Instancer:
             found = self._instancer.ComputeInstanceTransformsAtTime(time, time, moved, every)
             self._placed = time.GetValue(), np.array(found, np.float64).reshape(-1, 4, 4)
         if number >= len(self._placed[1]):
-            raise MeshError(f"{self.prim.GetPath()} has {len(self._placed[1])} instances at {time}, and more before")
+            raise MeshError(
+                f"{self.prim.GetPath()} has {len(self._placed[1])} instances at {time}, and more before: --runs"
+            )
         world: Doubles = np.array(cache.GetLocalToWorldTransform(self.prim), np.float64)
         placed: Doubles = self._placed[1][number] @ world
         return placed
 
 
-_Instance: TypeAlias = tuple[_Instancer, int, Any]
-"""An instance by its number, and the root of its prototype."""
+_Instance: TypeAlias = tuple[_Instancer, int, Any, int]
+"""An instance by its number, the root of its prototype, and the number of that."""
 
 
 class _Part:
@@ -460,7 +489,7 @@ class _Part:
         found: Doubles = np.array(cache.GetLocalToWorldTransform(self.prim), np.float64)
         if self.instance is None:
             return found
-        instancer, number, root = self.instance
+        instancer, number, root, _ = self.instance
         base = np.array(cache.GetLocalToWorldTransform(root), np.float64)
         return found @ np.linalg.pinv(base) @ instancer.place(number, time, cache)
 
@@ -567,16 +596,20 @@ class _Stage:
                 left.setdefault(hidden, []).append(str(prim.GetPath()))
             elif prim.IsA(pxr.UsdGeom.PointInstancer):
                 every.PruneChildren()
-                instancer = _Instancer(pxr, prim, self.first)
+                instancer, first = _Instancer(pxr, prim), self.first.GetValue()
                 if instancer.inner:
                     left.setdefault("instancers in prototypes", []).extend(instancer.inner)
-                yield from instancer.instances()
+                if changing := any(instancer.shown(time) != instancer.shown(first) for time in instancer.changes):
+                    self.blinking += [str(prim.GetPath())] if self._runs else []
+                    why = "instances that appear, vanish or become others later (--runs)"
+                    left.setdefault(why, []).extend([] if self._runs else [str(prim.GetPath())])
+                yield from instancer.instances([first, *(instancer.changes if changing and self._runs else ())])
             elif prim.IsA(pxr.UsdGeom.Mesh):
                 yield prim, None
         if self.blinking and not self._runs:
             names = ", ".join(self.blinking[:MOST_NAMED])
             self.notes.append(f"these vanish, and are always shown; --runs lets them: {names}")
-        self.notes += [f"left out, {why}: {', '.join(paths[:MOST_NAMED])}" for why, paths in left.items()]
+        self.notes += [f"left out, {why}: {', '.join(paths[:MOST_NAMED])}" for why, paths in left.items() if paths]
 
     def _hidden(self, prim: Any) -> str:
         """Why a mesh or an instancer is not seen; nothing if it is."""
@@ -603,6 +636,13 @@ class _Stage:
         """Return whether a prim is visible at a time."""
         geom, code = self.pxr.UsdGeom, self.pxr.Usd.TimeCode(time)
         return bool(geom.Imageable(prim).ComputeVisibility(code) != geom.Tokens.invisible)
+
+    def _seen_there(self, part: _Part, time: float) -> bool:
+        """Return whether a part is visible at a time, of an instancer with this instance."""
+        if part.instance is None:
+            return self.seen(part.prim, time)
+        instancer, number, _, kind = part.instance
+        return self.seen(instancer.prim, time) and (number, kind) in instancer.shown(time)
 
     @property
     def times(self) -> list[float]:
@@ -641,7 +681,7 @@ class _Stage:
         cache = geom.XformCache(code)
         parts = self.parts
         if self._runs and self.blinking:
-            parts = [part for part in parts if self.seen(part.instance[0].prim if part.instance else part.prim, time)]
+            parts = [part for part in parts if self._seen_there(part, time)]
             if not parts:
                 raise NoFacesError(f"nothing is visible at time {time:g}")
 
