@@ -153,7 +153,7 @@ export function contentOf(
 
 /** The page's module with kernels in it. */
 export function viewerScript(): string {
-    const kernels = { data: base64(readFileSync(join(VIEWER, "kernels.wasm"))) };
+    const kernels = { data: base64(readFileSync(join(WEB, "built/kernels.wasm"))) };
     return `const KERNELS=${JSON.stringify({ kernels })};${readFileSync(join(VIEWER, "viewer.js"), "utf8")}`;
 }
 

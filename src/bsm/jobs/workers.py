@@ -41,7 +41,7 @@ def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
 def on_cluster(work: Work, tasks: Tasks, address: str, patience: float, console: Console) -> Outcomes:
     """Do jobs on the workers of a cluster; other workers repeat the jobs of a worker that dies.
 
-    `OSError` if there is no worker for `patience` seconds.
+    An `OSError` is raised if it has had no worker for `patience` seconds.
     """
     try:
         yield from _outlived(work, tasks, partial(_workers, address, patience, console))

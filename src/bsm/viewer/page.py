@@ -178,11 +178,12 @@ Place = Callable[[str, bytes], dict[str, str]]
 
 
 def _built(name: str) -> bytes:
-    """A file that `web` builds."""
-    try:
-        return files("bsm.viewer").joinpath(name).read_bytes()
-    except OSError as error:
-        raise DependencyError(f"a part of the viewer is missing, install the package again: {error}") from None
+    """A file that `web` builds: in the package, or in the checkout that is installed."""
+    viewer = files("bsm.viewer")
+    for place in (viewer / name, viewer / "built" / name, Path(__file__).parents[3] / "web" / "built" / name):
+        if place.is_file():
+            return place.read_bytes()
+    raise DependencyError(f"a part of the viewer is missing, install the package again: {name}")
 
 
 def embedded(_: str, data: bytes) -> dict[str, str]:
