@@ -121,7 +121,8 @@ inline bool follow_normals(Doubles2 positions, ConstInts2 faces, Lists around, C
 inline bool filter_normals(FaceGeometry faces, ConstDoubles2 guide, Lists near, double, double, Doubles2 packed,
     Doubles2 filtered) {
     int64_t m = faces.normals.rows;
-    return geometry(faces) && triples(m, guide) && graph(near, m, m) && packed.rows == m && packed.columns == 8 && triples(m, filtered);
+    return geometry(faces) && triples(m, guide) && graph(near, m, m) && packed.rows == m && packed.columns == 8
+        && triples(m, filtered);
 }
 inline bool patch_guidance(ConstDoubles2 normals, ConstDoubles areas, Lists patches, ConstDoubles steps, Lists inner,
     Doubles scores, Doubles2 means, Doubles2 guide) {

@@ -286,7 +286,7 @@ def _bytes_of(colors: Array) -> Array:
     """Return colors of corners, shape (m, 3, c), as bytes with an opacity."""
     shares = conventions.shares_of(colors).clip(0, 1)
     opaque = np.pad(shares, ((0, 0), (0, 0), (0, 4 - colors.shape[2])), constant_values=1.0)
-    return np.rint(255 * opaque).astype(np.uint8)
+    return np.asarray(np.rint(255 * opaque), np.uint8)
 
 
 def _tinted(library: Any, model: Any, colors: Array) -> Array | None:
