@@ -29,7 +29,7 @@ USES = dict(uses())
 def test_the_walk_visits_every_format_that_is_read_here():
     suffixes = {sample.suffix for sample in samples().values()}
     apart = (kind for kind, row in FORMATS.items() if row.apart)
-    others = {"gltf", "usd", "usda", "usdc", "usdz", *XDMF, "msh", *apart}
+    others = {"gltf", "usd", "usda", "usdc", "usdz", *XDMF, *apart}
     assert {*MESH_FORMATS, *SEQUENCES_READ} - suffixes <= others
     names = {case.name.partition(",")[0] for case in numbers()}
     assert set(samples()) <= names
