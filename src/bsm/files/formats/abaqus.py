@@ -111,8 +111,7 @@ def read_abaqus(data: bytes, limits: Limits) -> Polygons:
     names = dict[str, int]()
     made = [_surface(one, names, table, limits) for one in instances or [model, *parts.values()]]
     shown = [part for part, _ in made if len(part.sizes)]
-    counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for part in shown]
-    found = joined_parts(shown, counts, limits, len(data))
+    found = joined_parts(shown, None, limits, len(data))
     lost = dict.fromkeys(name for _, left in made for name in left)
     columns = [column for column in found.columns if column.name != "group" or len(names) > 1]
     groups = named(list(names), "group") if any(names) else {}

@@ -354,8 +354,13 @@ def part_of(polygons: Polygons, name: str) -> Part:
     return Part(polygons.positions, polygons.sizes, polygons.corners, polygons.columns, materials, name)
 
 
-def joined_parts(given: Iterable[Part], counts: Sequence[tuple[int, int]], limits: Limits, received: int) -> Polygons:
+def joined_parts(
+    given: Iterable[Part], counts: Sequence[tuple[int, int]] | None, limits: Limits, received: int
+) -> Polygons:
     """Join the parts of a scene; `counts`, the vertices and triangles of each, are checked before a part is made."""
+    if counts is None:  # the parts are there already
+        given = list(given)
+        counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for part in given]
     vertices, triangles = (sum(count[place] for count in counts) for place in range(2))
     require_counts(limits, vertices=vertices, faces=triangles)
     memory = PER_JOINED * triangles + PER_PART * len(counts)
@@ -407,8 +412,7 @@ def joined_files(files: Sequence[MeshFile], names: Sequence[str], limits: Limits
         corners = mesh.faces.ravel().astype(np.int64)
         whole = Polygons(mesh.positions, np.full(len(mesh.faces), 3), corners, (), (), tuple(columns))
         parts.append(part_of(whole, Path(name).stem))
-    counts = [(len(file.mesh.positions), len(file.mesh.faces)) for file in files]
-    found = joined_parts(parts, counts, limits, 1 << 62)
+    found = joined_parts(parts, None, limits, 1 << 62)
     notes = dict.fromkeys(note for file in files for note in file.notes)
     metadata = {**files[0].mesh.metadata, **found.metadata}
     return replace(found, notes=(*notes, *found.notes), metadata=metadata).checked(limits)

@@ -63,8 +63,7 @@ def read_vtk(path: str, kind: str, limits: Limits, step: int = 0) -> tuple[Polyg
         left = dict.fromkeys(" ".join(text.split()) for text in words[2::2])
         leaves = [*_leaves(data, "")]
         parts = [part for leaf, name in leaves if (part := _part(leaf, name, left)) is not None]
-    counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for part in parts]
-    whole = joined_parts(parts, counts, limits, size)
+    whole = joined_parts(parts, None, limits, size)
     fields = {name: values for leaf, _ in (*leaves, (data, "")) for name, values in _arrays(leaf.GetFieldData(), left)}
     known, others = plain_fields(fields)
     return replace(whole, dropped=(*left, *others), metadata={**whole.metadata, **known}), times

@@ -76,19 +76,15 @@ class _Grids:
         kind, form = item.get("ItemType", "Uniform"), item.get("Format", "XML")
         words = (item.text or "").strip()
         shape = [int(word) for word in str(item.get("Dimensions", "")).split()]
-        if kind == "HyperSlab":
-            at, whole = (self._item(child) for child in item.findall("DataItem"))
-            rows = zip(*at.reshape(3, -1).astype(np.int64).tolist(), strict=True)
-            return whole[tuple(slice(first, first + step * count, step) for first, step, count in rows)]
-        if kind != "Uniform" or form not in ("XML", "HDF", "Binary"):
+        if kind != "Uniform" or form not in ("XML", "HDF"):
             raise FormatError(f"this XDMF has data items of the kind {kind}, {form}; {_WAY}")
         if form == "XML":
             values = np.array(words.split(), np.float64)
         else:
-            name, _, place = words.partition(":") if form == "HDF" else (words, "", "")
+            name, _, place = words.partition(":")
             with about(name):
                 path = file_beside(self._folder, name.strip())
-            values = self._in_hdf(path, place) if form == "HDF" else self._in_file(path, item, shape)
+            values = self._in_hdf(path, place)
         return values.reshape(shape) if shape else values
 
     def _in_hdf(self, path: Path, place: str) -> Any:
@@ -96,16 +92,6 @@ class _Grids:
             table = file[place]
             require_inflated(table.size * table.dtype.itemsize, path.stat().st_size, self._limits)
             return table[()]
-
-    def _in_file(self, path: Path, item: Any, shape: Sequence[int]) -> Any:
-        kinds = {"Float": "f", "Int": "i", "UInt": "u", "Char": "i", "UChar": "u"}
-        kind, given = kinds.get(item.get("NumberType", item.get("DataType", "Float"))), item.get("Compression", "Raw")
-        size = item.get("Precision", "1" if "Char" in item.get("NumberType", "") else "4")
-        if kind is None or given != "Raw":
-            raise FormatError(f"this XDMF has binary numbers of an unknown kind; {_WAY}")
-        code = (">" if item.get("Endian") == "Big" else "<") + kind + size
-        found = np.fromfile(path, code, int(np.prod(shape)), offset=int(item.get("Seek", 0)))
-        return found.astype(found.dtype.newbyteorder("="))
 
     # ------------------------------------------------------------------------------------------------------- grids
 
@@ -161,9 +147,8 @@ class _Grids:
             return parts[0]
         names = [str(every[first].get("Name", "")) for first in merged]
         made = [part_of(*one) for one in zip(parts, names, strict=True)]
-        counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for part in made]
         lost = dict.fromkeys(name for part in parts for name in part.dropped)
-        return replace(joined_parts(made, counts, self._limits, size), dropped=tuple(lost))
+        return replace(joined_parts(made, None, self._limits, size), dropped=tuple(lost))
 
     def _leaves(self, grid: Any) -> list[Any]:
         if unknown := next((str(child.tag) for child in grid if child.tag not in _KNOWN), None):

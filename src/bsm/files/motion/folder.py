@@ -285,7 +285,7 @@ def _numbering(names: Sequence[str]) -> dict[str, float]:
 
 
 def _as_in(mesh: TriangleMesh, attribute: Attribute) -> Attribute | None:
-    """An attribute of the first frame as another one has it; None where it is another that cannot move."""
+    """An attribute of the first frame as a later one has it; None where it differs and cannot move."""
     if can_move(attribute):
         return moved_to(attribute, mesh.attributes)
     return attribute if attribute.semantic != "normal" and has(mesh.attributes, attribute) else None
