@@ -88,6 +88,13 @@ def test_what_images_lose_is_said_and_is_what_compare_finds(command, textured, c
     assert said.partition(": ")[2] in capsys.readouterr().out
 
 
+def test_tiles_say_what_their_textures_lose(textured, capsys):
+    assert main(["tile", str(textured / "a.obj"), "-o", str(textured / "t"), "--images", "webp:20@32"]) == 0
+    coarse = float(re.search(r"written as webp, PSNR ([\d.]+) dB in the worst tile", capsys.readouterr().err)[1])
+    assert main(["tile", str(textured / "a.obj"), "-o", str(textured / "t"), "-f", "--images", "webp:95"]) == 0
+    assert 10 < coarse < float(re.search(r"PSNR ([\d.]+) dB", capsys.readouterr().err)[1])
+
+
 def test_attributes_of_a_mesh_have_the_errors_that_compare_finds(textured, capsys):
     told = facts(capsys, "encode", textured / "a.obj", "-o", textured / "b.bsm")
     found = facts(capsys, "compare", textured / "a.obj", textured / "b.bsm")

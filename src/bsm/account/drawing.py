@@ -1,20 +1,20 @@
 """One drawing of losses, for all commands: meshes as they look, and errors as colors with a bar."""
 
-import io
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import DependencyError, imported
+from bsm.bitstream.errors import DependencyError
 from bsm.codec.arrays import Matrix
 from bsm.codec.geometry.attributes import at_corners
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of
 from bsm.files.formats.appearance import Appearance, appearance
 from bsm.files.formats.metadata import images_in, materials_in
-from bsm.files.images import MOST_PIXELS
+from bsm.files.images import opened
 from bsm.ground.console import Console
 from bsm.ground.lengths import unit_of
 from bsm.ground.pictures import Bar, bounds_of, colors_of, png, render, with_titles
@@ -84,14 +84,12 @@ def surface_colors(mesh: TriangleMesh) -> npt.NDArray[np.float64] | None:
 def _sampled(look: Appearance, mesh: TriangleMesh, places: Matrix) -> Matrix:
     """Colors of a material at texture coordinates, shape (k, 2), which count from the bottom."""
     data = images_in(mesh.metadata).get(look.color_texture.image if look.color_texture else -1, ("", b""))[1]
-    try:
-        pillow = imported("PIL.Image", "textures are read with Pillow", "formats")
-        image = pillow.open(io.BytesIO(data))
-        if image.width * image.height > MOST_PIXELS:
-            raise ValueError("too large")
-        pixels = np.asarray(image.convert("RGB"), np.float64) / 255.0
-    except (DependencyError, OSError, ValueError, SyntaxError):
+    image = None
+    with suppress(DependencyError):
+        image = opened(data)
+    if image is None:
         return np.broadcast_to(np.array(look.color), (len(places), 3))
+    pixels = np.asarray(image.convert("RGB"), np.float64) / 255.0
     high, wide = pixels.shape[:2]
     across, up = ((places % 1.0) * (wide, high)).astype(int).clip(0, (wide - 1, high - 1)).T
     found: Matrix = pixels[high - 1 - up, across]

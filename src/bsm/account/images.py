@@ -1,18 +1,18 @@
 """What images have lost: pixels, kind, bytes, and the peak signal-to-noise ratio where their bytes differ."""
 
-import io
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import PurePath
 from typing import Any
 
 import numpy as np
 
-from bsm.bitstream.errors import DependencyError, imported
+from bsm.bitstream.errors import DependencyError
 from bsm.codec.geometry.mesh import Metadata
 from bsm.files.formats.metadata import images_in, kind_of_image
-from bsm.files.images import MOST_PIXELS, size_of_image
+from bsm.files.images import LANCZOS, opened, size_of_image
 
 
 @dataclass(frozen=True)
@@ -81,20 +81,14 @@ def changed(images: list[ImageComparison]) -> Iterator[str]:
 
 def _ratio(before: bytes, after: bytes) -> float | None:
     """The peak signal-to-noise ratio in dB, of the smaller image enlarged; None if Pillow cannot read them."""
-    try:
-        pillow = imported("PIL.Image", "images are compared with Pillow", "formats")
-    except DependencyError:
+    images: list[Any] = []
+    with suppress(DependencyError):
+        images = [image for data in (before, after) if (image := opened(data))]
+    if len(images) < 2:
         return None
-    try:
-        opened = [pillow.open(io.BytesIO(data)) for data in (before, after)]
-        if any(image.width * image.height > MOST_PIXELS for image in opened):
-            return None
-        clear = any("A" in image.getbands() or "transparency" in image.info for image in opened)
-        first, second = (image.convert("RGBA" if clear else "RGB") for image in opened)
-    except (OSError, ValueError, SyntaxError, pillow.DecompressionBombError):
-        return None
-    if first.size != second.size:
-        second = second.resize(first.size, pillow.Resampling.LANCZOS)
+    clear = any("A" in image.getbands() or "transparency" in image.info for image in images)
+    first, second = (image.convert("RGBA" if clear else "RGB") for image in images)
+    second = second if first.size == second.size else second.resize(first.size, LANCZOS)
     apart = np.asarray(first, np.int16) - np.asarray(second, np.int16)
     wrong = float(np.square(apart, dtype=np.int32).mean(dtype=np.float64))
     return 10.0 * math.log10(255.0**2 / wrong) if wrong else math.inf

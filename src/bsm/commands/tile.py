@@ -91,6 +91,8 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
             f"vertices that share a grid point with another and are joined: {joined} "
             f"(fewer with --grid-cell {plan.lattice.cell / 2:g})"
         )
+    if ratios := [facts["psnr_db"] for facts in done if facts.get("psnr_db") is not None]:
+        console.note(f"textures are written as {args.images.kind}, PSNR {min(ratios):.1f} dB in the worst tile")
     if args.json:
         print_json(manifest)
     return 0

@@ -2,6 +2,7 @@
 
 import io
 import re
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path, PurePath
@@ -13,6 +14,7 @@ from bsm.files.formats.metadata import images_in, kind_of_image
 
 _PNG_OR_JPEG = re.compile(rb"\A\x89PNG.{12}(.{4})(.{4})|\xff[\xc0-\xc2]\0[\x0b\x11\x14]\x08(..)(..)", re.DOTALL)
 _WEBP = re.compile(rb"RIFF.{4}WEBP(?:VP8X.{8}(...)(...)|VP8 .{7}\x9d\x01\x2a(..)(..)|VP8L.{4}/(.{4}))", re.DOTALL)
+LANCZOS = 1  # of Pillow: how images become smaller or larger
 MOST_PIXELS = 1 << 26  # of an image that is written anew
 _LINK = re.compile(r"(?:\.\./)*images/([0-9a-f]{32})\.\w{1,5}")
 
@@ -36,18 +38,26 @@ class ImageRule:
 
 def smaller(data: bytes, rule: ImageRule) -> bytes | None:
     """An image by a rule; None if that would not be smaller, or Pillow cannot read it."""
-    pillow = imported("PIL.Image", "images are written with Pillow", "formats")
+    image, found = opened(data), None
+    with suppress(OSError, ValueError):  # what Pillow does not write
+        found = _written(image, rule) if image else None
+    return found if found and len(found) < len(data) else None
+
+
+def opened(data: bytes) -> Any | None:
+    """An image as Pillow reads it; None if it cannot, or if there are too many pixels."""
+    pillow = imported("PIL.Image", "images are read and written with Pillow", "formats")
     try:  # what Pillow does not know is an OSError
         image = pillow.open(io.BytesIO(data))
         if image.width * image.height > MOST_PIXELS:
             return None
-        found = _written(image, rule, pillow.Resampling.LANCZOS)
+        image.load()
     except (OSError, ValueError, SyntaxError, pillow.DecompressionBombError):
         return None
-    return found if found and len(found) < len(data) else None
+    return image
 
 
-def _written(image: Any, rule: ImageRule, how: Any) -> bytes | None:
+def _written(image: Any, rule: ImageRule) -> bytes | None:
     """The file of an image; None if the format would lose what shows through."""
     if rule.kind == "jpeg" and image.mode not in ("RGB", "L"):
         if "A" in image.getbands() or "transparency" in image.info:
@@ -56,7 +66,7 @@ def _written(image: Any, rule: ImageRule, how: Any) -> bytes | None:
     if rule.side and max(image.size) > rule.side:
         factor = rule.side / max(image.size)
         size = (max(1, round(image.width * factor)), max(1, round(image.height * factor)))
-        image = image.resize(size, how)
+        image = image.resize(size, LANCZOS)
     written = io.BytesIO()
     image.save(written, rule.kind, quality=rule.quality, **({"method": 6} if rule.kind == "webp" else {}))
     return written.getvalue()

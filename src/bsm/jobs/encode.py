@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from bsm.account.comparison import Errors, lost_attributes, worded_errors, write_permutation
-from bsm.account.images import ImageComparison, changed, compare_images
+from bsm.account.images import changed, compare_images
 from bsm.bitstream.errors import HarmError, OptionError, counted
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import Metadata
@@ -138,17 +138,13 @@ def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
     attributes = {} if found.apart is not None else lost_attributes(source.mesh, b"".join(result.frames))
     notes = [*source.notes, *given.losses, *found.notes, *(_measured(note, attributes) for note in encoder.notes)]
     notes += given.notes[len(given.losses) :]
-    anew = _lost_of_images(job, source.mesh.metadata, given.mesh.metadata)
+    written = job.images not in (None, "keep", "none", "link")  # Pillow reads no others
+    anew = compare_images(source.mesh.metadata, given.mesh.metadata) if written else []
     notes += changed(anew)
     more, summary, facts = _result(job, given, found, source.mesh.metadata, linked)
     facts |= {"attribute_errors": attributes} if attributes else {}
     facts |= {"images": [image.facts() for image in anew]} if anew else {}
     return _finish(job, console, notes + more, summary, seconds, facts)
-
-
-def _lost_of_images(job: EncodeJob, before: Metadata, after: Metadata) -> list[ImageComparison]:
-    """What images have lost that were written anew; Pillow reads no others."""
-    return compare_images(before, after) if job.images not in (None, "keep", "none", "link") else []
 
 
 def _result(

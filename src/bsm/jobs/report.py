@@ -211,9 +211,9 @@ def _alone(facts: Facts, shared: Set[str]) -> Facts:
 def _cells(facts: Facts, unit: str) -> str:
     if "error" in facts:
         return f"failed: {facts['error'].splitlines()[-1].removeprefix(facts['input'] + ': ')}"
-    taken, given, farthest, kg = map(facts.get, ("input_bytes", "output_bytes", "max_error_relative", "kg"))
+    taken, given, farthest = map(facts.get, ("input_bytes", "output_bytes", "max_error_relative"))
     sizes = " ".join(f"{'' if size is None else size:>12}" for size in (taken, given))
     ratio = f"{taken / given:.2f}" if taken and given else ""
-    error = _length(facts, unit) if farthest is not None else f"KG {kg:.3g} %" if kg is not None else ""
+    error = "" if farthest is None else _length(facts, unit)
     seconds = "as it was" if "resumed" in facts else f"{facts.get('seconds') or 0.0:.2f}"
     return f"{sizes} {ratio:>7} {error:>10} {seconds:>8}"

@@ -1,5 +1,6 @@
 """One tile: of the finest level by its triangles, of any other by its eighths, simplified inside of their border."""
 
+import math
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -7,6 +8,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from bsm.account.images import compare_image
 from bsm.bitstream.container.header import MOST_GRID
 from bsm.bitstream.errors import TargetError
 from bsm.codec.geometry.attributes import Attribute
@@ -15,10 +17,11 @@ from bsm.codec.geometry.metrics import farthest_from_surface
 from bsm.codec.geometry.welding import degenerate, row_numbers
 from bsm.encoding.given import given_part
 from bsm.encoding.simplification import collapsed, compact
+from bsm.files.formats.metadata import images_in
 from bsm.files.formats.npz import write_npy
 from bsm.files.images import ImageRule
 from bsm.files.output import open_output, write_output
-from bsm.ground.console import Console, Progress
+from bsm.ground.console import Console, Progress, finite
 from bsm.jobs.task import Facts, Task
 from bsm.tiles.atlas import Skin, cut_out, joined_skins, side_of_texel, skin_of, textured, wedges_of
 from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, along_curve, load_plan
@@ -45,13 +48,15 @@ def tile_one(job: TileJob, console: Console) -> Facts:
         (mesh, skin, joined), error = _leaf(plan, name, folder), 0.0
     else:
         (mesh, skin, error), joined = _coarser(plan, name, folder, job.most), 0
-    places, sent = np.asarray(mesh.positions, np.int32), mesh
+    places, sent, counts = np.asarray(mesh.positions, np.int32), mesh, dict[str, Any]()
     if plan.textures:
         finer = sorted(folder.glob(f"{name}[0-7].atlas"))
         skin, atlas = cut_out(skin, _pictures(plan, folder), 1) if name in plan.leaves else cut_out(skin, finer, 2)
         with open_output(folder / f"{name}.atlas", overwrite=True, follow=False) as file:
             atlas.save(file, "ppm")
         sent = textured(mesh, skin, atlas, job.images)
+        written = compare_image(name, (folder / f"{name}.atlas").read_bytes(), images_in(sent.metadata)[0][1])
+        counts["psnr_db"] = finite(math.inf if written.psnr_db is None else written.psnr_db)
         error = error if name in plan.leaves else max(error, plan.lattice.cell * side_of_texel(mesh, skin))
     if not job.finest:
         with open_output(folder / f"{name}.mesh", overwrite=True, follow=False) as file:
@@ -62,7 +67,7 @@ def tile_one(job: TileJob, console: Console) -> Facts:
     data = b"".join(part.encode(Progress("")).attempt.frames)
     write_output(job.output, data, overwrite=True, follow=False)
     ends = {"low": places.min(axis=0).tolist(), "high": places.max(axis=0).tolist()}
-    counts = {"vertices": len(places), "faces": len(mesh.faces), "apart": error, "joined": joined}
+    counts |= {"vertices": len(places), "faces": len(mesh.faces), "apart": error, "joined": joined}
     return {"input": job.input, "output": job.output, "output_bytes": len(data), **counts, **ends}
 
 

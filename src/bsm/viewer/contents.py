@@ -21,6 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.account.comparison import compare_meshes, in_order_of, pair, paired_frames
+from bsm.account.images import changed, compare_images
 from bsm.api import decode_sequence, encode_sequence
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import BsmError, DependencyError, FormatError, MeshError, TargetError
@@ -328,6 +329,8 @@ def against(before: Given, given: Given, limits: Limits) -> Content:
     layers = (replace(first, detail=PurePath(before.name).name), second, *(rivals if stream else ()))
     read = [(PurePath(each.name).name, each.source) for each in (before, given) if not isinstance(each.source, bytes)]
     notes = [f"{which}: {note}" for which, source in read for note in source.notes]
+    if isinstance(original, TriangleMesh) and isinstance(shown, TriangleMesh):
+        notes += changed(compare_images(original.metadata, shown.metadata))
     said = {"notes": notes, "less": any(_lost_data(source) for _, source in read)}
     return replace(content, layers=layers, facts={**content.facts, **said} | ({} if stream else {"draco": None}))
 
