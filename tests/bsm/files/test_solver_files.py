@@ -86,6 +86,7 @@ ABAQUS = {
         2,
     ),
     "a part that is in no assembly": ("*Part, name=A\n" + NODES + QUAD + "*End Part\n", 1, 1),
+    "named sets": (NODES + QUAD + "*Nset, nset=n\n1, 2\n*ELSET,ELSET=pl\n1\n*Surface, name=s\npl, SPOS\n", 1, 1),
     "beams and masses": (NODES + QUAD + "*Element, type=B31\n2, 1, 2\n*Element, type=MASS\n3, 1\n", 1, 1),
 }
 
