@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.header import EXACT, Header
 from bsm.bitstream.errors import OptionError, TargetError, public
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
@@ -66,6 +66,7 @@ LOOKS = [Contract(WIDEST, look=kept.look) for preset in reversed(PRESETS.values(
 """The coarseness of attributes if a size is promised: that of the first look with which the shape fits."""
 OVER = "eps_h is exceeded in {} of {} blocks: these have as many coefficients as they may have"
 OWN_RULE = "METIS (pymetis) is not installed: BSM's own rule cuts the mesh into parts"
+KEPT_EXACTLY = "positions are exact: no coarser ones keep the promise"
 ONE_BLOCK = "the mesh fits in one block: its basis is exact, and no orthogonal iterations follow"
 
 
@@ -107,6 +108,7 @@ class Encoder:
         self.look: float | None = None
         self.binding = ""
         self.unseen = ""
+        self._kept_exactly = False
         promise, unit = self.options.promise, mesh.metadata.get("unit")
         size = mesh.without_isolated_vertices()[0].diagonal
         self._doubt = "" if promise is None else promise.doubt(size, unit if isinstance(unit, str) else "")
@@ -115,10 +117,11 @@ class Encoder:
     def notes(self) -> tuple[str, ...]:
         """Changes of the input, and the coding of attributes."""
         sent = {attribute.name for attribute, _ in self._input.wanted}
+        exact = [KEPT_EXACTLY] if self._kept_exactly else []
         one = [ONE_BLOCK] if self.options.paper.bits is not None and self._input.prepared.blocks.count == 1 else []
         left = [attribute.name for attribute in self._input.given.attributes if attribute.name not in sent]
         notes = (*(p.note for p in self._input.carried), *([f"left out: {', '.join(left)}"] if left else []))
-        return (*self._input.joined.notes, *notes, *one, *self.losses[len(self._input.joined.losses) :])
+        return (*self._input.joined.notes, *notes, *one, *exact, *self.losses[len(self._input.joined.losses) :])
 
     @property
     def losses(self) -> tuple[str, ...]:
@@ -250,7 +253,7 @@ class Encoder:
         given = self._input = self._input.measuring(near)
 
         def best(sent: Sent) -> Draft | None:
-            found = sent.search.best(promise or anything, most)
+            found = sent.search.best(promise, most)
             completed = None if found is None else sent.completed(found)
             return None if completed and promise and sent.measured(completed, promise)[0] else completed
 
@@ -279,7 +282,7 @@ class Encoder:
             error = TargetError(f"{text} reached; the least possible is {had}")
         else:
             loose, other = smallest(given, LOOKS[-1], near) if given.carried else (given, smaller)
-            seen = other if other.size <= most else loose.search.best(anything, most)
+            seen = other if other.size <= most else loose.search.best(None, most)
             advice = "does not reach it either" if seen is None else f"reaches it with {loose.search.seen(seen)}"
             error = TargetError(f"{text} reached with {promise}: that takes {had}; preset none {advice}")
         error.best = target.reached(least)
@@ -320,6 +323,7 @@ class Encoder:
             broken, self.look, self.binding = self._input.measured(draft, contract)
             self.unseen = self._input.measures.unseen if contract.look < math.inf else ""
         require(not broken, f"{contract} was promised, and the decoded mesh has {broken}")
+        self._kept_exactly = contract is not None and draft.header.light == EXACT
         near.to(1.0)
         return draft
 

@@ -21,9 +21,9 @@ from bsm.codec.geometry.welding import row_numbers
 from bsm.codec.look.measure import AttributeLook, LookMetric, has_look, own_normals, shades
 from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
-from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, cheaper, with_attributes
+from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, with_attributes
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality, qualities
-from bsm.codec.static.choice.bounds import Bounds, Measures, Trial
+from bsm.codec.static.choice.bounds import Bounds, Measures, trial_of
 from bsm.codec.static.choice.search import Search
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
@@ -115,11 +115,7 @@ class Sent:
 
     @property
     def search(self) -> Search:
-        return Search(self.measures, self.options, lambda draft: self.completed(draft).size, self.saved)
-
-    def saved(self, candidate: Trial) -> int:
-        """Return how many bytes the attributes save if positions are on a grid."""
-        return sum(sum(map(len, a.plain)) - sum(map(len, cheaper(a, candidate.draft.places)[1])) for a in self.carried)
+        return Search(self.measures, self.options, lambda draft: self.completed(draft).size)
 
     def painted(self, decoded: Positions) -> float:
         """The largest distance of colors and texture coordinates whose quality the look decides."""
@@ -144,7 +140,7 @@ class Sent:
     def measured(self, draft: Draft, contract: Contract) -> tuple[str, float | None, str]:
         """Return the bounds that a draft with its attributes breaks, its look distance, and the bound that binds."""
         bounds, decoded = Bounds(self.measures, contract), draft.decoded
-        made = Trial(0.0, self.prepared.units.into(decoded), lambda: draft, 0, decoded=decoded)
+        made = trial_of(self.prepared, draft)
         metric = bounds.metric
         if metric is None:
             return "" if bounds.keeps(made) else bounds.had, None, bounds.binding(made)

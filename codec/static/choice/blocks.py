@@ -1,6 +1,7 @@
 """Blocks, alone or with a layer of refinement on them: ways to code a mesh."""
 
 import math
+from collections.abc import Callable
 from functools import lru_cache, partial
 
 import numpy as np
@@ -17,26 +18,68 @@ from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import encode_layer
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
-from bsm.codec.static.ways.in_cells import SPREADS, InCells, Spread
+from bsm.codec.static.ways.in_cells import SPREADS, InCells
 
 BROADEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost decoders more time than their bytes are worth."""
 SPARSE = 0.08  # the step, in mean edges, from which on most levels are 0
-ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
+BASE = 0.36  # the step of blocks on all vertices below a layer, over the square root of the layer's step
+APART = 4.0  # steps with other blocks, over one another
+NEARER = 4  # rounds: heights that are mended change steps of others
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
+
+
+Based = Callable[[float], RefinementBase]  # blocks for levels of about a step
+
+
+class OnCells:
+    """Blocks on the cells of a mesh, spread as takes the fewest bytes."""
+
+    def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
+        self._faces, self._measures = prepared.mesh.faces, bounds.measures
+        self._spread = [InCells(prepared, options, BROADEST, spread) for spread in SPREADS]
+
+    def __call__(self, step: float) -> RefinementBase:
+        within = self._measures.near.within()
+        found = self._spread[0].base(step, within)
+        for wider in self._spread[1:] if step > SPARSE * self._measures.shaper.mean_edge else ():
+            other = wider.base(step, within)
+            if self._bytes(other, step) > self._bytes(found, step):
+                break
+            found = other
+        return found
+
+    def _bytes(self, base: RefinementBase, step: float) -> int:
+        """About the bytes of cells, and of levels at a step."""
+        levels, _ = base.wanted(base.expected_steps(Layer(single(step), RATIO)))
+        return base.coded + sum(len(packet.data) for packet in encode_layer(self._faces, levels))
+
+
+class OnVertices:
+    """Blocks on all vertices of a mesh, which take decoders longer."""
+
+    def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
+        spectral, near = InBlocks(prepared, options, BROADEST), bounds.measures.near
+        self.least = 1.01 * smallest_step(prepared.size)
+        self.at = lru_cache(2)(lambda step: spectral.base(step, near.within()))
+
+    def below(self, step: float) -> float:
+        """The step of blocks for levels of a step."""
+        return max(BASE * math.sqrt(step), self.least)
+
+    def __call__(self, step: float) -> RefinementBase:
+        return self.at(self.below(step))
 
 
 class Plain:
     """Only blocks; a layer of levels corrects vertices that are out of reach."""
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
-        self._bounds = bounds
-        self._spectral = InBlocks(prepared, options, BROADEST)
-        self.least, self.most = 1.01 * smallest_step(prepared.size), 0.5
-        self.first = ALONE * bounds.first_step
+    def __init__(self, bounds: Bounds, blocks: OnVertices, first: float) -> None:
+        self._bounds, self._blocks = bounds, blocks
+        self.least, self.most, self.first = blocks.least, 0.5, blocks.below(first)
 
     def at(self, step: float) -> Trial:
-        base = self._spectral.base(step, self._bounds.measures.near.within())
+        base = self._blocks.at(step)
         reaches, fixed = self._bounds.reaches, len(base.prepared.connectivity.data)
         out = squares_of(base.positions - base.prepared.positions) > reaches**2
         if not out.any():
@@ -51,14 +94,13 @@ class Refined:
     """Blocks and a layer of refinement, by its step; steps along tangents are wider by a ratio."""
 
     def __init__(
-        self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, settled: bool = True, ratio: float = RATIO
+        self, prepared: Prepared, bounds: Bounds, based: Based, settled: bool = True, ratio: float = RATIO
     ) -> None:
         self._prepared, self._bounds, self._settled, self.ratio = prepared, bounds, settled, ratio
-        self._options = options
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
         self.least, self.most = LEAST, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), LEAST)
-        self.at = lru_cache(1)(self._made)
+        self.at, self._based = lru_cache(1)(self._made), lru_cache(2)(based)
 
     @cached_property
     def first(self) -> float:
@@ -66,9 +108,9 @@ class Refined:
         return self._bounds.first_step / math.hypot(1.0, 0.93 * self.ratio / RATIO)
 
     def _made(self, step: float) -> Trial:
-        base = self.base
+        base = self._base(step)
         if self._settled:
-            found = self._leveled(step, base, *self._evened(step))
+            found = self._leveled(step, base, *self._nearer(base, *self._evened(step, base)))
             return turned(found) or found
         layer = Layer(single(step), RATIO)
         levels = self._shaped(base, layer)
@@ -89,9 +131,9 @@ class Refined:
         """How far vertices may be brought from their places by steps, shape (n, 3)."""
         return np.asarray(np.minimum(self._bounds.reaches, SPIKE * np.maximum(steps[:, 0], steps[:, 1])))
 
-    def _evened(self, step: float) -> tuple[Layer, Levels, Matrix]:
+    def _evened(self, step: float, base: RefinementBase) -> tuple[Layer, Levels, Matrix]:
         """Levels that are worth their bits; and their known steps."""
-        base, reaches = self.base, self._bounds.reaches
+        reaches = self._bounds.reaches
         room = (self._diagonal / step) ** 2 - 1.0
         layer = Layer(single(step), min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self.ratio))
         steps, expected = base.expected_steps(layer), partial(base.known_steps, layer)
@@ -103,25 +145,22 @@ class Refined:
             levels, known = base.within(gaps.kept(reaches, moved), layer, levels)
         return layer, levels, known
 
-    @cached_property
-    def base(self) -> RefinementBase:
-        """The cells of all steps: those of about the right one, spread as takes the fewest bytes."""
-        found = self._spread(SPREADS[0])
-        for spread in SPREADS[1:] if self.first > SPARSE * self._bounds.measures.shaper.mean_edge else ():
-            other = self._spread(spread)
-            if self._bytes(other) > self._bytes(found):
+    def _nearer(
+        self, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix
+    ) -> tuple[Layer, Levels, Matrix]:
+        """These levels, but the nearest ones at edges that fold over."""
+        shaper = self._bounds.measures.shaper
+        for _ in range(NEARER):
+            if not len(wrong := shaper.over(base.moved(layer, levels, known))):
                 break
-            found = other
-        return found
+            levels = levels.copy()
+            levels[wrong] = np.rint(base.offsets[wrong] / known[wrong])
+            known = base.known_steps(layer, levels)
+        return layer, levels, known
 
-    def _spread(self, spread: Spread) -> RefinementBase:
-        cells = InCells(self._prepared, self._options, BROADEST, spread)
-        return cells.base(self.first, self._bounds.measures.near.within())
-
-    def _bytes(self, base: RefinementBase) -> int:
-        """About the bytes of cells, and of levels at the first step."""
-        levels, _ = base.wanted(base.expected_steps(Layer(single(self.first), self.ratio)))
-        return base.coded + sum(len(packet.data) for packet in encode_layer(self._prepared.mesh.faces, levels))
+    def _base(self, step: float) -> RefinementBase:
+        """The blocks below levels of about a step, which are the same for steps that are near the first one."""
+        return self._based(self.first * APART ** round(math.log(step / self.first, APART)))
 
     def _shaped(self, base: RefinementBase, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""

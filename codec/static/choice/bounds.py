@@ -104,6 +104,11 @@ class Trial:
         return min(self.draft, other, key=lambda draft: draft.size)
 
 
+def trial_of(prepared: Prepared, draft: Draft) -> Trial:
+    """A stream as it is, for judging."""
+    return Trial(0.0, prepared.units.into(draft.decoded), lambda: draft, 0, decoded=draft.decoded)
+
+
 def turned(candidate: Trial) -> Trial | None:
     """The candidate with fewer edges folded over, None if few are; of blocks, others may need it again."""
     found = last = candidate.unfold()

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm.bitstream.errors import LimitError
 from bsm.codec.arrays import Matrix
@@ -26,11 +27,11 @@ Way = Gridded | Plain | Refined  # ways to code a mesh at one step after another
 
 
 class Aim(Protocol):
-    """What trials come to, in logarithms."""
+    """What trials come to, in logarithms, and how much finer a step must be where they are refused."""
 
     def bytes(self, way: Way, made: Trial) -> float: ...
     def error(self, made: Trial) -> float: ...
-    def kept(self, made: Trial) -> bool: ...
+    def finer(self, made: Trial) -> float: ...
 
 
 class Law:
@@ -48,6 +49,11 @@ class Law:
         surprise = 3.0 * ((value - self.mean[at]) / (math.pi * self.spread[at])) ** 2 if len(self.known) > 1 else 1.0
         self.known.append((self._steps[at], value, 0.0))
         self._fit(self._squares + self._luck * surprise)
+
+    def over(self, unit: float) -> None:
+        """Take all values over another unit, given as a logarithm."""
+        self.known = [(step, value - unit, doubt) for step, value, doubt in self.known]
+        self.mean = self.mean - unit
 
     def _fit(self, squares: float) -> None:
         """The expected value at each step, and the scale of the logistic distribution around it."""
@@ -87,6 +93,18 @@ class Hopes:
     @property
     def bound(self) -> Law:
         return self.bytes if self.fitting else self.errors
+
+    def fit(self, most: float, error: float) -> None:
+        """Change the roles: bytes over the most that there may be, errors over that of 1; both in logarithms."""
+        self.fitting = True
+        self.bytes.over(most)
+        self.errors.over(error)
+        self.close((self.left == 1) & (self.bytes.mean > 0.0))
+
+    def close(self, steps: npt.NDArray[np.bool_]) -> None:
+        """Open none of these steps any more."""
+        self.left[steps] = 0
+        self.coded = {at: made for at, made in self.coded.items() if self.left[at]}
 
     def begin(self, made: Trial, size: float) -> None:
         """Take in a trial that is coded, and its bytes."""
@@ -130,9 +148,12 @@ def search(queue: list[Hopes], aim: Aim, price: float, least: float = math.inf) 
             else:
                 made, hopes.left[at] = hopes.coded.pop(at), 0
                 hopes.errors.learn(at, aim.error(made))
-                if hopes.bound.mean[at] <= 0.0 and hopes.low.mean[at] < least and aim.kept(made):
-                    least = float(hopes.low.mean[at])
-                    yield made
+                if hopes.bound.mean[at] <= 0.0 and hopes.low.mean[at] < least:
+                    if finer := aim.finer(made):
+                        hopes.close(hopes.steps > hopes.steps[at] - finer)
+                    else:
+                        least = float(hopes.low.mean[at])
+                        yield made
             if len(hopes.bytes.known) > 3 * TRIES or not hopes.left.any():
                 queue.remove(hopes)
         except LimitError:  # blocks that decoders would refuse

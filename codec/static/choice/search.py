@@ -15,73 +15,70 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from bsm.bitstream.errors import LimitError, TargetError
-from bsm.codec.static.choice.blocks import Plain, Refined
-from bsm.codec.static.choice.bounds import Bounds, Measures, Trial
-from bsm.codec.static.choice.grids import Gridded, paying, rounded
+from bsm.codec.static.choice.blocks import OnCells, OnVertices, Plain, Refined
+from bsm.codec.static.choice.bounds import Bounds, Measures, Trial, trial_of
+from bsm.codec.static.choice.grids import Gridded, exact, paying, rounded
 from bsm.codec.static.choice.laws import DOUBT, Hopes, Law, Way, search, steps_of
 from bsm.codec.static.choice.settling import RATIO
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import BALANCED, RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
-from bsm.codec.static.targets import ANY_ANGLE, SLACK, TRIES, Contract, secant
+from bsm.codec.static.targets import ANY_ANGLE, SLACK, TRIES, WIDEST, Contract, secant
 
 PRICES = {"quick": 2e-3, "normal": 6e-4, "best": 8e-5}
 """Prices of a stage of a trial, as shares of the bytes, over the fourth root of the number of vertices."""
+FINEST = int(RANGES["grid"][1])  # bits along an axis
 BYTES = 3.0 / math.log(256.0)  # of a vertex, that a step e times as wide saves where most levels are not 0
 
 
 @dataclass(eq=False)
 class Smallest:
-    """Few bytes are wanted; those that attributes save by positions on a grid are counted where they are not saved."""
+    """Few bytes are wanted, within the bounds of a contract."""
 
     bounds: Bounds
-    saved: Callable[[Trial], int]
-    most: int
-    _losses: dict[Way, int] = field(default_factory=dict)
-
-    def size(self, way: Way, size: float) -> float:
-        return max(size + self._losses.get(way, 0 if isinstance(way, Gridded) else self.most), 1.0)
+    size: Callable[[Draft], int]
+    rest: int = -1  # bytes of attributes and metadata, those of the first trial
+    _rests: dict[Way, int] = field(default_factory=dict)  # grids may predict attributes
 
     def bytes(self, way: Way, made: Trial) -> float:
-        if way not in self._losses:
-            self._losses[way] = self.most - (self.saved(made) if isinstance(way, Gridded) else 0)
-        return math.log(self.size(way, made.draft.size))
+        if way not in self._rests:
+            self._rests[way] = self.size(made.draft) - made.draft.size
+        if self.rest < 0:
+            self.rest = self._rests[way]
+        return math.log(max(made.draft.size + self._rests[way] - self.rest, 1))
 
     def error(self, made: Trial) -> float:
-        over, folded = self.bounds.excess(made), 0.0
-        if self.bounds.contract.look < math.inf:  # what else nobody has asked for
-            folded = self.bounds.folded(made.positions)
-        return max(over, math.log(folded) / 2.0) if folded > 1.0 else over  # they grow about as squares of steps
+        return self.bounds.excess(made)
 
-    def kept(self, made: Trial) -> bool:
-        return self.bounds.keeps(made)
+    def finer(self, made: Trial) -> float:
+        if self.bounds.metric is None or (folded := self.bounds.folded(made.positions)) <= 1.0:
+            return 0.0 if self.bounds.keeps(made) else SLACK
+        return min(math.log(folded) / 2.0, DOUBT)  # folds grow about as squares of steps, or faster
 
 
 @dataclass(eq=False)
 class Best:
-    """A good look is wanted, within a size."""
+    """A good look is wanted, within a size, which is given as a logarithm and without attributes."""
 
+    smallest: Smallest
     promised: Bounds
-    size: Callable[[Draft], int]
     most: float
 
     def bytes(self, way: Way, made: Trial) -> float:
-        return math.log(self.size(made.congruent) / self.most)
+        return self.smallest.bytes(way, made) - self.most
 
     def error(self, made: Trial) -> float:
         return self.promised.quality(made)
 
-    def kept(self, made: Trial) -> bool:
-        return self.promised.keeps(made)
+    def finer(self, made: Trial) -> float:
+        return 0.0 if self.promised.keeps(made) else SLACK
 
 
 class Search:
     """Looks for the best stream of a mesh among all ways to code it."""
 
-    def __init__(
-        self, measures: Measures, options: EncodeOptions, size: Callable[[Draft], int], saved: Callable[[Trial], int]
-    ) -> None:
+    def __init__(self, measures: Measures, options: EncodeOptions, size: Callable[[Draft], int]) -> None:
         self._measures, self._prepared = measures, measures.prepared
-        self._options, self._size, self._saved = options, size, saved
+        self._options, self._size = options, size
         self._price = PRICES[options.effort] * self._prepared.graph.size**0.25
 
     def smallest(self, contract: Contract) -> Draft:
@@ -89,22 +86,59 @@ class Search:
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
         bounds = Bounds(self._measures, contract)
-        plain = Gridded(self._prepared, bounds)
-        grid = plain.in_frame()
-        usual = grid.at(grid.first)
-        aim, ways = Smallest(bounds, self._saved, self._saved(usual)), self._ways(bounds, grid)
-        hopeful = (made for made in plain.made() if made.about() < 2 * (usual.about() or usual.draft.size))
-        kept = [made for made in hopeful if bounds.keeps(made)]
-        if contract.look < math.inf:
+        kept, _ = self._kept(Smallest(bounds, self._size), Gridded(self._prepared, bounds).in_frame())
+        if not kept:
+            return self._finest(bounds)
+        return paying(self._prepared, min((made.congruent for made in kept), key=self._size))
+
+    def best(self, contract: Contract | None, most: float) -> Draft | None:
+        """Return the best stream of at most `most` bytes that keeps a contract, or None."""
+        if not self._prepared.mesh.diagonal > 0.0:
+            point = rounded(self._prepared, 1)
+            return point if self._size(point) <= most else None
+        asked = replace(contract or BALANCED, look=1.0)
+        near = Bounds(self._measures, asked)
+        grid = Gridded(self._prepared, near).in_frame()
+        octave = BYTES * math.log(2.0) * self._prepared.graph.size  # a step twice as wide looks about twice as far off
+        octaves = min(max((self._size(grid.at(grid.first).congruent) - most) / octave, -12.0), 6.0)
+        if abs(octaves) > 1.0:
+            near = Bounds(self._measures, replace(asked, look=2.0**octaves))
+            grid = Gridded(self._prepared, near, turn=grid.turn)
+        smallest = Smallest(near, self._size)
+        kept, queue = self._kept(smallest, grid)
+        aim = Best(
+            smallest, Bounds(self._measures, contract or Contract(WIDEST)), math.log(max(most - smallest.rest, 1.0))
+        )
+        for hopes in queue:
+            hopes.fit(aim.most, -math.log(near.contract.look))
+        fitting = (made for made in kept[-2:] if self._size(paying(self._prepared, made.congruent)) <= most)
+        least = min(map(aim.error, fitting), default=math.inf)
+        price = self._price / max((-hopes.bytes.slope for hopes in queue), default=1.0)  # of bytes, in looks
+        kept += search(queue, aim, price, least)
+        best = sorted((made for made in kept if aim.promised.keeps(made)), key=aim.error)
+        drafts = (paying(self._prepared, made.congruent) for made in best)
+        return next((draft for draft in drafts if self._size(draft) <= most), None)
+
+    def _kept(self, aim: Smallest, grid: Gridded) -> tuple[list[Trial], list[Hopes]]:
+        """Trials that keep a contract, the smallest ones last; and what to expect of others."""
+        usual, ways = grid.at(grid.first), self._ways(aim.bounds, grid)
+        made_on = Gridded(self._prepared, aim.bounds).made()
+        hopeful = (made for made in made_on if made.about() < 2 * (usual.about() or usual.draft.size))
+        kept = [made for made in hopeful if aim.bounds.keeps(made)]
+        if aim.bounds.contract.look < math.inf:
             queue = self._queue(ways, grid, aim, usual)
         else:
             kept += self._widest(ways, aim)
             queue = self._lucky(grid, aim, usual, kept)
-        least = math.log(min((made.draft.size for made in kept), default=math.inf))
-        kept += search(queue, aim, self._price, least)
-        if not kept:
-            raise TargetError(f"{contract} cannot be kept on this mesh; the best possible is {bounds.had}")
-        return paying(self._prepared, min((made.congruent for made in kept), key=self._size))
+        least = math.log(max(min((self._size(made.draft) for made in kept), default=math.inf) - aim.rest, 1.0))
+        return [*kept, *search(queue, aim, self._price, least)], queue
+
+    def _finest(self, bounds: Bounds) -> Draft:
+        """The finest grid, or exact positions, where no other stream keeps a contract."""
+        for draft in (rounded(self._prepared, FINEST), exact(self._prepared)):
+            if bounds.keeps(trial_of(self._prepared, draft)):
+                return draft
+        raise TargetError(f"{bounds.contract} cannot be kept on this mesh; the best possible is {bounds.had}")
 
     def _widest(self, ways: list[Way], aim: Smallest) -> list[Trial]:
         """Of each way the widest steps that keep the bounds, until finer ones would take more bytes than another."""
@@ -115,7 +149,7 @@ class Search:
             made = way.at(step)
             size, over = aim.bytes(way, made), aim.error(made)
             promise.setdefault(way, size + max(over, 0.0))
-            if over <= 0.0 and aim.kept(made):
+            if over <= 0.0 and not aim.finer(made):
                 sizes[made] = size
             return over if over <= 0.0 or size < min(sizes.values(), default=math.inf) else -SLACK / 4.0
 
@@ -129,11 +163,7 @@ class Search:
         """What to expect of grids where parts repeat, and luck decides about bytes."""
         about, least = usual.about(), min((made.draft.size for made in kept), default=math.inf)
         first = usual if least < (1.0 - DOUBT) * about else grid.repeat(usual)
-        if not grid.repeats:
-            return []
-        hopes = self._hopes(grid, aim.bounds, first, aim.size(grid, first.draft.size))
-        hopes.begin(first, math.log(aim.size(grid, first.draft.size)))
-        return [hopes]
+        return [self._hopes(grid, aim, first, begun=True)] if grid.repeats else []
 
     def _queue(self, ways: list[Way], grid: Gridded, aim: Smallest, usual: Trial) -> list[Hopes]:
         """What to expect of ways whose looks count, of which some have begun."""
@@ -142,57 +172,31 @@ class Search:
         for refined in [way for way in ways if isinstance(way, Refined)][:1]:
             with suppress(LimitError):  # blocks that decoders would refuse
                 made = begun[refined] = refined.at(min(max(refined.first, refined.least), refined.most))
-                sizes[refined] = aim.size(refined, made.draft.size)
+                sizes[refined] = aim.bytes(refined, made)
         about = usual.about() if begun else 0
-        if begun and min(sizes.values()) < (1.0 - DOUBT) * about:  # no grid is coded in full
-            first, other = next(iter(begun.values())), aim.size(grid, about)
+        if begun and min(sizes.values()) < math.log(
+            max((1.0 - DOUBT) * (about - aim.rest), 1.0)
+        ):  # no grid is coded in full
+            first, other = next(iter(begun.values())), math.log(about)
         else:
             begun[grid] = first = grid.repeat(usual)
-            sizes[grid] = aim.size(grid, first.draft.size)
-            other = max(sizes[grid], aim.size(grid, (1.0 - DOUBT) * usual.draft.size))  # few chosen places are images
-        queue = [self._hopes(way, aim.bounds, begun.get(way, first), sizes.get(way, other)) for way in ways]
-        for hopes in queue:
-            if hopes.way in begun:
-                hopes.begin(begun[hopes.way], math.log(sizes[hopes.way]))
-        return queue
+            other = sizes[grid] = aim.bytes(grid, first)
+            if grid.repeats:  # few chosen places are images of others
+                other = max(other, math.log((1.0 - DOUBT) * usual.draft.size))
+        return [self._hopes(way, aim, begun.get(way, first), sizes.get(way, other), begun=way in begun) for way in ways]
 
-    def best(self, contract: Contract, most_bytes: float) -> Draft | None:
-        """Return the best stream of at most `most_bytes` that keeps a contract, or None."""
-        if not self._prepared.mesh.diagonal > 0.0:
-            point = rounded(self._prepared, 1)
-            return point if self._size(point) <= most_bytes else None
-        kept, near = Bounds(self._measures, contract), Bounds(self._measures, replace(contract, look=1.0))
-        usual = Gridded(self._prepared, near).in_frame()
-        first = usual.repeat(usual.at(usual.first))
-        octave = BYTES * math.log(2.0) * self._prepared.graph.size  # a step twice as wide looks about twice as far off
-        octaves = min(max((first.draft.size - most_bytes) / octave, -12.0), 6.0)
-        bounds = Bounds(self._measures, replace(contract, look=2.0**octaves))
-        grid = Gridded(self._prepared, bounds, turn=usual.turn) if abs(octaves) > 1.0 else usual
-        grid.repeats = usual.repeats
-        found, ways = [first, *grid.made()], self._ways(bounds, grid)
-        queue = [self._hopes(way, bounds, first, most_bytes, most_bytes) for way in ways]
-
-        aim = Best(kept, self._size, most_bytes)
-        if grid is usual:
-            queue[0] = self._hopes(grid, near, first, first.draft.size, most_bytes)
-            queue[0].begin(first, aim.bytes(grid, first))
-        fitting = (made for made in found if self._size(paying(self._prepared, made.congruent)) <= most_bytes)
-        least = min(map(kept.quality, fitting), default=math.inf)
-        price = self._price / -queue[0].bytes.slope  # of bytes, in looks
-        found += search(queue, aim, price, least)
-        best = sorted(filter(kept.keeps, found), key=kept.quality)
-        drafts = (paying(self._prepared, made.congruent) for made in best)
-        return next((draft for draft in drafts if self._size(draft) <= most_bytes), None)
-
-    def _hopes(self, way: Way, bounds: Bounds, like: Trial, size: float, most_bytes: float = 0.0) -> Hopes:
-        """What to expect of a way if it takes about so many bytes at its first step, and others as a trial does."""
-        (first, steps), look = steps_of(way), bounds.contract.look
-        luck = self._prepared.graph.size**-0.25 if look < math.inf else SLACK
-        slope = -min(BYTES * self._prepared.graph.size, max(like.draft.size - like.fixed, 1.0)) / size
-        taken = Law(steps, first, math.log(size / (most_bytes or 1.0)), slope, DOUBT, SLACK)
+    def _hopes(self, way: Way, aim: Smallest, like: Trial, size: float | None = None, *, begun: bool) -> Hopes:
+        """What to expect of a way of about this size at its first step, in logarithms, and else as of a trial."""
+        (first, steps), bounds = steps_of(way), aim.bounds
+        size = aim.bytes(way, like) if size is None else size
+        luck = self._prepared.graph.size**-0.25 if bounds.contract.look < math.inf else SLACK
+        slope = -min(BYTES * self._prepared.graph.size, max(like.draft.size - like.fixed, 1.0)) / math.exp(size)
         rise = 2.0 if bounds.contract.visual < math.inf else 1.0
-        errors = Law(steps, first, math.log(look) if most_bytes else 0.0, rise, DOUBT, luck)
-        return Hopes(way, steps, taken, errors, most_bytes > 0.0)
+        taken = Law(steps, first, size, slope, DOUBT, SLACK)
+        hopes = Hopes(way, steps, taken, Law(steps, first, 0.0, rise, DOUBT, luck))
+        if begun:
+            hopes.begin(like, size)
+        return hopes
 
     def seen(self, draft: Draft) -> str:
         metric = self._measures.look
@@ -206,11 +210,11 @@ class Search:
         ways: list[Way] = [grid, Gridded(prepared, bounds, 1.0, grid.turn)]
         if not prepared.has_low_frequencies:
             return ways
-        ways.append(Refined(prepared, options, bounds))
+        blocks, seen = OnVertices(prepared, options, bounds), bounds.contract.look < math.inf
+        based = OnCells(prepared, options, bounds) if seen else blocks
+        ways.append(refined := Refined(prepared, bounds, based))
         if bounds.contract.angle < ANY_ANGLE:
-            ways.append(Refined(prepared, options, bounds, settled=False))
+            ways.append(Refined(prepared, bounds, based, settled=False))
         if bounds.contract.visual < math.inf:  # it counts errors in all directions
-            ways.append(Refined(prepared, options, bounds, ratio=math.sqrt(RATIO)))
-        if bounds.contract.look == math.inf:
-            ways.append(Plain(prepared, options, bounds))
-        return ways
+            ways.append(Refined(prepared, bounds, based, ratio=math.sqrt(RATIO)))
+        return ways if seen else [*ways, Plain(bounds, blocks, refined.first)]

@@ -6,6 +6,7 @@ angle between normals the levels can be twice as coarse. The cost of a level is 
 """
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
@@ -72,6 +73,17 @@ class Shaper:
         wrong = np.empty(len(self._flaps[0]), np.uint8)
         return chosen if _kernels.unfold_levels(self._wanted, reach, *given, wrong, self._open) else None
 
+    def over(self, positions: Positions) -> Indices:
+        """The vertices of edges that are folded over and were not; none if few edges are folded, or most."""
+        if not self.most_folded < self.folded(positions) <= FOLDED * len(self._original.faces):
+            return np.empty(0, np.int32)
+        flaps = self._flaps[0]
+        return np.unique(flaps[_over(positions, flaps) & ~self._were])
+
+    @cached_property
+    def _were(self) -> npt.NDArray[np.bool_]:
+        return _over(self._original.positions, self._flaps[0])
+
     def folded(self, positions: Positions) -> int:
         """How many edges are folded by more than 90 degrees."""
         return _kernels.count_folds(positions, self._flaps[0])
@@ -91,3 +103,9 @@ class Shaper:
         starts, members = vertex_faces(flaps, graph.size)
         own, (c, d) = np.repeat(np.arange(graph.size, dtype=np.int32), np.diff(starts)), flaps.T[2:].copy()
         return flaps, starts.astype(np.int32), 2 * members + ((c[members] == own) | (d[members] == own))
+
+
+def _over(positions: Positions, flaps: Indices) -> npt.NDArray[np.bool_]:
+    """Which edges between faces are folded by more than 90 degrees, shape (k,)."""
+    a, b, c, d = (positions[flaps[:, corner]] for corner in range(4))
+    return np.asarray((np.cross(b - a, c - a) * np.cross(a - b, d - b)).sum(axis=1) < 0.0)

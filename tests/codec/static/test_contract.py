@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 import bsm
 from bsm.codec.geometry.metrics import Original, Reference
 from bsm.codec.look.measure import LookMetric, look
+from bsm.codec.static.encoder import KEPT_EXACTLY
 from bsm.encoding.options import encode_options
 from bsm.evaluation.sample import knot
 from tests.shapes import patch, tetrahedron, together, torus
@@ -217,9 +218,19 @@ def test_a_shell_stays_inside_another_one_without_a_finer_grid(gap: float) -> No
     assert encoder.look is not None and encoder.look > 0.8  # with whole parts within half a gap: 0.24 and 0.5
 
 
-def test_a_look_that_cannot_be_had_says_what_can() -> None:
-    with pytest.raises(bsm.TargetError, match=r"look 1e-09 cannot be kept .* possible is .*look "):
-        bsm.Encoder(noisy(torus(20, 12), 0.01), bsm.EncodeOptions(contract=bsm.Contract(0.01, look=1e-9))).encode()
+def test_a_bound_that_cannot_be_kept_says_what_can() -> None:
+    with pytest.raises(bsm.TargetError, match=r"vertex error 1e-10 % .* cannot be kept .* possible is vertex error "):
+        bsm.Encoder(noisy(torus(20, 12), 0.01), bsm.EncodeOptions(contract=bsm.Contract(1e-12, look=1.0))).encode()
+
+
+def test_what_only_exact_positions_keep_is_kept_by_them() -> None:
+    mesh = noisy(torus(20, 12), 0.01)
+    mesh = replace(mesh, positions=mesh.positions.astype(np.float32).astype(np.float64))
+    for contract in (bsm.Contract(0.01, look=1e-9), bsm.Contract(0.01, angle=1e-9)):
+        encoder = bsm.Encoder(mesh, bsm.EncodeOptions(contract=contract))
+        decoded = bsm.decode(encoder.encode()).positions[encoder.vertex_index]
+        assert (decoded == mesh.positions).all()
+        assert KEPT_EXACTLY in encoder.notes
 
 
 def test_a_promise_holds_beside_a_target() -> None:
