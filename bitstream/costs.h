@@ -36,7 +36,7 @@ INLINE double twins_bytes(double n, double images) { return (4 * images + 41) * 
 INLINE double layer_work(double n, double m, double axes) { return n * (400 + 230 * axes) + 130 * m; }
 /* Cells and their places spread to vertices, each round (M 18). */
 INLINE double cells_work(double n, double ends, double m, double reach) {
-    return 30 * n + 40 * m + (3 + 2 * reach) * ends;
+    return 15 * n + 20 * m + (16 + 2 * reach) * ends;
 }
 INLINE double cells_memory(double n, double ends, double m, double cells) {
     return 60 * n + 8 * ends + 32 * m + 60 * cells;

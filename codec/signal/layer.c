@@ -85,16 +85,18 @@ bool fit_vertices(const Layer *layer, Arena *scratch, Bytes *fit) {
 static bool slide(Layer *layer, Arena *scratch) {
     int64_t n = layer->positions.rows;
     const LayerPlan *plan = &layer->plan;
-    Doubles2 room, upright;
+    Doubles2 room, upright = layer->positions;
     Doubles steps;
     Bytes fit;
     ConstInts2 some;
-    if (!take_doubles2(scratch, n, 8, &room) || !take_doubles2(scratch, n, AXES, &upright)
-        || !take_doubles(scratch, n, &steps) || !fit_vertices(layer, scratch, &fit)
-        || !mark_levels(layer, fit, 0, n, scratch, &some))
+    if (!take_doubles2(scratch, n, 8, &room) || !take_doubles(scratch, n, &steps)
+        || !fit_vertices(layer, scratch, &fit) || !mark_levels(layer, fit, 0, n, scratch, &some))
         return false;
-    memcpy(upright.data, layer->refined.base.data, (size_t)(n * AXES) * sizeof(double));
-    add_heights(upright, const_doubles2(layer->refined.frames), const_ints2(layer->levels.levels), plan->step);
+    if (fit.size > 0) { /* where the base is lost, heights moved no vertex */
+        if (!take_doubles2(scratch, n, AXES, &upright)) return false;
+        memcpy(upright.data, layer->refined.base.data, (size_t)(n * AXES) * sizeof(double));
+        add_heights(upright, const_doubles2(layer->refined.frames), const_ints2(layer->levels.levels), plan->step);
+    }
     tangent_steps(const_doubles2(upright), plan->faces, plan->step, plan->ratio, room, steps);
     add_slides(layer->positions, const_doubles2(layer->refined.frames), some, const_doubles(steps));
     return true;

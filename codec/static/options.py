@@ -140,8 +140,7 @@ class EncodeOptions:
         the target only. It has no effect with `grid`, `grid_cell` or any of `CODING`.
     effort : str
         "quick": only positions on a grid, coded by a small model, which decode fast; also with `grid` and
-        `grid_cell`. "normal". "best": also blocks of several sizes and more steps, for the smallest file. It takes
-        several times as long, and larger blocks are slower to decode.
+        `grid_cell`. "normal". "best": more steps, for the smallest file. It takes up to several times as long.
     exact : bool
         Keep every position exactly in single precision.
     congruence : bool

@@ -92,7 +92,7 @@ bool page_add(int index) {
         || rows.count != size_of_block(&mesh->blocks, index))
         return false;
     for (int32_t i = 0; i < rows.count; i++)
-        if (vertices[i] < 0 || vertices[i] >= mesh->graph.size) return false;
+        if (vertices[i] < 0 || vertices[i] >= ground_of(mesh)->size) return false;
     DecodedBlock block = {index, {vertices, rows.count}, {rows.positions, rows.count, 3}, {rows.more, rows.count}};
     add_block(&decoder->mesh.assembly, &block);
     return true;

@@ -33,7 +33,7 @@ class Spread:
     reach: int = 2
     rounds: int = 8
     levels: float = 8.0
-    coefficients: float = 96.0
+    coefficients: float = 160.0
 
 
 SPREADS = Spread(), Spread(3, 14, 4.0, 48.0), Spread(3, 14, 2.5, 24.0)

@@ -1,0 +1,75 @@
+"""Scans on cells: what the encoder takes, what events bring, and what damage spoils."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from bsm import BlockEvent, Decoder, EndEvent, LossEvent, RefinementEvent, TriangleMesh, decode, encode
+from bsm.bitstream.container.wire import FrameType
+from bsm.codec.decoding import Event
+from tests.shapes import torus
+from tools.surgery import spans_of, with_header
+
+KINDS = FrameType.BLOCK, FrameType.REFINEMENT
+
+
+@cache
+def scan() -> TriangleMesh:
+    """Smooth waves, and some noise."""
+    mesh = torus(150, 110)
+    noise = np.random.default_rng(2).normal(scale=1e-3, size=mesh.positions.shape)
+    return TriangleMesh(mesh.positions + noise, mesh.faces)
+
+
+@cache
+def stream() -> bytes:
+    return encode(scan(), threads=1)
+
+
+def events_of(data: bytes, **options: bool) -> list[Event]:
+    with Decoder(threads=1, **options) as decoder:
+        return list(decoder.events([data]))
+
+
+def test_a_scan_is_on_cells_and_shown_as_a_whole_early() -> None:
+    events, whole = events_of(stream()), decode(stream(), threads=1)
+    header = events[0].header
+    assert stream()[4] == 0x12 and header.base[1:3] == (2, 8) and header.blocks > 1
+    shown = np.full(whole.positions.shape, np.nan)
+    for event in events:
+        if isinstance(event, BlockEvent | RefinementEvent):
+            shown[event.vertices] = event.positions
+        if isinstance(event, BlockEvent) and event.index == header.blocks - 1:
+            assert event.final.all() and len(event.vertices) == len(shown)
+            assert np.abs(shown - whole.positions).max() < 0.1
+    assert np.array_equal(shown, whole.positions)
+    base = events_of(stream(), layers=1)
+    assert isinstance(base[-1], EndEvent) and not any(isinstance(event, RefinementEvent) for event in base)
+
+
+@pytest.mark.parametrize(("kind", "which"), [(kind, which) for kind in KINDS for which in (0, -1)])
+def test_damage_is_bounded_and_named(kind: FrameType, which: int) -> None:
+    span = [span for span in spans_of(stream()) if span.type == kind][which]
+    damaged = bytearray(stream())
+    damaged[span.offset + span.length // 2] ^= 255
+    whole, shown, lost = decode(stream(), threads=1), np.full((len(scan().positions), 3), np.nan), []
+    for event in events_of(bytes(damaged), tolerant=True):
+        if isinstance(event, BlockEvent | RefinementEvent):
+            shown[event.vertices] = event.positions
+        if isinstance(event, LossEvent):
+            lost.append(event)
+    assert isinstance(event, EndEvent) and event.losses is not None and lost
+    missing = np.isnan(shown).any(axis=1)
+    assert sorted(event.losses.missing) == np.flatnonzero(missing).tolist()
+    right = np.ones(len(shown), bool)
+    right[event.losses.missing] = right[event.losses.degraded] = False
+    assert np.abs(shown - whole.positions)[right].max(initial=0.0) < 1e-3
+    assert missing.any() == (kind == FrameType.BLOCK)
+    assert np.abs(shown - whole.positions)[~missing].max(initial=0.0) < 1.0  # of 2.7
+
+
+def test_another_number_of_cells_is_refused() -> None:
+    base = events_of(stream())[0].header.base
+    with pytest.raises(ValueError, match="cells where the header has"):
+        decode(with_header(stream(), base=[base[0] - 1, *base[1:]]))
