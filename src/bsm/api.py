@@ -16,9 +16,10 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats.metadata import Written
 from bsm.files.libraries import as_mesh, read_any, warn
-from bsm.files.mesh import format_of_name, save_written, unknown_suffix, written_mesh
+from bsm.files.mesh import save_written, unknown_suffix, written_mesh
 from bsm.files.pipes import Input, Source, named, read_chunks
 from bsm.files.stream import SequenceStream, decode_whole
+from bsm.files.table import format_of_name
 from bsm.ground.console import Console, watched
 
 if TYPE_CHECKING:

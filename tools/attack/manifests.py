@@ -25,9 +25,10 @@ from bsm.bitstream.limits import Limits
 from bsm.cli import main as program
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.info import _tile_lines
+from bsm.files.stream import MANIFEST
 from bsm.ground.console import Console, as_json
 from bsm.tiles.joining import write_joined, write_tileset
-from bsm.tiles.manifest import FOOT, MANIFEST
+from bsm.tiles.manifest import FOOT
 from bsm.tiles.shards import open_tiles
 from tools.vectors.meshes import torus
 

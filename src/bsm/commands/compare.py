@@ -33,14 +33,14 @@ from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_flags, limits_of
 from bsm.files.images import with_linked_images
-from bsm.files.mesh import by_name, format_of_name, read_mesh, save_written, written_mesh
+from bsm.files.mesh import read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Wanted
 from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, is_stream, peek_header
-from bsm.files.table import MESH_SUFFIXES
+from bsm.files.table import MESH_SUFFIXES, by_name, format_of_name
 from bsm.ground.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.ground.exits import exit_of, worded
 from bsm.ground.lengths import length, metres, unit_of

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from bsm.account.comparison import read_permutation, reorder
 from bsm.bitstream.errors import BsmError, OptionError, counted
 from bsm.codec.arrays import Faces, Order
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
@@ -22,7 +21,7 @@ from bsm.files.formats.metadata import Written
 from bsm.files.images import is_link, with_linked_images
 from bsm.files.inspection import inspect_stream
 from bsm.files.libraries import as_decoded
-from bsm.files.mesh import by_name, format_of_name, save_written, unheard, unknown_suffix, written_mesh
+from bsm.files.mesh import save_written, unheard, unknown_suffix, written_mesh
 from bsm.files.motion.folder import is_numbered, mesh_files, names_many
 from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, no_link, output_inside, refuse_collisions, refuse_to_overwrite
@@ -31,7 +30,7 @@ from bsm.files.partial import decode_blocks, decode_what_is_left
 from bsm.files.pipes import about, read_chunks, size_of
 from bsm.files.sequence import SEQUENCE_FORMATS, sequence_kind, sequence_writer
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
-from bsm.files.table import MESH_SUFFIXES, ONE_FILE, WRITTEN_FORMATS
+from bsm.files.table import MESH_SUFFIXES, ONE_FILE, WRITTEN_FORMATS, by_name, format_of_name
 from bsm.ground.console import Console, printable
 from bsm.ground.lengths import known_unit, metres, unit_of
 from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees
@@ -130,7 +129,7 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
             mesh = decode_blocks(chunks, args.blocks, progress, limits)
     seconds = time.perf_counter() - begin
     if args.permutation:
-        mesh = reorder(mesh, read_permutation(args.permutation))
+        mesh = _reordered(mesh, args.permutation)
     exact = header is not None and header.light == WITH_FLOATS
     mesh = _as_asked(args, console, with_linked_images(mesh, args.input), kind, exact=exact)
     for name in mesh.metadata:
@@ -268,12 +267,18 @@ def _sequence_output(args: DecodeJob) -> str:
     return default_output(args.input, suffix) if args.given is None else str(args.output)
 
 
+def _reordered(mesh: TriangleMesh, permutation: str) -> TriangleMesh:
+    from bsm.account.comparison import read_permutation, reorder  # which take long to load
+
+    return reorder(mesh, read_permutation(permutation))
+
+
 def _ordered(faces: Faces, permutation: str | None) -> tuple[Order | slice, Faces]:
     """The rows of frames in the order that a file says, if there is one, and faces that fit."""
     if permutation is None:
         return slice(None), faces
     numbers = np.repeat(np.arange(faces.max() + 1.0)[:, None], 3, axis=1)  # as positions, which tell the order
-    mesh = reorder(TriangleMesh(numbers, faces), read_permutation(permutation))
+    mesh = _reordered(TriangleMesh(numbers, faces), permutation)
     return mesh.positions[:, 0].astype(np.int64), mesh.faces
 
 
@@ -289,7 +294,7 @@ def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], nu
     mesh = TriangleMesh(found[1], stream.faces, stream.attributes, stream.metadata)
     mesh = _as_asked(args, console, mesh, kind, exact=False)
     if args.permutation:
-        mesh = reorder(mesh, read_permutation(args.permutation))
+        mesh = _reordered(mesh, args.permutation)
     facts = {"frames": 1, "vertices": len(mesh.positions), "faces": len(mesh.faces)}
     file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
     return facts | _saved(args, console, output, kind, file, f"frame {number}, ", time.perf_counter() - begin)

@@ -23,6 +23,7 @@ from bsm.files.motion.frames import Frames
 from bsm.files.output import output_inside, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
+from bsm.files.table import format_of_name
 from bsm.ground.console import Console
 from bsm.ground.lengths import length, unit_of
 from bsm.jobs.plan import plan
@@ -96,7 +97,7 @@ def denoise_one(args: DenoiseJob, console: Console) -> Facts:
 
 
 def _suffix(name: str) -> str:
-    return f".{meshes.format_of_name(name) or ('npz' if Path(name).is_dir() else 'ply')}"
+    return f".{format_of_name(name) or ('npz' if Path(name).is_dir() else 'ply')}"
 
 
 def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions | None") -> dict[str, Any]:
@@ -116,7 +117,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions |
     for line in _found(denoiser.choice, args.goal, mean_edge_length(mesh.positions, mesh.faces), unit):
         console.note(line)
     words, moves = _movement(np.linalg.norm(positions - mesh.positions, axis=1), unit)
-    same = not moves["vertices"] and kind == meshes.format_of_name(args.input) and Path(args.input).is_file()
+    same = not moves["vertices"] and kind == format_of_name(args.input) and Path(args.input).is_file()
     for note in source.notes if not same else ():
         console.note(f"{args.input}: {note}")
     console.note(f"moved      {words}{'; the file is copied' if same else ''}")
@@ -153,7 +154,7 @@ def _movement(moves: Any, unit: str) -> tuple[str, Facts]:
 
 def _kind_of_output(args: DenoiseJob) -> str:
     stream = args.output.lower().endswith(f".{STREAM}")
-    kind = args.format if args.output == "-" else STREAM if stream else meshes.format_of_name(args.output)
+    kind = args.format if args.output == "-" else STREAM if stream else format_of_name(args.output)
     if kind not in (*table.WRITTEN_FORMATS, STREAM):
         if args.output == "-":
             raise OptionError(f"a pipe has no suffix; give --format: {', '.join(table.WRITTEN_FORMATS)}")

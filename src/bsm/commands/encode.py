@@ -10,13 +10,12 @@ from pathlib import Path
 from bsm.bitstream.errors import OptionError, counted
 from bsm.commands.flags import add_encode_flags, add_inputs, adder, asked, keywords_of, refuse_two_on_one_pipe
 from bsm.files.images import ImageRule
-from bsm.files.mesh import format_of_name
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name, look_like_frames
 from bsm.files.output import refuse_collisions
 from bsm.files.pipes import is_url
 from bsm.files.sequence import SEQUENCE_FORMATS
-from bsm.files.table import FORMATS, GLTF, MESH_SUFFIXES, SEQUENCES_READ, WRITTEN_FORMATS
+from bsm.files.table import FORMATS, GLTF, MESH_SUFFIXES, SEQUENCES_READ, WRITTEN_FORMATS, format_of_name
 from bsm.ground.console import Console
 from bsm.jobs.encode import EncodeJob, encode_one, shared_images
 from bsm.jobs.plan import plan, plan_trees

@@ -9,15 +9,14 @@ from typing import Any
 from bsm.bitstream.errors import counted
 from bsm.commands.flags import add_flags, add_inputs, asked, limits_of
 from bsm.files.inspection import StreamInfo, inspect_stream
-from bsm.files.mesh import by_name
 from bsm.files.motion.frames import MOST_LISTED, describe_runs
 from bsm.files.pipes import read_chunks
-from bsm.files.stream import is_scene, refuse_mesh
+from bsm.files.stream import is_scene, is_tiles, refuse_mesh
+from bsm.files.table import by_name
 from bsm.ground.console import Console, printable
 from bsm.jobs.plan import input_names
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Job, Task
-from bsm.tiles.shards import is_tiles, open_tiles
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +37,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def info_of_one(args: InfoJob, console: Console) -> Facts:
     limits = limits_of(args.limits)
     if is_tiles(args.input):
-        return {"input": args.input, **open_tiles(args.input).manifest}
+        return {"input": args.input, **by_name("bsm.tiles.shards", "open_tiles")(args.input).manifest}
     if is_scene(args.input):
         document = by_name("bsm.gltf.document", "read_document")(args.input, limits)
         streams = {n: summarize(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}

@@ -13,6 +13,7 @@ from bsm.commands.flags import add_flags, adder, asked, within
 from bsm.files.images import ImageRule
 from bsm.files.output import by_its_own_name, refuse_to_overwrite
 from bsm.files.pipes import about, inside, is_url, name_in, remove, size_of, state_of
+from bsm.files.stream import MANIFEST
 from bsm.ground.console import Console, print_json
 from bsm.ground.exits import report_error
 from bsm.jobs.run import Batch, run_many
@@ -20,7 +21,6 @@ from bsm.jobs.task import Job, Outcome, came_to
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
 from bsm.tiles.joining import CONTENT_HELP, CONTENTS, TILESET, write_tileset
 from bsm.tiles.making import TileJob, tile_one
-from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.reading import read_big
 from bsm.tiles.shards import is_unfinished, open_tiles, write_shards, write_unfinished
 from bsm.tiles.work import NOTE, held, refuse_others, remove_made, there

@@ -6,8 +6,8 @@ from typing import Any
 
 from bsm.bitstream.errors import OptionError
 from bsm.commands.flags import add_flags, adder, limits_of
-from bsm.files.mesh import by_name
 from bsm.files.output import refuse_terminal, refuse_to_overwrite
+from bsm.files.table import by_name
 from bsm.ground.console import Console
 from bsm.tiles.joining import CONTENT_HELP, CONTENTS, TILESET, write_joined, write_tileset
 from bsm.tiles.shards import open_tiles

@@ -7,15 +7,14 @@ from pathlib import Path
 from bsm.bitstream.errors import FormatError, OptionError, counted
 from bsm.commands.flags import add_flags, add_inputs, asked, limits_of
 from bsm.files.inspection import StreamInfo, inspect_stream
-from bsm.files.mesh import by_name
 from bsm.files.pipes import read_chunks
-from bsm.files.stream import decode_through, decode_whole, is_scene, refuse_mesh
+from bsm.files.stream import decode_through, decode_whole, is_scene, is_tiles, refuse_mesh
+from bsm.files.table import by_name
 from bsm.ground.console import Console
 from bsm.ground.exits import worded
 from bsm.jobs.plan import STREAM_SUFFIXES, files_in, input_names
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Job, Task
-from bsm.tiles.shards import is_tiles, open_tiles
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,7 +71,7 @@ def _verify_scene(args: VerifyJob) -> tuple[str, int, Facts]:
 
 def _verify_tiles(args: VerifyJob, console: Console) -> tuple[str, int, Facts]:
     """Check every tile of every shard; report all faults, and raise the first."""
-    tiles = open_tiles(args.input, limits_of(args.limits))
+    tiles = by_name("bsm.tiles.shards", "open_tiles")(args.input, limits_of(args.limits))
     faults = list(tiles.faults(not args.quick))
     for fault in faults[1:]:
         console.note(worded(fault))

@@ -13,9 +13,9 @@ from bsm.commands.flags import add_flags, adder, limits_of
 from bsm.files.inspection import inspect_stream
 from bsm.files.output import write_output
 from bsm.files.pipes import about, read_chunks
+from bsm.files.stream import MANIFEST, is_tiles
 from bsm.ground.console import Console, Progress
-from bsm.tiles.manifest import MANIFEST
-from bsm.tiles.shards import is_tiles, open_tiles
+from bsm.tiles.shards import open_tiles
 from bsm.viewer.contents import NO_STREAM, PRESETS, Content, against, alone, given_at, made
 from bsm.viewer.page import Arrival, PageServer, Ranged, Tiled, in_browser, page_with, site_with, written_to
 

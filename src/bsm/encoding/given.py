@@ -12,12 +12,11 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bsm import __version__
 from bsm.bitstream.errors import BsmError
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.options import EncodeOptions
 from bsm.encoding.options import chosen_options, encode_options, sequence_options
@@ -31,6 +30,9 @@ from bsm.files.parsing import PRECISION, is_single_and_far
 from bsm.files.pipes import digest_of
 from bsm.ground.console import Progress
 from bsm.ground.lengths import as_said, asked_unit, in_own_unit, known_unit, metres, unit_of
+
+if TYPE_CHECKING:
+    from bsm.codec.sequence.encoder import SequenceEncoder
 
 _GENERATION = re.compile(r" generation=(\d{1,6})")
 _TEXELS = 0.25  # how far texture coordinates may be off
@@ -141,7 +143,7 @@ def given_part(mesh: TriangleMesh, **keywords: Any) -> Recipe:
 class MovingRecipe:
     """Frames, the encoder for the wishes, the unit of errors, and how many of it are one of the mesh's; losses."""
 
-    encoder: SequenceEncoder
+    encoder: "SequenceEncoder"
     frames: Iterable[Any]
     unit: tuple[str, float]
     losses: tuple[str, ...]
@@ -159,6 +161,8 @@ def given_frames(source: Frames, wishes: Wishes, shown: TriangleMesh | None = No
     options: SequenceOptions = asked.made(sequence_options, SequenceOptions, known, shown)
     source = source.on_sorted_faces() if source.rigged and options.keep_order else source
     sent, generations = wishes.signed(known, options)
+    from bsm.codec.sequence.encoder import SequenceEncoder  # not for meshes
+
     encoder = SequenceEncoder(source.faces, options, source.count, sent, source.attributes)
     unit, losses = asked_unit(wishes.keywords, known), (*notes, *generations)
     return MovingRecipe(encoder, source.meshes or source.frames, unit, losses)

@@ -5,7 +5,6 @@ metadata; notes name changes and losses. Files may be hostile: a file that decla
 before anything is allocated for it.
 """
 
-import importlib
 import math
 import os
 import sys
@@ -13,7 +12,6 @@ from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import BsmError, DependencyError, FormatError, OptionError, UnsupportedError
@@ -25,7 +23,17 @@ from bsm.files.formats.polygons import Cut, MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
 from bsm.files.parsing import PRECISION, gunzipped, plain_text
 from bsm.files.pipes import Input, Source, as_input, is_url
-from bsm.files.table import FORMATS, GLTF, MESH_FORMATS, USD_FORMATS, WRITTEN_FORMATS, format_of_bytes, other_kind
+from bsm.files.table import (
+    FORMATS,
+    GLTF,
+    MESH_FORMATS,
+    USD_FORMATS,
+    WRITTEN_FORMATS,
+    by_name,
+    format_of_bytes,
+    format_of_name,
+    other_kind,
+)
 from bsm.ground.lengths import metres
 
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
@@ -47,11 +55,6 @@ _FOREIGN = {
     ("las", "laz", "e57", "pcd", "pts"): "it holds points; point clouds are not supported",
     ("zip", "gz", "bz2", "xz", "tar", "tgz"): "it contains files: unpack it, and read its contents",
 }
-
-
-def by_name(module: str, function: str) -> Any:
-    """A reader or writer, imported when it is asked for."""
-    return getattr(importlib.import_module(module), function)
 
 
 def read_mesh(
@@ -260,8 +263,3 @@ def _sibling(path: str | os.PathLike[str], name: str) -> str | None:
     if isinstance(path, str) and is_url(path):
         return pipes.beside(path, name)
     return str(Path(path).parent / name) if os.fspath(path) != "-" and can_be_replaced(path) else None
-
-
-def format_of_name(path: str | os.PathLike[str]) -> str | None:
-    suffix = Path(path).suffix[1:].lower()
-    return suffix if suffix in WRITTEN_FORMATS else None

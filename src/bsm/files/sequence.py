@@ -10,9 +10,9 @@ import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from html import escape
 from itertools import count as count_from
 from pathlib import Path
-from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -23,13 +23,13 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.runs import is_empty
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
 from bsm.files.formats.polygons import CutAlike, MeshFile, joined_files
-from bsm.files.mesh import by_name, is_apart, kind_of, parts_of, read_cut, read_mesh, save_written, written_mesh
+from bsm.files.mesh import is_apart, kind_of, parts_of, read_cut, read_mesh, save_written, written_mesh
 from bsm.files.motion import folder
 from bsm.files.motion.caches import CACHES, mesh_beside, mesh_of, read_cache, write_cache
 from bsm.files.motion.frames import USUAL_RATE, Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
 from bsm.files.pipes import Input, Source, as_input, files_behind, is_pipe, is_url, size_of
-from bsm.files.table import FORMATS, GLTF, ONE_FILE, RATE, SEQUENCES_READ, TIMES, WRITTEN_FORMATS
+from bsm.files.table import FORMATS, GLTF, ONE_FILE, RATE, SEQUENCES_READ, TIMES, WRITTEN_FORMATS, by_name
 
 _ISOLATED = ("bsm.files.isolation", "frames_isolated")  # it loads this module
 ZIP = b"PK\x03\x04"
@@ -200,7 +200,7 @@ def _list_writer(path: str, faces: Faces, overwrite: bool, follow: bool | str, s
         def write_mesh(mesh: TriangleMesh, _: int) -> tuple[str, ...]:
             number = len(rows)
             time = shared.code(number) / (shared.frame_rate or USUAL_RATE)
-            name = escape(f"{below.name}/{number:05d}.vtp")
+            name = escape(f"{below.name}/{number:05d}.vtp", quote=False)
             rows.append(f'<DataSet timestep="{time:.9g}" part="0" file="{name}"/>\n')
             return write(mesh, number)
 

@@ -15,14 +15,21 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.progress import Progress
-from bsm.files.mesh import format_of_name
-from bsm.files.pipes import Source, as_input, is_pipe
-from bsm.files.table import GLTF, MESH_FORMATS, format_of_bytes
+from bsm.files.pipes import Source, as_input, is_pipe, is_url
+from bsm.files.table import GLTF, MESH_FORMATS, format_of_bytes, format_of_name
 
 
 def is_stream(source: Source) -> bool:
     """Whether something begins like a stream; nothing is taken from an `Input`, and the path of a pipe is not asked."""
     return not is_pipe(source) and as_input(source).peek(len(MAGIC)) == MAGIC
+
+
+MANIFEST = "manifest.json"  # of a folder of tiles
+
+
+def is_tiles(path: str) -> bool:
+    """Whether a folder, or a URL that ends with a slash, holds a manifest."""
+    return path.endswith("/") if is_url(path) else Path(path, MANIFEST).is_file()
 
 
 def is_scene(path: str) -> bool:

@@ -6,6 +6,8 @@ their file: colors are sRGB under the words of MTL, and linear under those of gl
 well.
 """
 
+import importlib
+import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -132,3 +134,13 @@ def other_kind(head: bytes, suffix: str) -> str:
     kinds = _FOREIGN | {row.begins: row.called for row in FORMATS.values() if row.called}
     found = next((called for begins, called in kinds.items() if re.match(begins, head[:1024])), "")
     return "" if found == FORMATS[suffix].called else found
+
+
+def by_name(module: str, function: str) -> Any:
+    """A reader or writer, imported when it is asked for."""
+    return getattr(importlib.import_module(module), function)
+
+
+def format_of_name(path: str | os.PathLike[str]) -> str | None:
+    suffix = Path(path).suffix[1:].lower()
+    return suffix if suffix in WRITTEN_FORMATS else None

@@ -11,12 +11,12 @@ from bsm.bitstream.container.wire import MAJOR
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import Limits
 from bsm.files.pipes import Input, inside, place_of
+from bsm.files.stream import MANIFEST
 from bsm.ground.console import printable
 from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Lattice, Root
 from bsm.tiles.reading import ABOUT, CARRIED, Kinds
 
-MANIFEST = "manifest.json"
 FOOT = 16  # bytes behind the index of a shard
 NO_JSON = (ValueError, KeyError, TypeError, AttributeError, RecursionError)
 _MOST, _FARTHEST_PLACE, _LARGEST = 1 << 60, 1 << 31, 1e290

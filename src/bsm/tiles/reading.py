@@ -19,10 +19,10 @@ from bsm.files.formats.obj import read_obj
 from bsm.files.formats.ply import MOST_HEADER, Element, parse_header
 from bsm.files.formats.polygons import CROSSING, triangulate
 from bsm.files.formats.stl import HEAD, RECORD, binary_triangles, is_text
-from bsm.files.mesh import format_of_name, read_mesh
+from bsm.files.mesh import read_mesh
 from bsm.files.output import by_its_own_name
 from bsm.files.pipes import Input, is_url, size_of
-from bsm.files.table import format_of_bytes
+from bsm.files.table import format_of_bytes, format_of_name
 from bsm.ground.console import Console
 from bsm.tiles.atlas import checked
 

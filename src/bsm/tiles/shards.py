@@ -20,12 +20,12 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.libraries import as_decoded
 from bsm.files.output import open_output, write_output
-from bsm.files.pipes import about, inside, is_pipe, is_url, named, place_of, read_range
-from bsm.files.stream import decode_whole
+from bsm.files.pipes import about, inside, is_pipe, named, place_of, read_range
+from bsm.files.stream import MANIFEST, decode_whole
 from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Lattice, Plan, Root
 from bsm.tiles.making import Faces
-from bsm.tiles.manifest import FOOT, MANIFEST, NO_JSON, Tile, json_of, parse_index, read_manifest
+from bsm.tiles.manifest import FOOT, NO_JSON, Tile, json_of, parse_index, read_manifest
 from bsm.tiles.reading import ABOUT, Kinds
 
 Table: TypeAlias = npt.NDArray[np.float64]
@@ -106,11 +106,6 @@ def _write_shard(folder: str, name: str, waiting: list[Facts], overwrite: bool) 
     lows, highs = zip(*((tile.low, tile.high) for tile in tiles))
     ends_of = {"low": np.min(lows, axis=0).tolist(), "high": np.max(highs, axis=0).tolist()}
     return shard | {"sha256": sha256(index).hexdigest(), **ends_of}, tiles
-
-
-def is_tiles(path: str) -> bool:
-    """Whether a folder, or a URL that ends with a slash, holds a manifest."""
-    return path.endswith("/") if is_url(path) else Path(path, MANIFEST).is_file()
 
 
 def open_tiles(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> "Tiles":

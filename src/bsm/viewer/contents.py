@@ -38,14 +38,14 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import Contract
 from bsm.encoding.given import Wishes, given_frames, given_mesh
 from bsm.files.formats.polygons import MeshFile
-from bsm.files.mesh import by_name, parts_of, read_mesh, size_with_parts
+from bsm.files.mesh import parts_of, read_mesh, size_with_parts
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.pipes import Input, is_url, read_chunks, size_of
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
-from bsm.files.table import GLTF, is_mesh_name
+from bsm.files.table import GLTF, by_name, is_mesh_name
 from bsm.ground.console import Progress
 from bsm.ground.exits import worded
 
