@@ -15,6 +15,7 @@ from typing import Any
 import bsm
 from bsm.cli import COMMANDS, command_parser
 from bsm.ground.exits import EXITS
+from bsm.viewer.page import site_with
 
 ROOT = Path(__file__).parents[1]
 ELSEWHERE = {
@@ -55,6 +56,8 @@ def on_files(files: Any, config: Any) -> Any:
 
     for page, source in (ELSEWHERE | law()).items():
         files.append(File.generated(config, page, content=(ROOT / source).read_text(encoding="utf-8")))
+    for page, data in live().items():
+        files.append(File.generated(config, f"live/{page}", content=data))
     files.append(File.generated(config, "api/python.md", content=contents()))
     for name, page in reference().items():
         files.append(File.generated(config, f"api/{name}.md", content=page))
@@ -74,6 +77,12 @@ def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
 
     # a[i][j] of the specification is no link.
     return re.sub(LINK, moved, markdown.replace("][", "]\\[") if place.startswith("format/") else markdown)
+
+
+def live() -> dict[str, bytes]:
+    """The decoder and the player of the first page, as the npm package has them, and the page that encodes."""
+    built = {path.name: path.read_bytes() for path in (ROOT / "web/built").iterdir() if path.suffix in (".js", ".wasm")}
+    return built | {f"view/{name}": data for name, data in site_with([]).items() if isinstance(data, bytes)}
 
 
 def law() -> dict[str, str]:

@@ -177,6 +177,10 @@ async function products() {
         "encoding.js": await plain("encoding.ts", []),
         "encode-worker.js": thread("encoding.js"),
         "player.js": await open("player.ts", beside("three")),
+        "player-three.js": await bundle(join(SOURCES, "player.ts"), {
+            plugins: [beside("errors", "index", "pool", "quick")],
+            mangleProps,
+        }),
         "react.js": await open("react.ts", beside("three")),
     };
     return [

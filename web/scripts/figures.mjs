@@ -59,7 +59,7 @@ races = []
 for bits in (9, 10, 11, 12):
     draco = encode_draco(mesh, bits, DRACO_LEVEL)
     distance = bsm.look(mesh, decode_draco(draco)).distance
-    runners = {"draco": draco, "smallest": bsm.encode(mesh, look=distance), "quick": bsm.encode(mesh, look=distance, quick=True)}
+    runners = {"draco": draco, "smallest": bsm.encode(mesh, look=distance), "quick": bsm.encode(mesh, look=distance, effort="quick")}
     for way, stream in runners.items():
         open(f"{folder}/{way}-{bits}", "wb").write(stream)
     races.append({"bits": bits, "distance": distance})

@@ -22,7 +22,7 @@ meshes, folder = sys.argv[1:]
 for name in ("c3d_spot", "nicolo", "dragon_437645"):
     mesh = bsm.load(f"{meshes}/static/{name}.ply")
     open(f"{folder}/{name}.bsm", "wb").write(bsm.encode(mesh))
-    open(f"{folder}/{name}-quick.bsm", "wb").write(bsm.encode(mesh, quick=True))
+    open(f"{folder}/{name}-quick.bsm", "wb").write(bsm.encode(mesh, effort="quick"))
     open(f"{folder}/{name}.drc", "wb").write(encode_draco(mesh, 11, 7))
 `;
 const MAP = '{"imports":{"three":"/three/build/three.module.js","three/addons/":"/three/examples/jsm/"}}';

@@ -50,7 +50,8 @@ const [WHOLE, NUMBER, TEXT] = [1, 2, 3];
 const TEXTS = new TextDecoder("utf-8", { ignoreBOM: true });
 const LAST_ATTRIBUTE = 255;
 const [ENTRY_BYTES, ATTRIBUTE_BYTES] = [48, 56];
-const [MOST_KEY, MOST_LIST] = [25, 8]; // of the record of a header: its keys, and numbers of each
+/** The record of a header in C: numbers of each key, and how many they are. */
+const [KEYS, MOST_LIST] = [1 + Math.max(...Object.values(HEADER_KEYS)), 8];
 
 /** The fields of a header by their names: the record in C has them by their keys. */
 type FieldLists = Record<keyof typeof HEADER_KEYS, number[]>;
@@ -118,8 +119,8 @@ export class Engine extends Memory {
 
     header(): Header {
         const at = this.call("page_header");
-        const numbers = this.doubles(at, MOST_KEY * MOST_LIST);
-        const counts = this.ints(at + 8 * MOST_KEY * MOST_LIST, MOST_KEY);
+        const numbers = this.doubles(at, KEYS * MOST_LIST);
+        const counts = this.ints(at + 8 * KEYS * MOST_LIST, KEYS);
         const listOf = (key: number): number[] => [...numbers.subarray(MOST_LIST * key, MOST_LIST * key + counts[key])];
         const lists = Object.fromEntries(
             Object.entries(HEADER_KEYS).map(([name, key]) => [name, listOf(key)]),

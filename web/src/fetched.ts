@@ -18,14 +18,30 @@ async function bytesAt(url: URL): Promise<ArrayBuffer | Uint8Array<ArrayBuffer>>
                 ? new Error("Node 20.16 or later is needed", { cause: error })
                 : error,
         );
-    const response = await fetch(url).catch(without);
-    if (!response.ok)
-        throw new Error(`${url}: ${response.status} ${response.statusText}; the decoder's files must lie there`);
-    return response.arrayBuffer();
+    return (await answered(url).catch(without)).arrayBuffer();
 }
 
+async function answered(url: URL): Promise<Response> {
+    const response = await fetch(url);
+    if (!response.ok)
+        throw new Error(`${url}: ${response.status} ${response.statusText}; the decoder's files must lie there`);
+    return response;
+}
+
+/** WebAssembly that is compiled while it comes, where the server says that it is that. */
 export async function compiled(url: URL): Promise<WebAssembly.Module> {
-    const bytes = await bytesAt(url);
+    if (/^http/.test(url.protocol)) {
+        const response = await answered(url);
+        if (/^application\/wasm\b/.test(response.headers.get("content-type") ?? ""))
+            return WebAssembly.compileStreaming(response).catch((error: Error) => {
+                throw new Error(`${url}: ${error.message}`);
+            });
+        return ofBytes(url, await response.arrayBuffer());
+    }
+    return ofBytes(url, await bytesAt(url));
+}
+
+function ofBytes(url: URL, bytes: ArrayBuffer | Uint8Array<ArrayBuffer>): Promise<WebAssembly.Module> {
     return WebAssembly.compile(bytes).catch((error: Error) => {
         throw new Error(`${url}: ${isPage(new Uint8Array(bytes)) ? PAGE : error.message}`);
     });

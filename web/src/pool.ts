@@ -1,4 +1,16 @@
-/** Threads that decode, kept warm: streams are shared among them, and large ones are decoded by several. */
+/**
+ * Threads that decode, kept warm: streams are shared among them, and large ones are decoded by several.
+ *
+ * A stream goes in as bytes; its header tells which build of the decoder it needs (`peek.ts`), the smallest that knows
+ * it. Builds are fetched once and threads keep theirs, so streams that begin together wait a moment for each other's
+ * headers and take one build that reads all of them: three small decoders would cost more than the large one. A stream
+ * has one thread, and idle threads of the same build help with its chains. All bytes are kept until the end, because a
+ * small build that meets something unknown or wrong leaves the stream to the whole one, which begins again and reports
+ * only what was not reported yet; so only that one needs the texts of errors. A thread that never began takes its
+ * streams back to the line; after two of those the pool decodes in the calling thread, piece by piece, so that a page
+ * without threads still draws. Order matters in `hands`: threads that worked last come last, and the first idle one
+ * makes room for another build.
+ */
 import type { Reply, StreamWorker, DrawnEvent, Message, Report, Start } from "./worker";
 import type { Picture } from "./drawing";
 import { errorLike, type BsmError } from "./errors";
@@ -107,6 +119,7 @@ export class Pool {
             ]);
         if (stream.closed) return;
         const need = { ...named, build: this.buildFor(named.build) };
+        if (!this.alone) this.free(need.build); // so that a thread starts while the kernels come
         const kernels = await this.source
             .kernels(need.build)
             .catch((error: unknown) => stream.fail(error instanceof Error ? error : new Error(`${error}`)));

@@ -1,4 +1,14 @@
-/** A stream as it arrives, beside its original and Draco; sequences play, tiles come as they are looked at. */
+/**
+ * A stream as it arrives, beside its original and Draco; sequences play, tiles come as they are looked at.
+ *
+ * A `View` fills an element with the template and owns what the page shows: one content at a time, of which one layer is
+ * the stream that arrives (`arrival.ts`) and the others are compared with it (`comparison.ts`). The bytes are kept, so
+ * that the reader may cut or slow the stream: then it is decoded again from the first byte, and the old mesh stays on
+ * the stage until the new one can be drawn. Everything that is drawn or said is renewed once a picture, in `step`; what
+ * changes in between only marks itself as stale, so a fast stream cannot make the page draw more often than the screen.
+ * Callbacks of streams and files may come late: each asks whether its turn is still the latest (`turn`) or whether the
+ * content is still the same. States are attributes of the element (`data-state`), which tests and styles read.
+ */
 import type { BufferAttribute } from "three";
 import { errorLike, type Header, type EventOf } from "../index";
 import { BSMGeometry } from "../geometry";

@@ -1,0 +1,232 @@
+/**
+ * Time to the picture: `npm run arrival -- MESHES [ROUNDS] [MBIT...]`, in headless Chromium, for eight known meshes, as
+ * Draco (fewest bits with a look of at most 1, level 10), meshoptimizer with brotli (the same bits), and our default and
+ * `--quick`.
+ *
+ * Three states: cold (nothing is cached), cached (the decoder comes from the cache of the browser and is compiled), and
+ * warm (the page has decoded another mesh). The link is made by the server, which sends all bytes one after the other at
+ * a rate: Chromium emulates none for threads. Times are the least of all rounds, from the call of the loader; processor
+ * time is that of the whole renderer. MESHES is a folder with static/*.ply; PYTHON names a Python that has bsm[eval].
+ */
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createServer } from "node:http";
+import { tmpdir } from "node:os";
+import { extname, join } from "node:path";
+import { brotliCompressSync } from "node:zlib";
+import { MeshoptEncoder } from "meshoptimizer";
+import { chromium } from "playwright-core";
+import { WEB } from "./kernels.mjs";
+
+const NAMES = [
+    "c3d_spot",
+    "gargoyle_10002",
+    "dragon_22998",
+    "bunny_34834",
+    "horse_48485",
+    "block",
+    "fandisk_6475",
+    "fr_casting",
+];
+const WAYS = ["draco", "meshopt", "default", "quick"];
+const STATES = ["cold", "cached", "warm"];
+const PIECE = 4096; // bytes that are sent at a time
+const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const TYPES = { ".js": "text/javascript", ".wasm": "application/wasm" };
+const PREPARE = `
+import json, sys, bsm, numpy as np
+from bsm.evaluation.curve import decode_draco, encode_draco
+meshes, folder, *names = sys.argv[1:]
+for name in names:
+    mesh = bsm.load(f"{meshes}/static/{name}.ply")
+    for bits in range(8, 16):
+        draco = encode_draco(mesh, bits, 10)
+        if bsm.look(mesh, decode_draco(draco)).distance <= 1 or bits == 15:
+            break
+    low, size = mesh.positions.min(axis=0), np.ptp(mesh.positions, axis=0).max()
+    cells = np.rint((mesh.positions - low) / size * (2**bits - 1)).astype("<u2")
+    np.pad(cells, ((0, 0), (0, 1))).tofile(f"{folder}/{name}.cells")
+    mesh.faces.astype("<u4").tofile(f"{folder}/{name}.corners")
+    files = {"draco": draco, "default": bsm.encode(mesh), "quick": bsm.encode(mesh, effort="quick")}
+    for way, data in files.items():
+        open(f"{folder}/{name}-{way}", "wb").write(data)
+    print(name, bits, file=sys.stderr)
+`;
+const MAP = '{"imports":{"three":"/three/build/three.module.js","three/addons/":"/three/examples/jsm/"}}';
+const BASE = "/three/examples/jsm/libs/draco/";
+/** In the page: each way loads an address, and tells when there is a first picture; what it imports is asked for first. */
+const SCRIPT = `
+const whole = (loader) => (url) => loader.loadAsync(url);
+const ways = {
+    draco: async () => {
+        const { DRACOLoader } = await import("three/addons/loaders/DRACOLoader.js");
+        return whole(new DRACOLoader().setDecoderPath("${BASE}"));
+    },
+    meshopt: async () => {
+        const { MeshoptDecoder } = await import("three/addons/libs/meshopt_decoder.module.js");
+        return async (url) => {
+            const data = new Uint8Array(await (await fetch(url)).arrayBuffer());
+            const [vertices, corners, split] = new Uint32Array(data.slice(0, 12).buffer);
+            await MeshoptDecoder.ready;
+            const [points, faces] = [new Uint8Array(8 * vertices), new Uint8Array(4 * corners)];
+            MeshoptDecoder.decodeVertexBuffer(points, vertices, 8, data.subarray(12, 12 + split));
+            MeshoptDecoder.decodeIndexBuffer(faces, corners, 4, data.subarray(12 + split));
+        };
+    },
+    bsm: async () => {
+        const { BSMLoader } = await import("/bsm/three.js");
+        const loader = new BSMLoader();
+        return (url, first) =>
+            new Promise((keep, fail) => loader.load(url, keep, undefined, fail, { onBlock: () => first() }));
+    },
+};
+let loading;
+window.load = async (way, url) => {
+    const begin = performance.now();
+    let seen;
+    loading ??= ways[way]();
+    await (await loading)(url, () => (seen ??= performance.now() - begin));
+    const whole = performance.now() - begin;
+    return { first: seen ?? whole, whole };
+};
+window.three = import("three"); // which the page has anyway
+`;
+
+const [meshes, rounds = "3", ...rates] = process.argv.slice(2);
+if (!meshes) throw new Error("name a folder of meshes");
+const folder = process.env.ARRIVAL ?? mkdtempSync(join(tmpdir(), "bsm-arrival-")); // ARRIVAL: a folder that keeps them
+if (!existsSync(join(folder, `${NAMES.at(-1)}-quick`)))
+    execFileSync(process.env.PYTHON ?? "python3", ["-c", PREPARE, meshes, folder, ...NAMES], { stdio: "inherit" });
+
+/** A mesh by meshoptimizer: counts, vertices, faces, as GLB has them. */
+async function meshoptOf(name) {
+    await MeshoptEncoder.ready;
+    const [cells, corners] = ["cells", "corners"].map((kind) => readFileSync(join(folder, `${name}.${kind}`)));
+    const index = new Uint32Array(corners.buffer.slice(corners.byteOffset, corners.byteOffset + corners.length));
+    const [order, count] = MeshoptEncoder.reorderMesh(index, true, true);
+    const points = new Uint8Array(8 * count);
+    order.forEach((to, from) => {
+        if (to !== 0xffffffff) points.set(cells.subarray(8 * from, 8 * from + 8), 8 * to);
+    });
+    const vertices = MeshoptEncoder.encodeVertexBuffer(points, count, 8);
+    const faces = MeshoptEncoder.encodeIndexBuffer(new Uint8Array(index.buffer), index.length, 4);
+    const head = new Uint8Array(Uint32Array.of(count, index.length, vertices.length).buffer);
+    return Buffer.concat([head, vertices, faces]);
+}
+
+const files = new Map();
+for (const name of NAMES)
+    for (const way of WAYS) {
+        const data = way === "meshopt" ? await meshoptOf(name) : readFileSync(join(folder, `${name}-${way}`));
+        files.set(`/file/${name}-${way}`, brotliCompressSync(data));
+    }
+const compressed = new Map();
+const bodyOf = (path) => {
+    const [, place, ...rest] = path.split("/");
+    const root = { bsm: join(WEB, "built"), three: join(WEB, "node_modules/three") }[place];
+    if (!root) return files.get(path);
+    if (!compressed.has(path)) compressed.set(path, brotliCompressSync(readFileSync(join(root, ...rest))));
+    return compressed.get(path);
+};
+
+let rate = Infinity; // bits in a millisecond
+let free = 0; // when the link has sent all that waits
+/** Send a body over the link, which all answers share. */
+function send(response, body) {
+    if (rate === Infinity) return response.end(body);
+    let at = 0;
+    const next = () => {
+        if (at >= body.length) return response.end();
+        const piece = body.subarray(at, at + PIECE);
+        at += piece.length;
+        free = Math.max(performance.now(), free) + (8 * piece.length) / rate;
+        setTimeout(() => (response.write(piece), next()), Math.max(0, free - performance.now()));
+    };
+    next();
+}
+
+const server = createServer((request, response) => {
+    const { pathname } = new URL(request.url, "http://localhost");
+    if (pathname === "/") {
+        const page = `<!doctype html><script type="importmap">${MAP}</script><script type="module">${SCRIPT}</script>`;
+        return response.writeHead(200, { "Content-Type": "text/html" }).end(page);
+    }
+    const body = bodyOf(pathname);
+    if (!body) return response.writeHead(404).end();
+    const isFile = pathname.startsWith("/file/");
+    response.writeHead(200, {
+        "Content-Type": TYPES[extname(pathname)] ?? "application/octet-stream",
+        "Content-Encoding": "br",
+        "Content-Length": body.length,
+        "Cache-Control": isFile ? "no-store" : "max-age=3600",
+    });
+    send(response, body);
+});
+await new Promise((ready) => server.listen(0, "127.0.0.1", ready));
+const address = `http://127.0.0.1:${server.address().port}/`;
+const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    headless: true,
+    args: FLAGS,
+});
+const system = await browser.newBrowserCDPSession();
+/** Seconds of processors that all renderers have taken. */
+async function spent() {
+    const { processInfo } = await system.send("SystemInfo.getProcessInfo");
+    return processInfo.filter(({ type }) => type === "renderer").reduce((sum, { cpuTime }) => sum + cpuTime, 0);
+}
+
+/** One load in a state. */
+async function arrival(name, way, state) {
+    const context = await browser.newContext();
+    try {
+        const open = async () => {
+            rate = Infinity;
+            const page = await context.newPage();
+            await page.goto(address);
+            await page.evaluate(() => window.three);
+            return page;
+        };
+        const kind = WAYS.indexOf(way) < 2 ? way : "bsm";
+        const load = (page, mesh) =>
+            page.evaluate(([kind, url]) => window.load(kind, url), [kind, `/file/${mesh}-${way}?${Math.random()}`]);
+        let page = await open();
+        if (state !== "cold") await load(page, name); // the decoder that this stream needs
+        if (state === "cached") {
+            await page.close();
+            page = await open();
+        }
+        [rate, free] = [link * 1000, 0];
+        const before = await spent();
+        const times = await load(page, name);
+        return { ...times, cpu: 1000 * ((await spent()) - before) };
+    } finally {
+        await context.close();
+    }
+}
+
+let link;
+try {
+    for (link of rates.length > 0 ? rates.map(Number) : [3, 10, 50])
+        for (const state of STATES) {
+            console.log(`\n${link} Mbit/s, ${state}: bytes; ms to the first and to the whole picture; processor ms`);
+            console.log(`| | ${WAYS.join(" | ")} |\n|---|${"---:|".repeat(WAYS.length)}`);
+            for (const name of NAMES) {
+                const cells = [];
+                for (const way of WAYS) {
+                    const found = [];
+                    for (let k = 0; k < Number(rounds); k++) found.push(await arrival(name, way, state));
+                    const least = (what) => Math.round(Math.min(...found.map((each) => each[what])));
+                    const bytes = files.get(`/file/${name}-${way}`).length.toLocaleString("en");
+                    const isWhole = WAYS.indexOf(way) < 2;
+                    const first = isWhole ? "" : `${least("first")}, `;
+                    cells.push(`${bytes}; ${first}${least("whole")}; ${least("cpu")}`);
+                }
+                console.log(`| ${name} | ${cells.join(" | ")} |`);
+            }
+        }
+} finally {
+    await browser.close();
+    server.close();
+    if (!process.env.ARRIVAL) rmSync(folder, { recursive: true, force: true });
+}
