@@ -155,7 +155,7 @@ def _as_asked(args: DecodeJob, console: Console, mesh: TriangleMesh, kind: str, 
     said = mesh.metadata if exact else as_decoded(mesh.metadata)
     metadata, scale = {n: v for n, v in said.items() if n != "source_name" and (kind == "obj" or not is_link(n))}, 1.0
     if args.unit_out:
-        own, wanted = metres(unit_of(metadata)), known_unit(args.unit_out, "--unit-out")
+        own, wanted = metres(unit_of(metadata)), known_unit(args.unit_out, "unit")
         if own is None:
             console.note(f"{args.input}: not scaled: its unit is {printable(unit_of(metadata)) or 'not known'}")
         else:

@@ -129,9 +129,19 @@ def named_quality(text: str) -> tuple[str, str]:
     return name, quality
 
 
+def unit(text: str) -> str:
+    from bsm.ground.lengths import UnitError, known_unit  # needs numpy
+
+    try:
+        known_unit(text, "unit")
+    except UnitError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    return text
+
+
 _TYPES: dict[str, Callable[[str], Any]] = {str(count): numbers(count) for count in (2, 3, 6)} | {
     **{"int": int, "float": float, "length": number_or_length, "yes": lambda text: text == "yes"},
-    **{"count": within(0), "positive": within(1), "port": within(0, 65535)},
+    **{"unit": unit, "count": within(0), "positive": within(1), "port": within(0, 65535)},
 }
 _ACTIONS: dict[str, dict[str, Any]] = {
     "onoff": {"action": argparse.BooleanOptionalAction},
