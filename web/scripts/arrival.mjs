@@ -6,7 +6,7 @@
  * Three states: cold (nothing is cached), cached (the decoder comes from the cache of the browser and is compiled), and
  * warm (the page has decoded another mesh). The link is made by the server, which sends all bytes one after the other at
  * a rate: Chromium emulates none for threads. Times are the least of all rounds, from the call of the loader; processor
- * time is that of the whole renderer. MESHES is a folder with static/*.ply; PYTHON names a Python that has bsm[eval].
+ * time is that of the whole renderer. STATES names some of the states. MESHES is a folder with static/*.ply; PYTHON names a Python that has bsm[eval].
  */
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -29,7 +29,7 @@ const NAMES = [
     "fr_casting",
 ];
 const WAYS = ["draco", "meshopt", "default", "quick"];
-const STATES = ["cold", "cached", "warm"];
+const STATES = (process.env.STATES ?? "cold cached warm").split(" ");
 const PIECE = 4096; // bytes that are sent at a time
 const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const TYPES = { ".js": "text/javascript", ".wasm": "application/wasm" };

@@ -13,7 +13,7 @@ import { VIEWER, WEB } from "./shared";
 const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [18900, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
     "light grids of parts": [24000, ["quick-worker.js", "quick.js", "errors.js", "parts.wasm"]],
-    "static meshes": [85700, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
+    "static meshes": [86000, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
     sequences: [77800, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
     everything: [122400, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     encoding: [80000, ["encode-worker.js", "encoding.js", "encode.js", "encode.wasm"]],
