@@ -265,8 +265,8 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
             raise ValueError("a time is not finite")
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError) as error:
         raise FormatError(f"this is not a .{kind} file of ParaView: {type(error).__name__}: {error}") from error
-    if not rows:
-        raise MeshError("the list names no file")
+    if not rows or len({time if kind == "series" else (time, name) for time, name in rows}) < len(rows):
+        raise MeshError("the list names no file, or two for one time that are not its parts")
     names = []
     for _, name in (rows := sorted(rows, key=lambda row: row[0])):
         with about(name):
