@@ -1,15 +1,18 @@
 """A checkout without symbolic links, as git makes it on Windows, builds a package that has everything."""
 
+import re
 import shutil
 import subprocess
 import sys
 import sysconfig
+import tarfile
 import zipfile
 from pathlib import Path
 
 import pytest
 
 import bsm._core
+from tools.release.versions import address, with_absolute_links
 
 ROOT = Path(__file__).parents[1]
 WITHOUT_CMAKE = ("wheel.cmake=false", "wheel.py-api=", "wheel.platlib=false")
@@ -69,8 +72,34 @@ def test_a_checkout_without_links_is_installed_and_viewed(checkout, tmp_path):
     built = {path.name for path in (package / "bsm" / "viewer" / "built").iterdir()}
     assert built == {"encode.wasm", "encode-moving.wasm", "kernels.wasm", "small.wasm"}
     assert not list(package.rglob("*.[ch]"))
+    licenses = "".join(path.read_text("utf-8") for path in package.glob("*.dist-info/licenses/**/*.txt"))
+    assert all(words in licenses for words in ("three.js authors", "Wenzel Jakob", "Thibaut Goetghebuer"))
     shutil.copy(bsm._core.__file__, package / "bsm")
     check_package(package, tmp_path)
+
+
+def test_the_source_distribution_has_each_file_once_and_the_same_bytes_again(tmp_path):
+    pytest.importorskip("scikit_build_core")
+    made = []
+    for name in ("one", "two"):
+        code = f"import scikit_build_core.build as build; build.build_sdist({str(tmp_path / name)!r})"
+        subprocess.run([sys.executable, "-c", code], check=True, cwd=ROOT, capture_output=True)
+        made.append(next((tmp_path / name).iterdir()))
+    with tarfile.open(made[0]) as archive:
+        names = [member.name.partition("/")[2] for member in archive if member.isfile()]
+        assert all(member.isfile() for member in archive)
+    assert len(names) == len(set(names)) and "codec/decoding.py" in names
+    assert not [name for name in names if name.startswith(("src/bsm/codec", "src/bsm/bitstream"))]
+    assert made[0].read_bytes() == made[1].read_bytes()
+
+
+def test_a_published_readme_has_no_relative_link():
+    text = with_absolute_links((ROOT / "README.md").read_text("utf-8"), "https://host/bsm")
+    links = re.findall(r"\]\(([^)]*)\)", text)
+    assert len(links) > 20 and all(link.startswith(("https://", "#")) for link in links)
+    assert "](https://host/bsm/raw/main/tools/front.png)" in text
+    assert "](https://host/bsm/blob/main/docs/guides/presets.md#where" in text
+    assert address(ROOT).startswith("https://")
 
 
 @pytest.mark.long

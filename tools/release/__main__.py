@@ -28,7 +28,7 @@ from tools.release.cross import FOREIGN, LINUX, STABLE, clean
 from tools.release.library import STREAM, make_archive, make_crate, make_suite
 from tools.release.npm import make_npm
 from tools.release.trial import try_newcomer, try_wheel
-from tools.release.versions import check_versions, notes
+from tools.release.versions import address, check_versions, notes, with_absolute_links
 from tools.release.wheels import make_sdist, make_wheel
 from tools.release.windows import make_windows
 
@@ -65,6 +65,10 @@ def make(output: Path, version: str, commit: Sequence[str], only: Sequence[str],
     name, os.environ["SOURCE_DATE_EPOCH"] = commit
     with tempfile.TemporaryDirectory() as folder:
         sources = exported(name, Path(folder))
+        readme, source = sources / "README.md", address(sources)
+        readme.write_text(with_absolute_links(readme.read_text(), source))
+        if ".invalid/" in source:
+            say(f"note: name the repository in pyproject.toml before you publish; {source} is a placeholder")
         made = []
         if set(only) & {"sdist", "wheels", "arm64", "others"}:
             made.append(make_sdist(sources, output))

@@ -1,6 +1,7 @@
 """One version in every place, and what the change log says of it."""
 
 import re
+import tomllib
 from pathlib import Path
 
 OTHERS = {
@@ -36,3 +37,25 @@ def sections(root: Path) -> list[tuple[str, str]]:
 def notes(root: Path, version: str) -> str:
     """What the change log says of a version."""
     return dict(sections(root))[version]
+
+
+_IMAGES = (".png", ".jpg", ".webp", ".svg", ".gif")
+
+
+def address(root: Path) -> str:
+    """Where the sources are published, as pyproject.toml says."""
+    urls: dict[str, str] = tomllib.loads((root / "pyproject.toml").read_text())["project"]["urls"]
+    source = urls["Source"].rstrip("/")
+    if strange := [name for name in ("Documentation", "Changelog") if not urls[name].startswith(f"{source}/")]:
+        raise SystemExit(f"pyproject.toml: {', '.join(strange)} is not below the Source, {source}")
+    return source
+
+
+def with_absolute_links(text: str, source: str) -> str:
+    """A page whose links and pictures are found from everywhere."""
+
+    def absolute(found: re.Match[str]) -> str:
+        kind = "raw" if found[1].partition("#")[0].endswith(_IMAGES) else "blob"
+        return f"]({source}/{kind}/main/{found[1]})"
+
+    return re.sub(r"\]\((?![a-z]+:|#)([^)\s]+)\)", absolute, text)
