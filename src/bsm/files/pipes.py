@@ -370,9 +370,6 @@ def about(path: str) -> Iterator[None]:
         raise
 
 
-_NAMING = (".pvd", ".series", ".pvtu", ".pvtp", ".vtm", ".xdmf", ".xmf")
-_NAMED = re.compile(r'\b(?:file|Source)="([^"]+)"|"name"\s*:\s*"([^"]+)"|>\s*([^\s<>":]+\.(?:h5|hdf5?))\s*:')
-"""Files that name others, and their names there."""
 State = list[object]  # name, size and version of each file, as JSON gives it back
 
 
@@ -386,11 +383,6 @@ def files_behind(path: str) -> Iterator[str]:
         yield from sorted(glob.iglob(path))
     else:
         yield path
-        if path.lower().endswith(_NAMING) and os.path.isfile(path):
-            with open(path, "rb") as file:
-                named = _NAMED.findall(file.read(_CHUNK << 4).decode(errors="replace"))
-            there = (os.path.join(os.path.dirname(path), next(filter(None, words))) for words in named)
-            yield from dict.fromkeys(filter(os.path.isfile, there))
 
 
 def state_of(path: str) -> State | None:
