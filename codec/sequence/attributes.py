@@ -15,7 +15,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.progress import silent
 from bsm.codec.sequence.frames import distinct_frames
 from bsm.codec.sequence.gop import GopEncoder
-from bsm.codec.sequence.temporal import shapes_of
+from bsm.codec.sequence.temporal import Motion
 from bsm.codec.static.attributes.encoding import PreparedAttribute, Values
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.targets import secant
@@ -225,7 +225,8 @@ class MovingAttributeEncoder:
                 return field, list(encoder.latest)
             distinct, places = distinct_frames(body.places)
             frames, weights = wanted[distinct], np.sqrt(np.bincount(places))
-            learnt = encoder.encode_learnt(frames, shapes_of(frames), weights, body.method, silent)
+            motion = Motion.of(frames, encoder.step)
+            learnt = encoder.encode_learnt(motion.fields, motion.shapes, weights, body.method, silent)
         except OptionError as error:
             raise self._refusal(f"{error}") from error
         return learnt.field, list(learnt.frames(body.places))

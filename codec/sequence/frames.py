@@ -1,15 +1,14 @@
 """The frames of a GOP, and repeated frames: loops, still and reversed motion are coded once."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import islice
 
 import numpy as np
 
-from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.temporal import shapes_of
+from bsm.codec.sequence.temporal import Motion
 from bsm.codec.static.attributes.encoding import Values
 from bsm.codec.static.preamble_encoding import Prepared
 
@@ -18,20 +17,22 @@ SAME = 1 / 64, 1 / 4
 LOOKED_AT = 32  # coordinates that most frames differ in
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Group:
     """The frames of a GOP, in the order of coding."""
 
     positions: Positions
     moving: dict[str, Values]
+    _motion: Motion | None = field(default=None, init=False)
 
     def __len__(self) -> int:
         return len(self.positions)
 
-    @cached_property
-    def shapes(self) -> Matrix:
-        """Shapes of the positions, see `shapes_of`."""
-        return shapes_of(self.positions)
+    def motion(self, step: float) -> Motion:
+        """Return the decomposed positions, as fine as steps that are not much finer than before need them."""
+        if self._motion is None or step < self._motion.finest:
+            self._motion = Motion.of(self.positions, step)
+        return self._motion
 
 
 def next_group(frames: Iterator[Matrix], longest: int, prepared: Prepared, moving: Sequence[Attribute]) -> Group:

@@ -103,20 +103,23 @@ class GopEncoder:
         return GopField(width, self.step, columns, np.empty(0, np.int32), b"", payload, back)
 
     def encode_learnt(
-        self, frames: Matrix, shapes: Matrix, weights: Matrix, method: GopMethod, progress: Progress
+        self, fields: Matrix, shapes: Matrix, weights: Matrix, method: GopMethod, progress: Progress
     ) -> LearntGop:
-        """Encode frames, shape (T, n, d), by a basis learnt from their shapes; errors count by `weights`."""
-        weights = np.tile(weights, self._width)
-        body, columns = self._basis(shapes.reshape(len(shapes), -1) * weights, weights)
+        """Encode frames, products of `fields`, shape (n, k), and shapes, (k, d, T), by a basis learnt from them; errors
+        count by `weights`, shape (T,).
+        """
+        frames, weights = shapes.shape[2], np.tile(weights, self._width)
+        motion = shapes.reshape(len(shapes), self._width * frames) * weights
+        body, columns = self._basis(motion, weights)
         progress(1, 2)
         basis = columns * weights[:, None]
         fit = basis @ np.linalg.pinv(basis.T @ basis, hermitian=True)
-        wanted = temporal.trajectories(frames) @ (fit * weights[:, None])
-        levels, coefficients = self._track.code(method, len(frames), self.step, 0, wanted)
+        wanted = fields @ (motion @ fit)
+        levels, coefficients = self._track.code(method, frames, self.step, 0, wanted)
         field = coefficients.reshape(wanted.shape)  # which may have no columns
         progress(2, 2)
         self._depth = self._follow(method)
-        bases = columns.reshape(self._width, len(frames), body.components)
+        bases = columns.reshape(self._width, frames, body.components)
         return LearntGop(replace(body, levels=levels), field, bases)
 
     def _nearest(self, frames: Matrix) -> int:

@@ -10,12 +10,13 @@ from bsm.bitstream.container.header import LAW_OF_SEQUENCES, Header
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.arrays import Matrix, Order, Positions
+from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.progress import Nearing, Progress, silent
 from bsm.codec.sequence.frames import Group, distinct_frames, same_frames
 from bsm.codec.sequence.gop import GopEncoder, LearntGop
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.step_search import StepSearch
-from bsm.codec.sequence.temporal import lengths_of
+from bsm.codec.sequence.temporal import Motion, lengths_of
 from bsm.codec.sequence.tracks import Setting, make_setting
 from bsm.codec.signal.transform import LARGEST_LEVEL, smallest_step
 from bsm.codec.static.coding import Adaptive, Scheme, rules_of
@@ -34,10 +35,12 @@ TOGETHER = 4
 
 FINEST_STEP = 2e-5  # below, a search does not look
 
+BYTE = 0.4  # squared errors of one step that a byte is worth, about as in the choice of levels
+
 PASS = 0.4  # share of the next attempt in the remaining progress of a search
 LEVELS = 0.6  # of the time of an attempt, the share before frames are looked at
 
-NEAR = 0.8, 1.15  # a first frame is reused for steps within these factors of its own
+NEAR = 0.75, 1.4  # a first frame is reused for steps within these factors of its own
 
 
 @dataclass
@@ -185,7 +188,7 @@ class RunEncoder:
 
         search = StepSearch(group.positions, self._prepared.mesh.faces, promise, units.scale, options.threads)
         bound = 0.01 if promise.absolute else promise.farthest
-        first = step or min(0.33 * bound, 3.3e-3 * min(promise.look, 1e3))
+        first = step or min(0.45 * bound, 4.5e-3 * min(promise.look, 1e3))
         finest = finest_step(group.positions, options)
         found = search.run(attempt, first, finest, weighed=not options.low_delay)
         near.to(1.0)
@@ -223,28 +226,38 @@ def _encoded(
         field = encoder.encode_next(frames, progress, key=key)
         return replace(before, bodies=(GopBody(method, len(frames), (field,)),))
     same = same_frames(frames, list(group.moving.values()), encoder.step)
-    lengths = lengths or lengths_of(group.shapes, frames.shape[1], encoder.step)
-    for begin, length in zip(np.cumsum([0, *lengths]), lengths):
-        before = _with_basis(before, group, slice(begin, begin + length), weights, same, progress)
-    return before
+    motion = group.motion(encoder.step)
+
+    def in_parts(lengths: Sequence[int], progress: Progress) -> EncodedGops:
+        found = before
+        for begin, length in zip(np.cumsum([0, *lengths]), lengths):
+            found = _with_basis(found, motion, slice(begin, begin + length), weights, same, progress)
+        return found
+
+    def cost(found: EncodedGops) -> float:
+        wrong = sum(float(squares_of(own - shown).sum()) for own, shown in zip(frames, found.decoded_frames()))
+        return wrong / encoder.step**2 + BYTE * sum(body.size for body in found.bodies)
+
+    if lengths:
+        return in_parts(lengths, progress)
+    whole, lengths = in_parts([len(frames)], progress), lengths_of(motion, encoder.step)
+    return whole if len(lengths) == 1 else min(whole, in_parts(lengths, silent), key=cost)
 
 
 def _with_basis(
-    before: EncodedGops, group: Group, part: slice, weights: Matrix, same: Order, progress: Progress
+    before: EncodedGops, motion: Motion, part: slice, weights: Matrix, same: Order, progress: Progress
 ) -> EncodedGops:
     """Append some of the frames as a GOP with a basis, or as two where decoders lack the memory; repeated ones once."""
     kept, places = distinct_frames(same[part])
-    frames, shapes = group.positions[part], group.shapes[..., part]
+    shapes = motion.shapes[..., part]
     encoder = before.encoder.copy()
     method = encoder.method_with_basis(TOGETHER)
-    repeats = len(kept) < len(frames)
-    if repeats:
-        frames, shapes = frames[kept], shapes[..., kept]
-    learnt = encoder.encode_learnt(frames, shapes, np.sqrt(np.bincount(places, weights[part] ** 2)), method, progress)
+    repeats, once = len(kept) < len(places), np.sqrt(np.bincount(places, weights[part] ** 2))
+    learnt = encoder.encode_learnt(motion.fields, shapes[..., kept], once, method, progress)
     body = GopBody(method, len(places), (learnt.field,), places if repeats else None)
     if len(places) > 1 and not before.first_frame.has_room(body):
         middle = part.start + len(places) // 2
         for half in slice(part.start, middle), slice(middle, part.stop):
-            before = _with_basis(before, group, half, weights, same, silent)
+            before = _with_basis(before, motion, half, weights, same, silent)
         return before
     return EncodedGops(before.first_frame, encoder, (*before.bodies, body), (*before.learnt, learnt))

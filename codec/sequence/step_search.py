@@ -1,11 +1,21 @@
-"""The widest step with which every frame keeps a promise; no part of the format."""
+"""The widest step with which every frame keeps a promise; no part of the format.
+
+Frames and a bound come in; the smallest encoding that keeps it in every frame goes out. A frame that looks worse than
+the others sets the step of all. So an attempt has two results: how far the worst frame is from its bound, which gives
+the next step, and how unlike frames look, which gives weights of frames: the temporal basis then spends more on those
+that look worse. Pictures are the dear part. An attempt draws a few frames and those that are likely the worst; errors
+of normals, which cost little, tell of the others by a random walk in between. Only the encoding that would be returned
+has all frames drawn that may exceed the bound: it is the promise, so that nothing is taken on trust. If one does
+exceed it, the search goes on from there. The search ends when another attempt would save less than its price in bytes,
+by the power law of bytes over the step; it has no fixed number of rounds.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Protocol, TypeVar
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -20,11 +30,13 @@ from bsm.codec.static.targets import Contract
 from bsm.codec.threads import ordered_map
 
 KNOTS = 8  # frames, evenly over a GOP, that are drawn at every attempt, besides the worst one of each attempt
-DEVIATIONS = 4.0
-"""Standard deviations: an attempt is accepted once all frames that may exceed the bound within them are drawn."""
+LIKELY, DEVIATIONS = 1.5, 4.0
+"""Standard deviations: frames that may be the worst within the first are drawn at each attempt; an attempt is accepted
+once all frames that may exceed the bound within the second are drawn."""
 KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to attempt
-SLACK, SLACK_OF_ONE = 0.06, 0.15
-"""Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick; twice, of the smallest."""
+PRICE, PRICE_OF_ONE = 0.025, 0.04
+"""Share of the bytes that another attempt must save, about, of a GOP and of a frame by itself, which must be quick."""
+SLOPE = 0.5  # the power of the step that bytes fall by, about
 TWIN_STEP, TWIN = 1 / 16, 1.005
 """A step, in reaches, far below which frames are the same; and how much worse than another one may look."""
 EVENING, LEAST_LOOK, WIDEST = 1.6, 0.1, 1.4
@@ -32,7 +44,7 @@ EVENING, LEAST_LOOK, WIDEST = 1.6, 0.1, 1.4
 relative to the largest; and the largest logarithm of a weight."""
 BELL = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)  # smooths weights, whose quick changes are dear in the temporal basis
 RELIEF = 0.3  # share of the largest change of a weight by which the excess falls, about
-TRIES, ENOUGH = 20, 5  # attempts at a step: at most, and those after which one that is near the bound suffices
+TRIES = 20
 _PIXEL = 4 * 6 / 16  # bytes of a `LookMetric` for each sample along the side of its pictures, squared
 
 
@@ -66,40 +78,40 @@ class StepSearch:
 
     def run(self, encode: Callable[[float, Matrix], Found], first: float, finest: float, *, weighed: bool) -> Found:
         """Return the smallest encoding that keeps the promise in every frame; `encode` takes step and weights."""
-        kept: tuple[Found, float, float, Matrix] | None = None
-        step, evened, missed, high = first, np.zeros(len(self._frames)), 0, COARSEST_STEP
-        uneven = weighed and len(evened) > 1 and bool(self._knots)
-        slack = SLACK if len(evened) > 1 else SLACK_OF_ONE
+        weighed = weighed and len(self._frames) > 1 and bool(self._knots)
+        price = PRICE if len(self._frames) > 1 else PRICE_OF_ONE
+        kept: Tried[Found] | None = None
+        step, evened, missed = first, np.zeros(len(self._frames)), 0
         for attempt in range(1, TRIES + 1):
             step = min(max(step, finest), COARSEST_STEP)
             found = encode(step, np.exp(evened))
-            measured = self._measure(list(found.decoded_frames()))
-            excess, relief = measured.excess, 0.0
-            missed, high = (missed + 1, step) if excess > 0.0 else (0, high)
-            if excess <= 0.0 and (kept is None or found.size <= kept[0].size):
-                kept = found, excess, step, evened
-                shares = (share for frame, share in measured.drawn.items() if self._twins[frame] == frame)
-                self.worst_look = self._promise.look * max(shares, default=0.0)
-            if step == (COARSEST_STEP if excess <= 0.0 else finest):
+            latest = Tried(found, step, evened, self._measure(list(found.decoded_frames())))
+            missed = missed + 1 if latest.excess > 0.0 else 0
+            if latest.excess <= 0.0 and (kept is None or found.size <= kept.found.size):
+                kept = latest
+            while True:
+                step, evened = self._following(latest, attempt if weighed else 0, price / SLOPE * (1 + missed))
+                last = latest.step == (COARSEST_STEP if latest.excess <= 0.0 else finest)
+                likely = latest.found.size * (latest.step / step) ** SLOPE
+                if kept is None or not (last or attempt == TRIES or likely > (1.0 - price) * kept.found.size):
+                    break
+                if self._is_certain(kept):
+                    return kept.found
+                latest, kept, missed = kept, None, 1
+            if last:
                 break
-            near = -slack < excess <= 0.0 and (attempt > 1 or not uneven)
-            if kept is not None and (near or attempt >= ENOUGH):
-                if kept[1] > -2.0 * slack or attempt >= ENOUGH + 2:
-                    break  # else it may be far below its bound
-                _, excess, step, evened = kept
-                step, uneven = min(math.sqrt(step * high), step * math.exp(-excess - slack / 2.0)), False
-                continue
-            if uneven:
-                change = EVENING * _evening(measured.looks()) / attempt
-                relief = RELIEF * float(change.max())
-                evened = (evened + change).clip(-WIDEST, WIDEST)
-            step *= math.exp(relief - excess - slack / 2.0 * (1 + missed))
-        if kept is None:
-            raise TargetError(f"{self._promise} cannot be kept in every frame, even with step {step:.2g}")
-        return kept[0]
+        raise TargetError(f"{self._promise} cannot be kept in every frame, even with step {latest.step:.2g}")
+
+    def _following(self, tried: Tried[Found], attempt: int, spare: float) -> tuple[float, Matrix]:
+        """The step after one that was tried, and weights; they stay if the `attempt` is 0."""
+        change, looks = np.zeros(len(tried.evened)), tried.measured.looks()
+        if attempt and len(looks):
+            change = EVENING * _evening(looks) / attempt
+        step = tried.step * math.exp(RELIEF * float(change.max()) - tried.excess - spare)
+        return step, (tried.evened + change).clip(-WIDEST, WIDEST)
 
     def _measure(self, decoded: Sequence[Matrix]) -> Measured:
-        """Measure all frames, and draw those that may exceed the bound until one does."""
+        """Measure all frames, and draw those that may be the worst."""
         pairs = list(zip(self._frames, decoded, strict=True))
         farthest = math.sqrt(max(squares_of(one - other).max() for one, other in pairs)) / self._reach
         if not self._knots:
@@ -108,12 +120,23 @@ class StepSearch:
         errors = np.array(list(wrong)).clip(1e-12) ** POWER
         knots = sorted({*self._knots, int(errors.argmax())})  # the verification draws the largest error, too
         measured = Measured(farthest, errors, {index: self._look(index, decoded) for index in knots})
-        while (index := int(measured.looks().argmax())) not in measured.drawn:
+        while (index := int(measured.looks(LIKELY).argmax())) not in measured.drawn:
             measured.drawn[index] = self._look(index, decoded)
-        while measured.excess <= 0.0 and (doubtful := measured.doubtful) is not None:
-            measured.drawn[doubtful] = self._look(doubtful, decoded)
-        self._knots.add(int(measured.looks().argmax()))
+        self._knots.add(index)
         return measured
+
+    def _is_certain(self, tried: Tried[Found]) -> bool:
+        """Whether what was tried keeps the promise; frames that may exceed the bound are drawn until one does."""
+        measured = tried.measured
+        decoded: list[Matrix] = []
+        while measured.excess <= 0.0 and (doubtful := measured.doubtful) is not None:
+            decoded = decoded or list(tried.found.decoded_frames())
+            measured.drawn[doubtful] = self._look(doubtful, decoded)
+        shares = (share for frame, share in measured.drawn.items() if self._twins[frame] == frame)
+        self.worst_look = self._promise.look * max(shares, default=0.0)
+        if measured.drawn:
+            self._knots.add(int(measured.looks().argmax()))
+        return measured.excess <= 0.0
 
     def _look(self, index: int, decoded: Sequence[Matrix]) -> float:
         """Return the look of a frame as a share of the bound; 0 if nothing of it is seen."""
@@ -128,6 +151,20 @@ class StepSearch:
             self._room -= held
             self._metrics[index] = metric
         return metric.look(decoded[index]).moving / self._promise.look
+
+
+@dataclass(frozen=True, eq=False)
+class Tried(Generic[Found]):
+    """Frames encoded with a step, and with weights of which these are the logarithms, and measured."""
+
+    found: Found
+    step: float
+    evened: Matrix
+    measured: Measured
+
+    @property
+    def excess(self) -> float:
+        return self.measured.excess
 
 
 @dataclass(eq=False)

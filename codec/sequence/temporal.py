@@ -1,13 +1,29 @@
 """The temporal transform: a basis over time for the frames of a GOP, as it is learnt and coded, and frames of it.
 
-Columns of a basis are orthogonal, and coded by their degrees of freedom: the vectors of reflections.
+Frames come in as trajectories, a row for each vertex. A group of frames is decomposed once (`Motion`): the few rows
+that it is a product of stand for all vertices in everything that follows, so that the choice of GOPs and every attempt
+at a step cost little beside the coding of levels. Principal components are the basis that needs fewest numbers for an
+error (Alexa and Mueller, 2000); no cosine transform comes near it, because limbs move together. The price is that the
+basis has to be sent. GOPs are therefore as long as they can be, but for cuts that pay: `lengths_of` weighs the bits of
+fields against those of bases by how energies fall (the coding length of Ma, Derksen, Hong and Wright, 2007) and how
+smooth motion is in time, and finds the cheapest lengths by dynamic programming; single cuts may not pay where two do.
+It is an estimate, so that the encoder codes both ways once. Columns of a basis are orthogonal, and coded by their
+degrees of freedom: the vectors of reflections (Householder, 1958). All choices here are the encoder's; what decoders
+compute from levels is in `temporal.simd.c`.
 
 References
 ----------
+M. Alexa and W. Mueller, "Representing animations by principal components", 2000.
 A. S. Householder, "Unitary triangularization of a nonsymmetric matrix", 1958.
+Y. Ma, H. Derksen, W. Hong, J. Wright, "Segmentation of multivariate mixed data via lossy data coding and compression",
+2007.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -23,52 +39,87 @@ cost 0.3 % more, 0.8 costs 1 %."""
 PRECISION = 1.0
 """Error of a column of the basis, times the root of the energy that it multiplies, in steps. A bit of the basis and one
 of the components are worth the same from 1 to 1.4; the finer, the less the error changes from frame to frame."""
-PLACES, SENT, CLEARLY = 8, 0.05, 0.95
-"""Places where a cut is looked for at first; bytes of one more component, in a vertex, over those of a number of the
-basis; and the share of the numbers with which a cut is worth it."""
+PLACES, CLEARLY = 12, 0.95  # places where cuts are looked for at first; the share of costs with which they are worth it
+DENSE, SENT, BEGUN = 0.1, 11.0, 2_000.0
+"""The share of vertices that the energy of a component is in, about; what a bit of the basis costs over one of a field:
+most levels of fields are zeros that others foretell; and bits of a field that a GOP takes besides. They fit the bytes
+of dance, samba and made clips."""
+FAINT, FINER = 1 / 64, 0.5
+"""Rows of a motion with less than this share of the energy that a component is kept for are left out; and the share of
+the step at which more of them count."""
+MOST_ROWS = 256  # of a motion, by which lengths are chosen
 LEAST = 1e-9  # of a column's length on the diagonal, at least: below 0 it would be another reflection
 BATCH = _kernels.BATCH  # frames that are reconstructed at a time
 FINEST_EXPONENT = OCTAVE * 23 - 1  # with a finer step the levels of a column of length one could not be coded
 
 
-def shapes_of(frames: Matrix) -> Matrix:
-    """Frames, shape (T, n, d), by at most dT rows whose products over time are the same, shape (k, d, T)."""
-    motion = trajectories(frames)
-    if len(motion) > motion.shape[1]:
-        _, energies, turns = np.linalg.svd(motion.T @ motion, hermitian=True)
-        motion = np.sqrt(energies)[:, None] * turns
-    return motion.reshape(len(motion), frames.shape[2], len(frames))
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Frames as the product of fields, shape (n, k), and their shapes over time, (k, d, T), as far as a step shows."""
+
+    fields: Matrix
+    shapes: Matrix
+    finest: float
+
+    @staticmethod
+    def of(frames: Matrix, step: float) -> Motion:
+        """Decompose frames, shape (T, n, d)."""
+        rows = trajectories(frames)
+        few = len(rows) < rows.shape[1]
+        vectors, energies, _ = np.linalg.svd(rows @ rows.T if few else rows.T @ rows, hermitian=True)
+        count = int(np.count_nonzero(energies > FAINT * least_energy(rows.shape[1], step)))
+        vectors, roots = np.ascontiguousarray(vectors[:, :count]), np.sqrt(energies[:count])
+        fields, shapes = (vectors, vectors.T @ rows) if few else (rows @ (vectors / roots), (vectors * roots).T)
+        return Motion(fields, np.ascontiguousarray(shapes).reshape(count, frames.shape[2], len(frames)), FINER * step)
 
 
-def lengths_of(shapes: Matrix, vertices: int, step: float) -> list[int]:
-    """Lengths of GOPs in which frames, shape (k, d, T), need fewest numbers: motion changes between them."""
+def least_energy(columns: int, step: float) -> float:
+    """The energy of a component with which it pays, of trajectories with so many columns."""
+    return WORTH * columns * step**2
+
+
+def lengths_of(motion: Motion, step: float) -> list[int]:
+    """Lengths of GOPs in which frames take fewest bits, about: motion changes between them."""
+    vertices, shapes = len(motion.fields), motion.shapes[:MOST_ROWS]
     frames = shapes.shape[2]
 
-    def numbers(part: Matrix) -> float:
-        rows = part.reshape(len(part), -1)
-        columns = rows.shape[1]
-        products = rows.T @ rows if len(rows) > columns else rows @ rows.T
-        worth = WORTH * columns * step**2
-        return float(np.count_nonzero(np.linalg.eigvalsh(products) > worth) * (columns + SENT * vertices))
+    def bits(begin: int, end: int) -> float:
+        part = shapes[..., begin:end]
+        rows = part.reshape(len(part), part.shape[1] * part.shape[2])
+        energies = np.linalg.eigvalsh(rows.T @ rows if len(rows) > rows.shape[1] else rows @ rows.T)
+        kept = energies[energies > least_energy(rows.shape[1], step)]
+        there_and_back = np.concatenate([part, part[..., ::-1]], axis=2)  # its sines vanish, and cosines remain
+        smooth = np.square(np.abs(np.fft.rfft(there_and_back)[..., : end - begin])).sum(axis=0) / (2 * (end - begin))
+        fields = vertices * np.log2(1.0 + kept / (DENSE * vertices * step**2)).sum()
+        basis = len(kept) * np.log2(1.0 + smooth / (max(1, len(kept)) * step**2)).sum()
+        return float(fields + SENT * basis + BEGUN)
 
-    def cost(place: int) -> tuple[float, int]:
-        return numbers(shapes[..., :place]) + numbers(shapes[..., place:]), abs(2 * place - frames)
+    def cheapest(places: list[int]) -> list[int]:
+        """Return those of the places, from 0 to `frames`, between which bits are fewest."""
+        ways: list[tuple[float, list[int]]] = [(0.0, [0])]
+        for end in places[1:]:
+            ways.append(min((cost + bits(cuts[-1], end), [*cuts, end]) for cost, cuts in ways))
+        return ways[-1][1]
 
-    stride = frames // PLACES
-    best = min(range(stride, frames - stride + 1, stride), key=cost) if stride > 1 else 0
-    if not best or cost(best)[0] >= CLEARLY * numbers(shapes):
+    stride = max(1, frames // PLACES)
+    cuts = cheapest([*range(0, frames - stride + 1, stride), frames])
+    while len(cuts) > 2 and (stride := stride // 2):
+        for at in range(1, len(cuts) - 1):
+            low, middle, high = cuts[at - 1 : at + 2]
+            near = (place for place in (middle, middle - stride, middle + stride) if low < place < high)
+            cuts[at] = min(near, key=lambda place: bits(low, place) + bits(place, high))
+        between = ((low + high) // 2 for low, high in pairwise(cuts))  # of two cuts beside a change, one is enough
+        cuts = cheapest(sorted({*cuts, *between}))
+    if sum(bits(*part) for part in pairwise(cuts)) >= CLEARLY * bits(0, frames):
         return [frames]
-    while stride := stride // 2:
-        best = min((best - stride, best, best + stride), key=cost)
-    parts = shapes[..., :best], shapes[..., best:]
-    return [length for part in parts for length in lengths_of(part, vertices, step)]
+    return [end - begin for begin, end in pairwise(cuts)]
 
 
 def learn_basis(motion: Matrix, step: float, limit: int) -> tuple[Matrix, npt.NDArray[np.int32]]:
     """Return eigenvectors of the covariance of trajectories, all coordinates coupled, and the exponents of steps."""
     few = len(motion) < motion.shape[1]  # then vertices have the smaller matrix, of the same energies
     energies, vectors = np.linalg.eigh(motion @ motion.T if few else motion.T @ motion)
-    count = int(np.count_nonzero(energies > WORTH * motion.shape[1] * step**2))
+    count = int(np.count_nonzero(energies > least_energy(motion.shape[1], step)))
     kept = energies[: -count - 1 : -1]
     exponents = np.round(OCTAVE * np.log2(np.sqrt(kept) / (PRECISION * step)))
     columns = np.ascontiguousarray(vectors[:, : -count - 1 : -1])

@@ -1,9 +1,9 @@
 """What encoding and decoding take, over Draco's (level 10, 11 bits): `python -m tools.measure speed`.
 
 Without files: two made meshes, twelve fetched ones, half of them those whose names have the least hashes in the list of
-`tools.replicate`, and four sequences, in CPU time of one thread; least of five turns, in each of which both codecs
-encode and decode. The exit code is 1 if a ratio is above 1.3 of that in speed.json (`--most`), also when it is measured
-once more. `--write` makes that file. `--made` fetches nothing.
+`tools.replicate`, and eleven sequences of 12 to 2,000 frames, in CPU time of one thread; least of five turns, in each
+of which both codecs encode and decode. The exit code is 1 if a ratio is above 1.3 of that in speed.json (`--most`),
+also when it is measured once more. `--write` makes that file. `--made` fetches nothing.
 
 With files: least times of bsmdec in C over Draco's, by turns, on one thread, and of two threads over one where the
 process may use two cores: measure under load with `chrt -r 1`, not with `taskset`.
@@ -23,6 +23,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 import bsm
+from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
@@ -33,11 +34,12 @@ from bsm.files.mesh import read_mesh
 from bsm.ground.console import Console
 from tools.command import run_command
 from tools.replicate.fetch import fetch_meshes
-from tools.replicate.motion import sequences
+from tools.replicate.made_motion import MADE, limbs
+from tools.replicate.motion import bent
 
 BITS, LEVEL, TURNS, MOST = 11, 10, 5, 1.3
 NAMED = ("pipe", "pig", "knot", "fandisk", "lion", "bunny00")
-MOVING = ("cow, bent", "mushroom, bent", "pig, bent", "made cloth")
+BENT = {"pig": 12, "mushroom": 32, "cow": 96}  # meshes that bend, and their numbers of frames
 FIGURES = Path(__file__).with_suffix(".json")
 Works: TypeAlias = tuple[Callable[[], Any], Callable[[], Any], Callable[[], Any], Callable[[], Any]]
 """Encoding by us and by Draco, and decoding."""
@@ -56,6 +58,24 @@ def made() -> Iterator[tuple[str, Works]]:
     halves = np.concatenate([rope.positions, rope.positions * (-1.0, 1.0, 1.0) + (rope.diagonal, 0.0, 0.0)])
     faces = np.concatenate([rope.faces, rope.faces[:, ::-1] + len(rope.positions)])
     yield "made pair", works_of_mesh(TriangleMesh(halves, faces))
+    yield "made limbs, 60 frames", works_of_sequence(limbs(rope, 60), rope.faces)
+
+
+def made_sequences() -> Iterator[tuple[str, Positions, Faces]]:
+    """Many frames, few, a loop, clips one after the other, and jumps between them."""
+    small, middle = knot(800), knot(3000)
+    long = limbs(middle, 400)
+    yield "made limbs, 400 frames", long, middle.faces
+    yield "made limbs, 2,000 frames", limbs(small, 2000), small.faces
+    yield "made loop", np.tile(long[:50], (6, 1, 1)), middle.faces
+    yield "made clips", np.concatenate([limbs(middle, 100, bones, bones) for bones in (4, 9, 16)]), middle.faces
+    yield (
+        "made jumps",
+        long[:250].reshape(10, 25, -1, 3)[[3, 9, 0, 5, 1, 8, 2, 7, 4, 6]].reshape(250, -1, 3),
+        middle.faces,
+    )
+    for name, make in MADE.items():
+        yield name, *make()
 
 
 def cases(folder: Path, note: Callable[[str], None]) -> Iterator[tuple[str, Works]]:
@@ -66,10 +86,12 @@ def cases(folder: Path, note: Callable[[str], None]) -> Iterator[tuple[str, Work
     for source in sources:
         if source.name in wanted:
             yield source.name, works_of_mesh(source.mesh())
-    for moving in sequences(sources, None, quick=False):
-        if moving.name in MOVING:
-            frames, faces = moving.frames()
-            yield moving.name, works_of_sequence(frames, faces)
+    for source in sources:
+        if source.name in BENT:
+            mesh = source.mesh()
+            yield f"{source.name}, bent", works_of_sequence(bent(mesh, BENT[source.name]), mesh.faces)
+    for name, frames, faces in made_sequences():
+        yield name, works_of_sequence(frames, faces)
 
 
 def works_of_mesh(mesh: TriangleMesh) -> Works:
@@ -82,7 +104,7 @@ def works_of_mesh(mesh: TriangleMesh) -> Works:
     )
 
 
-def works_of_sequence(frames: Any, faces: Any) -> Works:
+def works_of_sequence(frames: Positions, faces: Faces) -> Works:
     meshes = [TriangleMesh(frame, faces) for frame in frames]
     ours, theirs = bsm.encode_sequence(frames, faces, threads=1), [encode_draco(mesh, BITS, LEVEL) for mesh in meshes]
     return (

@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.geometry.mesh import TriangleMesh
 
 SPRINGS = ((0, 1), (1, 0), (1, 1), (1, -1), (0, 2), (2, 0))
 """Return the edges between vertices of a grid that are some rows and columns apart."""
@@ -80,6 +81,26 @@ def violent(frames: int = 90, rows: int = 96, columns: int = 60) -> tuple[Positi
             frame = _turned(frame, axis, np.full(len(frame), angle))
         found.append(frame * (1.0 + 0.3 * np.sin(0.37 * t)) + [0.05 * t, 0.4 * abs(np.sin(0.3 * t)), 0.0])
     return np.array(found), _grid_faces(rows, columns, closed=True)
+
+
+def limbs(mesh: TriangleMesh, frames: int, bones: int = 12, seed: int = 7) -> Positions:
+    """A mesh that bones turn, each smoothly by itself, as players of games and film do, shape (T, n, 3)."""
+    random, places = np.random.default_rng(seed), mesh.positions
+    joints = places[[0]]
+    while len(joints) < bones:  # each as far as possible from the others
+        joints = np.vstack([joints, places[np.square(places[:, None] - joints).sum(axis=2).min(axis=1).argmax()]])
+    share = np.exp(-np.square(places[:, None] - joints).sum(axis=2) / (0.1 * mesh.diagonal) ** 2) + 1e-12
+    share /= share.sum(axis=1, keepdims=True)
+    time, found = np.arange(frames)[:, None, None, None], np.zeros((frames, len(places), 3))
+    paces, phases, reach = random.uniform(0.03, 0.25, (1, bones, 3, 4)), random.uniform(0, 6.3, (1, bones, 3, 4)), 0.2
+    angles = reach * np.sin(paces * time + phases).sum(axis=3)
+    for bone, joint in enumerate(joints):
+        for number, turn in enumerate(angles[:, bone]):
+            moved = places - joint
+            for axis in range(3):
+                moved = _turned(moved, axis, np.full(len(places), turn[axis]))
+            found[number] += share[:, [bone]] * (moved + joint)
+    return found
 
 
 def _turned(positions: Positions, axis: int, angles: Matrix) -> Positions:

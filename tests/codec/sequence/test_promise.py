@@ -138,6 +138,46 @@ def test_a_search_does_not_end_far_below_its_bound(monkeypatch: pytest.MonkeyPat
     assert 0.9 * 0.00014 < found.step <= 0.00014
 
 
+def test_a_search_ends_when_another_attempt_saves_less_than_its_price(monkeypatch: pytest.MonkeyPatch) -> None:
+    tried: list[float] = []
+
+    @dataclass
+    class Smooth(Tried):
+        @property
+        def share(self) -> float:
+            return self.step / 0.005
+
+        @property
+        def size(self) -> int:
+            return round(1e6 / math.sqrt(self.step))
+
+    def encode(step: float, _: Matrix) -> Smooth:
+        tried.append(step)
+        return Smooth(step)
+
+    monkeypatch.setattr(StepSearch, "_measure", lambda _, decoded: Measured(float(decoded[0][0, 0]), np.zeros(0), {}))
+    for first in (0.0005, 0.0047, 0.05):
+        tried.clear()
+        found = StepSearch(*bending(4), Contract(0.02, look=1.0), 1.0, 1).run(encode, first, 1e-6, weighed=True)
+        assert 0.9 * 0.005 < found.step <= 0.005 and len(tried) == (1 if first == 0.0047 else 2)
+
+
+@pytest.mark.parametrize("hidden", [3, 17])
+def test_a_frame_in_doubt_is_drawn_before_an_encoding_is_returned(hidden: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A frame that errors of normals do not tell of is found, and the search goes on from it."""
+    look = StepSearch._look
+
+    def worse(search: StepSearch, index: int, decoded: Sequence[Matrix]) -> float:
+        return look(search, index, decoded) * (1.5 if index == hidden else 1.0)
+
+    monkeypatch.setattr(StepSearch, "_look", worse)
+    monkeypatch.setattr("bsm.codec.sequence.step_search.KNOTS", 2)
+    positions, faces = bending(20)
+    positions[hidden] += 0.003 * np.random.default_rng(0).standard_normal(positions[hidden].shape)
+    _, original, decoded, found = kept(positions, faces, Contract(0.02, look=1.0))
+    assert max(looks(original[[hidden]], decoded[[hidden]], found)) <= 1.001 / 1.5
+
+
 def test_frames_that_look_worse_weigh_more() -> None:
     weights = _evening(np.where(np.arange(40) < 20, 0.5, 1.0))
     assert weights.mean() == pytest.approx(0.0) and weights[30] - weights[5] == pytest.approx(np.log(2.0))

@@ -4,7 +4,16 @@ import numpy as np
 import pytest
 
 from bsm._core import codec as kernels
-from bsm.codec.sequence.temporal import FINEST_EXPONENT, OCTAVE, PRECISION, WORTH, free_of, learn_basis
+from bsm.codec.sequence.temporal import (
+    FINEST_EXPONENT,
+    OCTAVE,
+    PRECISION,
+    WORTH,
+    Motion,
+    free_of,
+    learn_basis,
+    lengths_of,
+)
 
 ROWS, COLUMNS, STEP = 400, 24, 0.01
 
@@ -37,6 +46,37 @@ def test_what_costs_more_than_it_brings_is_left_out() -> None:
     least = np.sqrt(WORTH * COLUMNS / ROWS) * STEP  # the deviation whose energy just pays
     assert learn_basis(motion_of([1.0, 1.01 * least, 0.99 * least])[0], STEP, 1000)[0].shape == (COLUMNS, 2)
     assert learn_basis(np.zeros((ROWS, COLUMNS)), STEP, 1000)[0].shape == (COLUMNS, 0)
+
+
+@pytest.mark.parametrize(("frames", "vertices"), [(7, 60), (40, 12), (1, 5), (30, 200)])
+def test_motion_is_the_product_of_its_fields_and_shapes(frames, vertices):
+    random = np.random.default_rng(3)
+    given = np.tensordot(random.normal(size=(frames, 4)), random.normal(size=(4, vertices, 3)), 1)
+    motion = Motion.of(given, STEP)
+    np.testing.assert_allclose(np.tensordot(motion.shapes, motion.fields, (0, 1)).transpose(1, 2, 0), given, atol=1e-6)
+    assert len(motion.shapes) <= min(12, 3 * frames, vertices)
+    assert Motion.of(np.zeros((frames, vertices, 3)), STEP).shapes.shape == (0, 3, frames)
+
+
+def clip(seed, frames, rank=6, vertices=500):
+    """Smooth motion of some rank."""
+    random, time = np.random.default_rng(seed), np.arange(frames)[:, None]
+    waves = np.sin(random.uniform(0.05, 0.4, rank) * time + random.uniform(0, 6, rank))
+    return 0.2 * np.tensordot(waves, random.normal(size=(rank, vertices, 3)), 1)
+
+
+@pytest.mark.parametrize("lengths", [(200,), (70, 90), (60, 100, 41), (30, 30, 30, 30)])
+def test_gops_are_as_long_as_clips(lengths):
+    frames = np.concatenate([clip(seed, length) for seed, length in enumerate(lengths)])
+    found = np.cumsum(lengths_of(Motion.of(frames, STEP), STEP))
+    assert len(found) == len(lengths) and np.abs(found - np.cumsum(lengths)).max() <= 1
+
+
+def test_loops_and_jumps_are_not_cut():
+    frames = clip(0, 240)
+    jumps = frames.reshape(12, 20, -1, 3)[np.random.default_rng(0).permutation(12)].reshape(frames.shape)
+    for whole in (np.tile(frames[:40], (6, 1, 1)), jumps, frames[:12], frames[:1], np.zeros((50, 9, 3))):
+        assert lengths_of(Motion.of(whole, STEP), STEP) == [len(whole)]
 
 
 def columns_of(free):

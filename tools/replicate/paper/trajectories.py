@@ -9,6 +9,7 @@ import time
 from collections.abc import Iterator
 
 import numpy as np
+import numpy.typing as npt
 
 import bsm
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
@@ -27,23 +28,31 @@ from tools.replicate.rates import Row
 POWERS = {"eigh": 0, "OI, A": 1, "OI, A^2": 2}
 LENGTHS, STEP, MOST = (8, 48), 0.002, 144
 """Frames of a GOP, the step of all frames, and the largest number of frames of a sequence that are taken."""
-exactly = np.linalg.eigh
+learn_basis = temporal.learn_basis
 
 
 class Followed:
-    """In place of `eigh`: each covariance A takes one iteration of A^z from the basis before, of as many rows."""
+    """A basis from the covariance A of trajectories: one iteration of A^z from the basis before, of as many rows."""
 
     def __init__(self, power: int) -> None:
         self._power, self._basis, self._kept, self.seconds = power, np.empty((0, 0)), 0, 0.0
 
-    def __call__(self, covariance: Floats) -> tuple[Floats, Floats]:
+    def basis(self, motion: Floats, step: float, limit: int) -> tuple[Floats, npt.NDArray[np.int32]]:
+        """In place of `learn_basis`, of trajectories or of rows with the same covariance."""
+        energies, columns = self._eigenvectors(motion.T @ motion)
+        return learn_basis((columns * np.sqrt(energies.clip(0.0))).T, step, limit)
+
+    def _eigenvectors(self, covariance: Floats) -> tuple[Floats, Floats]:
         """Energies, rising, and their columns; those that are left out are below what the codec keeps."""
         begin = time.thread_time()
         follows = self._power and len(self._basis) == len(covariance)
-        energies, basis = self._iterated(covariance) if follows else exactly(covariance)
+        energies, basis = self._iterated(covariance) if follows else np.linalg.eigh(covariance)
         order = np.argsort(energies)
         energies, basis = energies[order], basis[:, order]
-        self._basis, self._kept = basis[:, ::-1], int(np.count_nonzero(energies > least_energy(len(covariance))))
+        self._basis, self._kept = (
+            basis[:, ::-1],
+            int(np.count_nonzero(energies > temporal.least_energy(len(covariance), STEP))),
+        )
         self.seconds += time.thread_time() - begin
         return energies, basis
 
@@ -56,14 +65,9 @@ class Followed:
                 columns = covariance @ columns
             columns = householder(columns)
             energies = (columns * (covariance @ columns)).sum(axis=0)
-            if width == rows or energies[-1] < least_energy(rows):
+            if width == rows or energies[-1] < temporal.least_energy(rows, STEP):
                 return energies, columns
             width *= 2
-
-
-def least_energy(rows: int) -> float:
-    """The energy below which the codec leaves a component out."""
-    return temporal.WORTH * rows * STEP**2
 
 
 def measured(moving: Moving, length: int, power: int) -> tuple[float, ...]:
@@ -71,8 +75,9 @@ def measured(moving: Moving, length: int, power: int) -> tuple[float, ...]:
     frames, faces = moving.frames(MOST)
     encoder = SequenceEncoder(faces, SequenceOptions(threads=1, gop=length, step=STEP), len(frames))
     followed, begin = Followed(power), time.thread_time()
-    uncut = run_encoding, "lengths_of", lambda shapes, *_: [shapes.shape[2]]
-    with Tool({}, [(np.linalg, "eigh", followed), uncut]).left_out():
+    uncut = run_encoding, "lengths_of", lambda motion, _: [motion.shapes.shape[2]]
+    learnt = temporal, "learn_basis", followed.basis
+    with Tool({}, [learnt, uncut]).left_out():
         data = b"".join(encoder.chunks(frames))
     seconds = time.thread_time() - begin
     decoded, coded = bsm.decode_sequence(data, threads=1)
