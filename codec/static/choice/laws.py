@@ -99,6 +99,9 @@ class Hopes:
         self.fitting = True
         self.bytes.over(most)
         self.errors.over(error)
+        self.left[:] = 2  # what was refused may fit
+        self.left[np.searchsorted(self.steps, [step for step, *_ in self.errors.known[1:]])] = 0
+        self.left[[*self.coded]] = 1
         self.close((self.left == 1) & (self.bytes.mean > 0.0))
 
     def close(self, steps: npt.NDArray[np.bool_]) -> None:

@@ -96,19 +96,17 @@ class Search:
         if not self._prepared.mesh.diagonal > 0.0:
             point = rounded(self._prepared, 1)
             return point if self._size(point) <= most else None
-        asked = replace(contract or BALANCED, look=1.0)
-        near = Bounds(self._measures, asked)
+        promised = contract or Contract(WIDEST)
+        near = Bounds(self._measures, replace(contract or BALANCED, look=1.0))
         grid = Gridded(self._prepared, near).in_frame()
         octave = BYTES * math.log(2.0) * self._prepared.graph.size  # a step twice as wide looks about twice as far off
         octaves = min(max((self._size(grid.at(grid.first).congruent) - most) / octave, -12.0), 6.0)
         if abs(octaves) > 1.0:
-            near = Bounds(self._measures, replace(asked, look=2.0**octaves))
+            near = Bounds(self._measures, replace(promised, look=2.0**octaves))
             grid = Gridded(self._prepared, near, turn=grid.turn)
         smallest = Smallest(near, self._size)
         kept, queue = self._kept(smallest, grid)
-        aim = Best(
-            smallest, Bounds(self._measures, contract or Contract(WIDEST)), math.log(max(most - smallest.rest, 1.0))
-        )
+        aim = Best(smallest, Bounds(self._measures, promised), math.log(max(most - smallest.rest, 1.0)))
         for hopes in queue:
             hopes.fit(aim.most, -math.log(near.contract.look))
         fitting = (made for made in kept[-2:] if self._size(paying(self._prepared, made.congruent)) <= most)

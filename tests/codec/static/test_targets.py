@@ -185,3 +185,11 @@ def test_a_target_beside_the_look_takes_little_more(meshes: Path) -> None:
     target = Target("nmsve_db", -55.0)
     alone, both = (len(encode(mesh, replace(PRESETS[name], target=target))) for name in ("none", "balanced"))
     assert both <= 1.1 * max(alone, len(encode(mesh)))
+
+
+@pytest.mark.real
+def test_a_small_size_has_a_look_although_steps_near_it_fold_edges(meshes: Path) -> None:
+    mesh = read_mesh(str(meshes / "static" / "nicolo.ply")).mesh.bare
+    result = Encoder(mesh, replace(PRESETS["none"], target=Target("bpv", 4.0))).result()
+    assert 3.8 < result.bpv <= 4.0
+    assert bsm.look(mesh, b"".join(result.frames)).distance < 13.0
