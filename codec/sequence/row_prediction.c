@@ -117,8 +117,8 @@ KERNEL void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 mome
  */
 
 enum { STATES = TRELLIS_STATES, BIT_UNIT = 256, PRICED = 6 };
-/* Squared steps that a bit is worth. At the same error 0.1 takes as many bytes, 0.03 and 0.15 take 1 % more; at the same
- * look 0.1 takes up to 4 % more: levels of 0 blur shades. */
+/* Squared steps that a bit is worth. At the same error 0.1 takes as many bytes, 0.03 and 0.15 take 1 % more; at the
+ * same look 0.1 takes up to 4 % more: levels of 0 blur shades. */
 static const double WEIGHT = 0.05;
 #define NEVER __builtin_inf()
 

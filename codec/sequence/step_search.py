@@ -126,7 +126,7 @@ class StepSearch:
         return measured
 
     def _is_certain(self, tried: Tried[Found]) -> bool:
-        """Whether what was tried keeps the promise; frames that may exceed the bound are drawn until one does."""
+        """Whether an encoding keeps the promise; frames that may exceed the bound are drawn until one does."""
         measured = tried.measured
         decoded: list[Matrix] = []
         while measured.excess <= 0.0 and (doubtful := measured.doubtful) is not None:

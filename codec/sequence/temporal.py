@@ -41,7 +41,7 @@ PRECISION = 1.0
 of the components are worth the same from 1 to 1.4; the finer, the less the error changes from frame to frame."""
 PLACES, CLEARLY = 12, 0.95  # places where cuts are looked for at first; the share of costs with which they are worth it
 DENSE, SENT, BEGUN = 0.1, 11.0, 2_000.0
-"""The share of vertices that the energy of a component is in, about; what a bit of the basis costs over one of a field:
+"""The share of vertices that have the energy of a component; the price of a bit of the basis over one of a field:
 most levels of fields are zeros that others foretell; and bits of a field that a GOP takes besides. They fit the bytes
 of dance, samba and made clips."""
 FAINT, FINER = 1 / 64, 0.5
