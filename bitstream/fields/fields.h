@@ -271,6 +271,12 @@ extern INSIDE int16_t LESS[ODDS_SIZE];
 /* Fill all tables, if no call before has; kernels that code need them. Any thread may call this. */
 void make_tables(void);
 
+/* Where writers put vertices on a grid; `wanted`, n x 4: where each would be, in cells, and the square of how far from
+ * there it may come. See placing.c. */
+void mend_places(const Corners *corners, Ints2 places, const double *wanted, const int32_t *most);
+/* Put v into another cell, if it may go there. */
+bool go_to_cell(const Corners *corners, Ints2 places, const double *wanted, int32_t v, const int32_t *cell);
+
 /* Positions on a grid. See grid.simd.c. */
 typedef struct {
     ConstInts largest; /* 3: values of each axis are 0 .. largest, below 2^20 */

@@ -299,11 +299,12 @@ OFTEN static bool code_vertex(void *work, int64_t i) {
     Grid *g = &w->grid;
     int32_t v = g->order.data[i], last = i > 0 ? g->order.data[i - 1] : -1, hits = 0, first_gap = 0;
     GridPlace p;
-    int32_t *x = g->values.data + AXES * (int64_t)v;
+    const int32_t *x = g->values.data + AXES * (int64_t)v;
     look_around(&w->corners, g, v, last, &p);
     if (g->twins) seek_images(g->twins, &w->corners, &g->values, &p.around, v, p.base);
     if (g->twins && g->twins->asks_whole
-        && code_whole(w->coder, g->twins, &p.around, v, p.base, p.error_near, g->largest.data, x)) {
+        && code_whole(w->coder, g->twins, &w->corners, &g->values, &p.around, v, p.base, p.error_near,
+            g->largest.data)) {
         for (int j = 0; j < AXES; j++) {
             g->gaps.data[AXES * (int64_t)v + j] = FINE * x[j] - p.base[j];
             mark_seen(g->seen.data + j * g->seen.columns, x[j]);

@@ -44,8 +44,9 @@ static int code_hit(RangeCoder *coder, Twins *t, const Candidate *c, const int32
     return bit;
 }
 
-bool code_whole(RangeCoder *coder, Twins *t, const Around *around, int32_t v, const int32_t *base, const int32_t *near,
-    const int32_t *largest, int32_t *x) {
+bool code_whole(RangeCoder *coder, Twins *t, const Corners *corners, const Ints2 *values, const Around *around,
+    int32_t v, const int32_t *base, const int32_t *near, const int32_t *largest) {
+    int32_t *x = values->data + AXES * (int64_t)v;
     t->misses = 0;
     if (t->candidates == 0) return false;
     const Flap *f = around->flap;
@@ -57,7 +58,8 @@ bool code_whole(RangeCoder *coder, Twins *t, const Around *around, int32_t v, co
         if (t->misses > 0 && same_cell(cell, t->missed[0])) continue;
         if (i + 1 < t->candidates) find_cell(t->candidate + i + 1, largest, next);
         int32_t beside = i + 1 == t->candidates ? 0 : same_cell(next, cell) ? 1 : 2;
-        int bit = !is_reading(coder) && same_cell(x, cell);
+        int bit = !is_reading(coder)
+            && (same_cell(x, cell) || (t->wanted && go_to_cell(corners, *values, t->wanted, v, cell)));
         bit = code_hit(coder, t, t->candidate + i, cell, beside, hits, base, errors, bit);
         if (t->misses == 0) t->hit[v] = (uint8_t)(1 + bit);
         for (int j = 0; j < AXES && bit; j++) x[j] = cell[j];

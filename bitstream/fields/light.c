@@ -145,11 +145,12 @@ typedef struct {
 /* Look for images of a vertex, and code whether it is where one is (V 17.12). */
 static bool code_by_images(LightCoder *w, int32_t v, const LightPlace *p, Around *around) {
     const Light *g = &w->light;
-    int32_t *x = g->values.data + AXES * (int64_t)v;
+    const int32_t *x = g->values.data + AXES * (int64_t)v;
     gather_around(&w->corners, v, around);
     seek_images(g->twins, &w->corners, &g->values, around, v, p->guess);
     bool done = g->twins->asks_whole
-        && code_whole(w->coder, g->twins, around, v, p->guess, p->size, g->largest.data, x);
+        && code_whole(w->coder, g->twins, &w->corners, &g->values, around, v, p->guess, p->size,
+            g->largest.data);
     for (int j = 0; done && j < AXES; j++) g->gaps.data[AXES * (int64_t)v + j] = size_of(FINE * x[j] - p->guess[j]);
     return done;
 }

@@ -72,6 +72,7 @@ typedef struct Twins {
     uint32_t whole_slot[2 * WHOLE_CONTEXTS * CONTEXT_SIZE];
     int32_t whole_weight[WHOLE_ROWS * WHOLE_CONTEXTS], latest[MOST_IMAGES], missed[MOST_MISSES][3], misses;
     uint8_t *hit;
+    const double *wanted; /* of writers (see placing.c); NULL: no vertex goes to images */
     int32_t values; /* coded axis by axis: whose turn it is to learn */
 } Twins;
 
@@ -95,9 +96,9 @@ void list_images(ConstInts largest, ConstInts2 numbers, Twins *twins);
 void seek_images(Twins *twins, const Corners *corners, const Ints2 *values, const Around *around, int32_t v,
     const int32_t *base);
 void seek_echoes(Twins *twins, const Corners *corners, const Ints2 *values, const Around *around, int32_t v);
-/* Code whether vertex v is where one of two images is, and if so, its values x; see images.c. */
-bool code_whole(RangeCoder *coder, Twins *twins, const Around *around, int32_t v, const int32_t *base,
-    const int32_t *near, const int32_t *largest, int32_t *x);
+/* Code whether vertex v is where one of two images is, and if so, its values; see images.c. */
+bool code_whole(RangeCoder *coder, Twins *twins, const Corners *corners, const Ints2 *values, const Around *around,
+    int32_t v, const int32_t *base, const int32_t *near, const int32_t *largest);
 /* The two best candidates that agree with the axes known so far; -1: there is none. */
 void choose_twins(const Twins *twins, int *chosen);
 /* How well a twin is known: its row of scales and hits, less what it is of (V 17.6). */

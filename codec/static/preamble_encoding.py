@@ -122,8 +122,8 @@ class Prepared:
     joined_faces: Faces
     light: bool
     congruence: bool
-    motions: dict[int, Matrix] = field(default_factory=dict, init=False, repr=False)
-    """Transforms between parts, shape (k, 12), by half octaves of the step."""
+    motions: dict[float, Matrix] = field(default_factory=dict, init=False, repr=False)
+    """Transforms between parts, shape (k, 13), by the step for which they were sought."""
     _spectra: dict[float, MeasuredSpectrum] = field(default_factory=dict, init=False, repr=False)
 
     def spectrum(self, shift: float) -> MeasuredSpectrum:

@@ -443,6 +443,21 @@ class FieldCoder : public Shared, Output {
                 exact ? exact->data() : nullptr, transforms ? transforms->data() : nullptr, congruence);
         });
     }
+    void go(Rows<double, 4> wanted) {
+        if (next != 0 || wanted.shape(0) != rows()) throw nb::value_error("a row for each vertex of a begun field");
+        kept = nb::cast(wanted);
+        run([&] { return encode_going(encoding, wanted.data()); });
+    }
+    // Places on a grid, mended.
+    auto mended(Rows<int32_t, 3> places, Row<int32_t> largest, Rows<double, 4> wanted) {
+        if (next < 0 || places.shape(0) != rows() || wanted.shape(0) != rows() || largest.size() != 3)
+            throw nb::value_error("a row for each vertex of a begun field");
+        auto kept = copy_of(places.data(), (int64_t)rows(), 3);
+        run([&] {
+            return encode_mended(encoding, {kept.data, (int64_t)rows(), 3}, largest.data(), wanted.data());
+        });
+        return kept;
+    }
     void levels() {
         if (values.shape(1) != 3) throw nb::value_error("levels have three axes");
         begin([&] { return encode_levels(encoding, given()); });
@@ -464,12 +479,14 @@ class FieldCoder : public Shared, Output {
         return payloads();
     }
 
+    auto coded() { return copy_of(encoding_values(encoding), (int64_t)rows(), (int64_t)values.shape(1)); }
+
     // Read the next rows; all values, as far as they are known.
     auto read(nb::bytes payload, int64_t count) {
         const uint8_t *data = (const uint8_t *)payload.c_str();
         int64_t size = (int64_t)payload.size();
         code(count, [&](int64_t first) { return decode_field_chunk(encoding, first, count, data, size); });
-        return copy_of(encoding_values(encoding), (int64_t)rows(), (int64_t)values.shape(1));
+        return coded();
     }
 
     auto order() {
@@ -673,10 +690,13 @@ NB_MODULE(_core, m) {
         .def(nb::init<const FieldCoder &, IntRows>(), "other"_a, "values"_a, nb::keep_alive<1, 2>())
         .def("grid", in_turn(&FieldCoder::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),
             "transforms"_a.none() = nb::none(), "congruence"_a = 0)
+        .def("go", in_turn(&FieldCoder::go), "wanted"_a)
+        .def("mended", in_turn(&FieldCoder::mended), "places"_a, "largest"_a, "wanted"_a)
         .def("levels", in_turn(&FieldCoder::levels))
         .def("attribute", in_turn(&FieldCoder::attribute), "declaration"_a, "vertices"_a, "at"_a, "places"_a.none())
         .def("write", in_turn(&FieldCoder::write), "count"_a)
         .def("read", in_turn(&FieldCoder::read), "payload"_a, "count"_a)
+        .def_prop_ro("coded", in_turn(&FieldCoder::coded))
         .def_prop_ro("order", in_turn(&FieldCoder::order));
     nb::class_<Chain>(m, "Chain")
         .def(nb::init<ConstInts, ConstInts, ConstInts, ConstLongs, ConstLongs, ConstInts, bool, bool, int, int, int,

@@ -187,6 +187,22 @@ bool encode_positions(Encoding *encoding, const Encoding *like, Source given, co
         &encoding->writer.context, given, largest, light, origin, step, exact, transforms, congruence);
 }
 
+bool encode_going(Encoding *encoding, const double *wanted) {
+    Twins *twins = encoding->field.kind == ON_GRID ? encoding->field.grid.twins : NULL;
+    if (twins == NULL) return FAIL(&encoding->writer.context, MISUSED, "this field has no images");
+    twins->wanted = wanted;
+    return true;
+}
+
+bool encode_mended(Encoding *encoding, Ints2 places, const int32_t *largest, const double *wanted) {
+    const CodedField *field = &encoding->field;
+    if (field->kind != ON_GRID || places.rows != field->header.vertices
+        || !are_below(places.data, 3 * places.rows, 0, INT32_MAX))
+        return FAIL(&encoding->writer.context, MISUSED, "these places are not of this mesh");
+    mend_places(&field->grid.corners, places, wanted, largest);
+    return true;
+}
+
 bool encode_levels(Encoding *encoding, Source given) {
     return begin_refinement(&encoding->field, &encoding->writer.context, given);
 }

@@ -78,6 +78,10 @@ int carried_field(const Encoding *encoding, int key, const double **numbers);
 /* With `congruence` of the header, its rows of `transforms` (V 17.2), and corners of an encoding like it, or NULL. */
 bool encode_positions(Encoding *encoding, const Encoding *like, Source given, const int32_t *largest, int light,
     const double *origin, double step, const double *exact, const int32_t *transforms, int congruence);
+/* Let vertices of a grid go to images (bitstream/fields/placing.c); what is wanted stays as it is until all are coded. */
+bool encode_going(Encoding *encoding, const double *wanted);
+/* Mend places on a grid of the same faces. */
+bool encode_mended(Encoding *encoding, Ints2 places, const int32_t *largest, const double *wanted);
 bool encode_levels(Encoding *encoding, Source given);
 bool encode_attribute(Encoding *encoding, Source given, const uint8_t *declaration, int64_t size, int64_t vertices,
     const int32_t *at, const int32_t *places);

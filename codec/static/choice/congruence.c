@@ -297,8 +297,9 @@ static int64_t choose_pool(Motion *votes) {
 }
 
 /* Motions of positions (n x 3, in steps of a grid, from the middle of their box) with their faces (m x 3) and valences
- * (n): rows of a turn (9) and a shift (3) in `found`, in the order of what each explains that those before do not, each
- * at least `worth` vertices. `heads` has room for a power of two; `links`: n + m; others are 0. Returns how many. */
+ * (n): rows of a turn (9), a shift (3) and the share of vertices that they take to others in `found`, in the order of
+ * what each explains that those before do not, each at least `worth` vertices. `heads` has room for a power of two;
+ * `links`: n + m; others are 0. Returns how many. */
 KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts degrees, double worth, Ints heads,
                             Ints links, Bytes covered, Doubles room, Doubles2 found) {
     int64_t n = positions.rows, m = faces.rows, count = 0, moving = 0;
@@ -306,7 +307,7 @@ KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts
     if (n < 1 || positions.columns != 3 || faces.columns != 3 || degrees.size != n || heads.size < 2
         || (heads.size & (heads.size - 1)) != 0 || links.size < n + m || covered.size < FITTED * COUNTED
         || room.size * (int64_t)sizeof(double) < (int64_t)(VOTES * sizeof(Motion) + (1 << NEAR_BITS))
-        || found.columns != 12)
+        || found.columns != 13)
         return MISUSED;
     for (int64_t k = 0; k < 3 * m; k++)
         if (faces.data[k] < 0 || faces.data[k] >= n) return MISUSED;
@@ -339,7 +340,7 @@ KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts
     /* Which vertices each explains: of a vertex and its image the later. */
     int64_t size = (n - 1) / counted + 1;
     for (int64_t i = 0; i < fitted; i++) {
-        count_moved(&s, pool + i, counted, CLOSE);
+        pool[i].votes = count_moved(&s, pool + i, counted, CLOSE);
         for (int64_t at = 0; at < size; at++) {
             int64_t v = at * counted, u = s.moved[at];
             if (u >= 0 && u != v) covered.data[size * i + largest(u, v) / counted] = 1;
@@ -353,11 +354,12 @@ KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts
             if (gain > most) most = gain, best = i;
         }
         if (best < 0 || (double)(most * counted) < worth) break;
-        double *row = found.data + 12 * kept++;
+        double *row = found.data + 13 * kept++;
         for (int i = 0; i < 3; i++) {
             for (int j = 0; j < 3; j++) row[3 * i + j] = pool[best].turn[i][j];
             row[9 + i] = pool[best].shift[i];
         }
+        row[12] = (double)pool[best].votes / (double)size;
         for (int64_t i = 0; i < fitted; i++)
             for (int64_t v = 0; v < size && i != best; v++)
                 covered.data[size * i + v] &= !covered.data[size * best + v];

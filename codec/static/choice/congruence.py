@@ -11,6 +11,7 @@ from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
 from bsm.codec.geometry.turns import Turn, cross_of, quaternion_of, turned_by
 from bsm.codec.static.preamble_encoding import Prepared
+from bsm.codec.static.targets import SLACK
 from bsm.codec.static.ways.grid import Raster
 
 WORTH = 16.0  # vertices that a transform must explain
@@ -19,45 +20,57 @@ FINER = 0.5  # over the step of a grid: vertices that are not rounded are nearer
 
 def transforms_of(prepared: Prepared, grid: Raster) -> Levels:
     """The transforms of a mesh on a grid, shape (k, 8), as they are coded; sought once for like steps."""
-    (turns, shifts), origin = _motions(prepared, grid.step, grid.turn), np.array(grid.origin)
+    (turns, shifts, _), origin = _motions(prepared, grid.step, grid.turn), np.array(grid.origin)
     return coded_transforms(turns, (turns @ origin + shifts - origin) / grid.step, grid.largest)
 
 
-def mirrored_origin(prepared: Prepared, origin: Matrix, step: float, turn: Turn) -> Matrix:
-    """The origin of a grid, at most half a cell lower, for which mirrors take cells of the grid to cells."""
-    turns, shifts = _motions(prepared, step, turn)
-    extent = extent_of(prepared.mesh.positions).max()
-    moved, back = origin.copy(), np.abs(turns + np.eye(3)).max(axis=2) * extent < step / 8.0
-    for axis in np.flatnonzero(back.any(axis=0)):
-        halves = (shifts[back[:, axis].argmax(), axis] - 2.0 * origin[axis]) / step
-        moved[axis] -= (math.ceil(halves) - halves) * step / 2.0
-    return moved
+def lattice(prepared: Prepared, origin: Matrix, step: float, least: float, turn: Turn) -> tuple[float, Matrix]:
+    """The step of single precision near a wanted one, and the origin, at most a cell lower, for which transforms take
+    most places to places: those that exchange axes or turn them back, all at once."""
+    turns, shifts, shares = _motions(prepared, step, turn)
+    own = np.abs(turns - np.rint(turns)).max(axis=(1, 2)) * extent_of(prepared.mesh.positions).max() < step / 4.0
+    nearness = np.linspace(-0.5, 0.5, 241)
+    steps = np.maximum(step * np.exp(SLACK * nearness), least).astype(np.float32).astype(np.float64)
+    origins, left = np.repeat(origin[None], len(steps), axis=0), np.ones(3, bool)
+    score = -1e-6 * np.abs(nearness)
+    rigid = [(np.rint(turns[k]), shifts[k], shares[k]) for k in np.argsort(-shares, kind="stable") if own[k]]
+    for turned, shift, _ in rigid:  # axes that it turns have its center at a place
+        back = np.eye(3) - turned
+        if (axes := back.any(axis=0)).any() and left[axes].all():
+            cells = (np.linalg.pinv(back) @ shift - origins) / steps[:, None]
+            origins[:, axes] -= ((np.ceil(cells - 1e-6) - cells) * steps[:, None])[:, axes]
+            left &= ~axes
+    for turned, shift, share in rigid:
+        cells = (shift - origins @ (np.eye(3) - turned).T) / steps[:, None]
+        off = np.abs(cells - np.rint(cells)).max(axis=1)
+        score += share * np.maximum(0.0, 1.0 - np.square(16.0 * off))  # what a vertex has moved by, other images see
+    best = int(score.argmax())
+    return float(steps[best]), origins[best]
 
 
-def _motions(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Matrix]:
-    """Turns, shape (k, 3, 3), and shifts, shape (k, 3), between parts, in turned axes; sought once for like steps."""
-    octave = round(2.0 * math.log2(step))
-    if octave not in prepared.motions:
-        cell = FINER * 2.0 ** (octave / 2.0)
-        prepared.motions[octave] = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
-        prepared.motions[octave][:, 9:] *= cell
-    turns, shifts = prepared.motions[octave][:, :9].reshape(-1, 3, 3), prepared.motions[octave][:, 9:]
-    if not any(turn):
-        return turns, shifts
-    axes = turned_by(np.eye(3), turn)
-    return axes @ turns @ axes.T, shifts @ axes.T
+def _motions(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Matrix, Matrix]:
+    """Turns, shape (k, 3, 3), and shifts, shape (k, 3), between parts, in turned axes, and the share of vertices that
+    each takes to others; sought once for like steps."""
+    known = min(prepared.motions, key=lambda other: abs(math.log2(other / step)), default=math.inf)
+    if abs(math.log2(known / step)) > 1.0:  # anew for each step, bytes would jump from one to the next
+        known, cell = step, FINER * step
+        prepared.motions[step] = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
+        prepared.motions[step][:, 9:12] *= cell
+    turns, shifts, shares = np.split(prepared.motions[known], [9, 12], axis=1)
+    axes = turned_by(np.eye(3), turn) if any(turn) else np.eye(3)
+    return axes @ turns.reshape(-1, 3, 3) @ axes.T, shifts @ axes.T, shares[:, 0]
 
 
 def motions_between(positions: Matrix, faces: Faces) -> Matrix:
-    """Turns and shifts, shape (k, 12), of positions in cells that take parts of a mesh to others."""
-    count, found = len(positions), np.empty((constant("MOST_TRANSFORMS"), 12))
+    """Turns, shifts and shares of vertices, shape (k, 13), that take parts of a mesh, in cells, to others."""
+    count, found = len(positions), np.empty((constant("MOST_TRANSFORMS"), 13))
     degrees = np.bincount(faces.reshape(-1), minlength=count).astype(np.int32)
     heads = np.empty(1 << max(count, len(faces), 2).bit_length(), np.int32)
     links, covered, room = np.empty(count + len(faces), np.int32), np.zeros(48 << 14, np.uint8), np.zeros(1 << 18)
     middle = (positions.min(axis=0) + positions.max(axis=0)) / 2.0
     centered = np.ascontiguousarray(positions - middle)
     kept = _kernels.find_motions(centered, faces, degrees, WORTH, heads, links, covered, room, found)
-    found[:kept, 9:] += middle - found[:kept, :9].reshape(-1, 3, 3) @ middle
+    found[:kept, 9:12] += middle - found[:kept, :9].reshape(-1, 3, 3) @ middle
     return found[:kept]
 
 

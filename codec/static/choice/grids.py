@@ -1,7 +1,7 @@
 """Positions on grids whose places are rounded, or chosen for the normals: ways to code a mesh."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import lru_cache, partial
 
@@ -9,25 +9,33 @@ import numpy as np
 
 from bsm._core import rounded as places_on
 from bsm.bitstream.container.header import MOST_GRID, Header
+from bsm.bitstream.container.packets import Grid
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Levels, Matrix, Positions
+from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import box_around, extent_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
-from bsm.codec.static.choice.bounds import COARSEST, SEEN, SPIKE, Bounds, Trial, turned
-from bsm.codec.static.choice.congruence import mirrored_origin, transforms_of
+from bsm.codec.static.choice.bounds import COARSEST, SEEN, SPIKE, Bounds, Trial
+from bsm.codec.static.choice.congruence import lattice, transforms_of
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import SLACK
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_grid, grid_of, sampled_size
+from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_going, encode_grid, grid_of, sampled_size
 
 MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
 
 
-def grid_draft(prepared: Prepared, grid: Raster, places: Levels, brief: bool = False) -> Draft:
-    """The stream of places on a grid, shape (n, 3), none negative."""
+def grid_draft(
+    prepared: Prepared, grid: Raster, places: Levels, brief: bool = False, wanted: Matrix | None = None
+) -> Draft:
+    """The stream of places on a grid, shape (n, 3), none negative; some may come to be elsewhere (`wanted`)."""
     grid = replace(grid, light=grid.light or prepared.light)
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
-    coded = encode_grid(prepared.linked if brief else prepared.mesh.faces, grid, places)  # if others follow
+    faces = prepared.linked if brief else prepared.mesh.faces  # if others follow
+    coded: Iterable[Grid] = ()
+    if wanted is None:
+        coded = encode_grid(faces, grid, places)
+    else:
+        coded, places = encode_going(faces, grid, places, wanted)
     return Draft(header, (*prepared.before_grid, *coded), grid.positions(places), places, brief)
 
 
@@ -135,17 +143,22 @@ class Gridded:
 
     def _made(self, step: float, mirrored: bool = True) -> Trial:
         unit = self._prepared.units.scale
-        held = single(max(step, self.least) * unit)
-        origin = self._origin
+        held, origin = single(max(step, self.least) * unit), self._origin
         if mirrored and may_repeat(self._prepared):
-            origin = np.array([self._hold(x) for x in mirrored_origin(self._prepared, origin, held, self.turn)])
+            held, moved = lattice(self._prepared, origin, held, self.least * unit, self.turn)
+            origin = np.array([self._hold(value) for value in moved])
         low = self._prepared.units.into(origin)
         places = np.floor((self._positions - low) / (held / unit) + 0.5).astype(np.int32)
         if self._worth:
             worth, reach = self._worth * step / self._shaper.mean_edge, float(self._bounds.reaches.min())
             places = self._shaper.places(places, low, held / unit, worth, min(reach, SPIKE * step))
-        candidate = self._placed(held, self._apart(places, low, held / unit), origin)
-        return turned(candidate) or candidate
+        places = self._apart(places, low, held / unit)
+        least = places.min(axis=0)  # some may be below the origin
+        start = tuple(self._hold(value) for value in origin + least * held)
+        grid = Raster(start, held, tuple(int(value) for value in np.ptp(places, axis=0)), turn=self.turn)
+        largest = np.array(grid.largest, np.int32)
+        places = self._prepared.linked.mended(places - least, largest, self._wanted(grid))
+        return replace(self._candidate(grid, places), step=step)
 
     def _apart(self, places: Levels, low: Matrix, cell: float) -> Levels:
         """Places from `low` on; vertices that would close a gap between parts are moved away, a cell or a few."""
@@ -156,22 +169,6 @@ class Gridded:
             wrong = closed & (gaps.ends[:, 0] >= first * gaps.ends[:, 1])  # at first, of one of two parts
             places[gaps.ends[wrong, 0]] += away[wrong]
         return places
-
-    def _placed(self, held: float, places: Levels, start: Positions) -> Trial:
-        """Places from the origin on, some below it, perhaps."""
-        least = places.min(axis=0)
-        origin = tuple(self._hold(value) for value in start + least * held)
-        grid = Raster(origin, held, tuple(int(value) for value in np.ptp(places, axis=0)), turn=self.turn)
-        candidate = self._candidate(grid, places - least)
-
-        def unfold() -> Trial | None:
-            cell = held / self._prepared.units.scale
-            directions = cell * turned_by(np.eye(3), self.turn).reshape(1, 9)
-            reach = np.minimum(self._bounds.reaches, SPIKE * cell)
-            turned = self._shaper.unfold(candidate.positions, places, directions, reach)
-            return None if turned is None else self._placed(held, turned, start)
-
-        return replace(candidate, unfold=unfold)
 
     def in_frame(self) -> "Gridded":
         """The grid in the axes of the part, if that takes much fewer bytes at the first step."""
@@ -191,7 +188,7 @@ class Gridded:
             return first
         self.repeats = True
         self.at.cache_clear()
-        return replace(first, make=lambda: first.congruent)
+        return self.at(first.step)
 
     def made(self) -> Iterator[Trial]:
         """The grids that the mesh was made on, or about, in single precision."""
@@ -206,7 +203,9 @@ class Gridded:
         @lru_cache
         def coded(repeats: bool) -> Draft:
             found = transforms_of(prepared, grid) if repeats else None
-            return grid_draft(prepared, replace(grid, transforms=found), places, may and not prepared.light)
+            wanted = self._wanted(grid) if self.repeats and found is not None and len(found) else None
+            whole = replace(grid, transforms=found)
+            return grid_draft(prepared, whole, places, may and not prepared.light, wanted)
 
         def repeating() -> Draft:
             if not may or self.repeats:
@@ -221,8 +220,14 @@ class Gridded:
                 return 0
             return grid_draft(prepared, replace(grid, light=True), places, may).size
 
-        decoded = grid.positions(places)
+        decoded = coded(True).decoded if self.repeats else grid.positions(places)
         positions = np.ascontiguousarray(prepared.units.into(decoded))
         step, fixed = grid.step / prepared.units.scale, len(prepared.connectivity.data)
         make = partial(coded, self.repeats)
         return Trial(step, positions, make, fixed, repeating=repeating, decoded=decoded, about=about)
+
+    def _wanted(self, grid: Raster) -> Matrix:
+        """Where each vertex would be, in cells, and the square of how far from there it may come, shape (n, 4)."""
+        cell, low = grid.step / self._prepared.units.scale, self._prepared.units.into(np.array(grid.origin))
+        reach = np.minimum(self._bounds.gaps.kept(self._bounds.reaches) / cell, SPIKE)
+        return np.column_stack([(self._positions - low) / cell, np.square(reach)])

@@ -11,7 +11,7 @@ from bsm._core import Field
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import EXACT, Header
 from bsm.bitstream.container.wire import with_lengths
-from bsm.codec.arrays import Indices, Levels, Positions
+from bsm.codec.arrays import Indices, Levels, Matrix, Positions
 from bsm.codec.geometry.turns import UNTURNED, Turn, turned_by
 
 FIRST, CHUNK, SAMPLE = 1 << 12, 1 << 13, 1 << 11
@@ -67,7 +67,20 @@ def grid_field(
 
 def encode_grid(faces: Indices | Field, grid: Raster, coded: Levels, exact: Any = None) -> Iterator[packets.Grid]:
     """Make the packets of coded values, shape (n, 3), 0 to the grid's largest; of `exact` floats in their cells."""
-    field, size = grid_field(faces, grid.largest, coded, grid.fields["light"], grid, exact), len(coded)
+    return _packets(grid_field(faces, grid.largest, coded, grid.fields["light"], grid, exact), len(coded))
+
+
+def encode_going(
+    faces: Indices | Field, grid: Raster, coded: Levels, wanted: Matrix
+) -> tuple[tuple[packets.Grid, ...], Levels]:
+    """The packets and the values, where vertices have gone to images: `wanted`, shape (n, 4), says where each would be,
+    in cells, and the square of how far from there it may come."""
+    field = grid_field(faces, grid.largest, coded, grid.fields["light"], grid)
+    field.go(wanted)
+    return tuple(_packets(field, len(coded))), field.coded
+
+
+def _packets(field: Field, size: int) -> Iterator[packets.Grid]:
     for start, end in pairwise([*range(0, min(size, 1)), *range(FIRST, size, CHUNK), size]):
         yield packets.Grid(start, end - start, with_lengths(field.write(end - start)))
 

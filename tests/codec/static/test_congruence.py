@@ -1,5 +1,6 @@
 """Grids that are predicted from congruent parts: transforms are found, pay, and come back."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -12,9 +13,10 @@ from bsm import PRESETS, look
 from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.turns import UNTURNED
 from bsm.codec.static.choice.bounds import Bounds, Measures
-from bsm.codec.static.choice.congruence import coded_transforms, transforms_of
-from bsm.codec.static.choice.grids import Gridded, _rounded, paying, rounded
+from bsm.codec.static.choice.congruence import coded_transforms, lattice, transforms_of
+from bsm.codec.static.choice.grids import Gridded, _rounded, grid_draft, paying, rounded
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
@@ -123,7 +125,7 @@ def test_the_search_finds_a_turn():
     low, extent = positions.min(axis=0), np.ptp(positions, axis=0)
     step = float(extent.max()) / 4095
     rows = transforms_of(prepared, Raster(tuple(low), step, tuple(np.rint(extent / step).astype(int).tolist())))
-    ((*turn, x, y, z),) = next(iter(prepared.motions.values()))
+    ((*turn, x, y, z, _),) = next(iter(prepared.motions.values()))
     assert len(rows) == 1 and rows[0, 0] >= 48
     images = positions @ np.reshape(turn, (3, 3)).T + (x, y, z)
     assert (cKDTree(positions).query(images)[0] < 0.01 * step).mean() == 0.5
@@ -187,3 +189,54 @@ def test_vertices_are_split_where_that_takes_fewer_bytes():
     assert whole.header.whole and split.header.transforms > 0 and not split.header.whole
     assert split.size < 0.9 * whole.size
     assert (decode(b"".join(split.frames)).positions == whole.decoded).all()
+
+
+def test_vertices_go_to_images_that_are_near():
+    """A decoder has the places to which they went; none went farther than it may, or away from its faces."""
+    mesh = copies(bumpy(8), np.array([about(1, 7)]))
+    prepared = prepared_of(mesh, 9)
+    _, both = coded(prepared, 9)
+    grid = replace(grid_of(both.header), transforms=transforms_of(prepared, grid_of(both.header)))
+    where = (prepared.mesh.positions - grid.origin) / grid.step
+    sizes = []
+    for cells in (0.0, 4.0):
+        wanted = np.column_stack([where, np.full(len(where), cells**2)])
+        draft = grid_draft(prepared, grid, both.places, True, wanted)
+        moved = (draft.places != both.places).any(axis=1)
+        away = np.linalg.norm(draft.places - where, axis=1)
+        assert (away[moved] <= cells).all() and moved.any() == (cells > 0.0)
+        assert (decode(b"".join(draft.frames)).positions == draft.decoded).all()
+        sizes.append(draft.size)
+    assert sizes[0] == both.size and sizes[1] < 0.95 * sizes[0]
+
+
+@pytest.mark.parametrize("sectors", [5, 6, 8])
+def test_a_part_of_equal_sectors_costs_little_more_than_one(sectors):
+    """Wherever the grid lies: its step and origin follow the turns that it can follow, vertices the others."""
+    flat = bumpy(4, 12, 9)
+    flat = TriangleMesh(0.2 * flat.positions + np.array([2.0, 0.0, 0.0]), flat.faces)
+    turns = [np.linalg.matrix_power(about(2, sectors), k) for k in range(sectors)]
+    positions = np.concatenate([flat.positions @ turn.T for turn in turns])
+    faces = np.concatenate([flat.faces + k * len(flat.positions) for k in range(sectors)])
+    for away in (0.0, 0.1234):
+        sizes = [
+            len(encode(TriangleMesh(part.positions + away, part.faces)))
+            for part in (flat, TriangleMesh(positions, faces))
+        ]
+        assert sizes[1] < 2.0 * sizes[0]
+
+
+def test_steps_divide_shifts_that_repeat():
+    small = bumpy(2, 12, 9)
+    row = copies(small, np.array([np.eye(3)] * 4), 7.77)
+    prepared = prepared_of(row, 10)
+    step = float(np.ptp(row.positions, axis=0).max()) / 1100
+    found, origin = lattice(prepared, row.positions.min(axis=0), step, 0.0, UNTURNED)
+    assert abs(math.log(found / step)) <= 0.016 and found == float(np.float32(found))
+    cells = (row.positions[len(small.positions)] - row.positions[0])[0] / found
+    assert abs(cells - round(cells)) < 0.05
+    assert (origin <= row.positions.min(axis=0)).all()
+    alone = prepared_of(bumpy(13), 10)
+    low = alone.mesh.positions.min(axis=0)
+    held, kept = lattice(alone, low, float(np.float32(0.01)), 0.0, UNTURNED)
+    assert held == float(np.float32(0.01)) and (kept == low).all(), "without symmetries nothing moves"

@@ -1,0 +1,145 @@
+/* Where writers put vertices on a grid: faces keep an area, and edges do not fold (encoder only).
+ *
+ * A vertex that breaks this is put into the cell beside its own that has fewest such faults. While a grid is coded, a
+ * vertex goes to the cell of an image, which costs one decision, if it has no more faults there and stays near the planes
+ * of its faces. None comes farther from where it would be than it may. What has no area or is folded in the first place
+ * does not count. */
+#include "bitstream/fields/fields.h"
+
+enum { AXES = 3, WANTED = 4, FOLD = 256 /* what a folded edge counts */, SWEEPS = 2 };
+static const double FLAT = 1e-20, HEIGHT = 0.36;
+/* Of a face without area, the square of its area over that of its longest side's square; and what `height_of` may be
+ * where a vertex goes to an image: in the plane of a surface hardly anything is seen. */
+
+typedef struct {
+    const Corners *corners;
+    const int32_t *places;
+    const double *wanted;
+} Sides;
+
+/* Where vertex v is, or would be. */
+INLINE void place_of(const Sides *s, int32_t v, bool wanted, double *place) {
+    for (int j = 0; j < AXES; j++)
+        place[j] = wanted ? s->wanted[WANTED * (int64_t)v + j] : s->places[AXES * (int64_t)v + j];
+}
+
+/* The normal of the face of corner k; whether it has an area. */
+static bool face_at(const Sides *s, int32_t k, bool wanted, double *normal) {
+    const int32_t *vertex = s->corners->faces.data;
+    double at[3][AXES], most = 0.0, area = 0.0;
+    place_of(s, vertex[k], wanted, at[0]);
+    place_of(s, vertex[next_corner(k)], wanted, at[1]);
+    place_of(s, vertex[previous_corner(k)], wanted, at[2]);
+    for (int i = 0; i < 3; i++) {
+        const double *a = at[i], *b = at[(i + 1) % 3];
+        double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2], square = x * x + y * y + z * z;
+        if (square > most) most = square;
+    }
+    for (int j = 0; j < AXES; j++) {
+        int p = (j + 1) % 3, q = (j + 2) % 3;
+        normal[j] = (at[1][p] - at[0][p]) * (at[2][q] - at[0][q]) - (at[1][q] - at[0][q]) * (at[2][p] - at[0][p]);
+        area += normal[j] * normal[j];
+    }
+    return area > FLAT * most * most;
+}
+
+INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* Faults of the face of corner k: whether it has lost its area, and how many of its edges are folded. */
+static int64_t faults_of(const Sides *s, int32_t k) {
+    const int32_t *vertex = s->corners->faces.data, *opposite = s->corners->opposite.data;
+    double own[AXES], other[AXES];
+    int64_t count = !face_at(s, k, false, own) && face_at(s, k, true, own);
+    for (int side = 0; side < 3; side++, k = next_corner(k)) {
+        if (opposite[k] < 0) continue;
+        face_at(s, opposite[k], false, other);
+        /* One of both may be turned over. */
+        double turn = vertex[next_corner(k)] == vertex[next_corner(opposite[k])] ? -1.0 : 1.0;
+        if (turn * dot(own, other) >= 0.0) continue;
+        double first[AXES], second[AXES];
+        face_at(s, k, true, first);
+        face_at(s, opposite[k], true, second);
+        count += FOLD * (turn * dot(first, second) >= 0.0);
+    }
+    return count;
+}
+
+/* Those of the faces around v. */
+static int64_t faults_at(const Sides *s, int32_t v) {
+    int64_t count = 0;
+    for (int32_t i = s->corners->starts.data[v]; i < s->corners->starts.data[v + 1]; i++)
+        count += faults_of(s, s->corners->corners.data[i]);
+    return count;
+}
+
+/* The square of how far a cell is from where v would be. */
+INLINE double square_of(const double *wanted, const int32_t *cell) {
+    double x = cell[0] - wanted[0], y = cell[1] - wanted[1], z = cell[2] - wanted[2];
+    return x * x + y * y + z * z;
+}
+
+/* The mean square of how far a cell is from the planes of the faces around v, where these would be. */
+static double height_of(const Sides *s, int32_t v, const int32_t *cell) {
+    double off[AXES], sum = 0.0, areas = 0.0, normal[AXES];
+    for (int j = 0; j < AXES; j++) off[j] = cell[j] - s->wanted[WANTED * (int64_t)v + j];
+    for (int32_t i = s->corners->starts.data[v]; i < s->corners->starts.data[v + 1]; i++) {
+        if (!face_at(s, s->corners->corners.data[i], true, normal)) continue;
+        double area = __builtin_sqrt(dot(normal, normal)), along = dot(normal, off);
+        sum += along * along / area;
+        areas += area;
+    }
+    return areas > 0.0 ? sum / areas : 0.0;
+}
+
+INLINE void put(int32_t *place, const int32_t *cell) {
+    for (int j = 0; j < AXES; j++) place[j] = cell[j];
+}
+
+/* Put v into the cell beside its own that has fewest faults, the nearest of these. */
+static void mend_vertex(const Sides *s, int32_t *place, const int32_t *most, int32_t v) {
+    const double *wanted = s->wanted + WANTED * (int64_t)v;
+    int64_t faults = faults_at(s, v);
+    int32_t own[AXES], best[AXES];
+    double nearest = 0.0; /* with as many faults as in its own cell, it stays there */
+    if (faults == 0) return;
+    put(own, place);
+    put(best, place);
+    for (int i = 0; i < 27; i++) {
+        int32_t cell[AXES] = {own[0] + i / 9 - 1, own[1] + i / 3 % 3 - 1, own[2] + i % 3 - 1};
+        double square = square_of(wanted, cell);
+        bool inside = square <= wanted[AXES];
+        for (int j = 0; j < AXES; j++) inside = inside && cell[j] >= 0 && cell[j] <= most[j];
+        if (!inside) continue;
+        put(place, cell);
+        int64_t left = faults_at(s, v);
+        square += 8.0 * height_of(s, v, cell);
+        if (left > faults || (left == faults && square >= nearest)) continue;
+        faults = left;
+        nearest = square;
+        put(best, cell);
+    }
+    put(place, best);
+}
+
+void mend_places(const Corners *corners, Ints2 places, const double *wanted, const int32_t *most) {
+    const int32_t *vertex = corners->faces.data;
+    Sides s = {corners, places.data, wanted};
+    for (int64_t i = 0; i < SWEEPS * corners->faces.rows; i++) {
+        int32_t k = 3 * (int32_t)(i % corners->faces.rows);
+        for (int end = 0; end < 3 && (end > 0 || faults_of(&s, k) > 0); end++)
+            mend_vertex(&s, places.data + AXES * (int64_t)vertex[k + end], most, vertex[k + end]);
+    }
+}
+
+bool go_to_cell(const Corners *corners, Ints2 places, const double *wanted, int32_t v, const int32_t *cell) {
+    Sides s = {corners, places.data, wanted};
+    const double *row = wanted + WANTED * (int64_t)v;
+    int32_t *place = places.data + AXES * (int64_t)v, own[AXES];
+    if (square_of(row, cell) > row[AXES] || height_of(&s, v, cell) > HEIGHT) return false;
+    int64_t faults = faults_at(&s, v);
+    put(own, place);
+    put(place, cell);
+    if (faults_at(&s, v) <= faults) return true;
+    put(place, own);
+    return false;
+}
