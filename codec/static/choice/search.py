@@ -102,7 +102,8 @@ class Search:
         octave = BYTES * math.log(2.0) * self._prepared.graph.size  # a step twice as wide looks about twice as far off
         octaves = min(max((self._size(grid.at(grid.first).congruent) - most) / octave, -12.0), 6.0)
         if abs(octaves) > 1.0:
-            near = Bounds(self._measures, replace(promised, look=2.0**octaves))
+            bare = self._measures.painting(lambda decoded: 0.0)  # the look of the shape alone
+            near = Bounds(bare, replace(promised, look=2.0**octaves))
             grid = Gridded(self._prepared, near, turn=grid.turn)
         smallest = Smallest(near, self._size)
         kept, queue = self._kept(smallest, grid)

@@ -193,3 +193,11 @@ def test_a_small_size_has_a_look_although_steps_near_it_fold_edges(meshes: Path)
     result = Encoder(mesh, replace(PRESETS["none"], target=Target("bpv", 4.0))).result()
     assert 3.8 < result.bpv <= 4.0
     assert bsm.look(mesh, b"".join(result.frames)).distance < 13.0
+
+
+@pytest.mark.real
+def test_a_large_size_is_used_for_the_shape_where_a_texture_is_as_good_as_it_gets(meshes: Path) -> None:
+    mesh = read_mesh(str(meshes / "assets" / "spot_uv.obj")).mesh
+    result = Encoder(mesh, EncodeOptions(threads=1, target=Target("size", 12_000))).result()
+    assert 11_000 < result.size <= 12_000
+    assert bsm.look(mesh, b"".join(result.frames)).distance < 0.13
