@@ -38,8 +38,7 @@ class RefinementBase:
     prepared: Prepared
     draft: Draft
     positions: Matrix
-    coded: int  # bytes of the blocks
-    work: float  # of their decoding
+    coded: int  # bytes of the blocks, and of levels of cells
 
     @cached_property
     def frames(self) -> Matrix:
@@ -151,8 +150,7 @@ class InBlocks:
         decoded = smooth(prepared.graph, positions, header.smoothing)
         body = (*prepared.before_blocks, *(block.packet for block in blocks))
         draft, positions = Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded)
-        coded, work = sum(len(block.packet.data) for block in blocks), sum(block.work for block in blocks)
-        return RefinementBase(prepared, draft, positions, coded, work)
+        return RefinementBase(prepared, draft, positions, sum(len(block.packet.data) for block in blocks))
 
     def _scheme(self, step: float) -> Scheme:
         """How blocks are coded at a step."""

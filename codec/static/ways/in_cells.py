@@ -89,7 +89,7 @@ class InCells:
         header = replace(blocks.draft.header, vertices=prepared.graph.size, faces=len(prepared.mesh.faces), base=base)
         draft = Draft(header, (*blocks.draft.body, *levels), prepared.units.back(positions))
         coded = blocks.coded + sum(len(packet.data) for packet in levels)
-        return RefinementBase(prepared, draft, positions, coded, blocks.work)
+        return RefinementBase(prepared, draft, positions, coded)
 
     @staticmethod
     def _leveled(blocks: RefinementBase, layer: Layer) -> tuple[Matrix, list[Refinement]]:
