@@ -6,6 +6,9 @@ import { metadataIn, numberIn, Rows, textOf, wordsOf } from "./text";
 const STATES: Record<string, string> = { usemtl: "material", g: "group", o: "object", s: "smoothing" };
 const OF_CORNERS = { vt: "texcoord", vn: "normal" } as const;
 const [MOST_NAMED, MOST_NUMBERS] = [8, 3];
+const MOST_TEXT = 2 ** 13; // characters of a comment
+/** Comments amid the data that exporters write. */
+const OF_EXPORTERS = /^\W*(\d+ |object|group|mesh|material|vert|texture|normal|face|end|total|smooth|$)/i;
 
 /** The numbers of a corner, written v, v/vt, v//vn or v/vt/vn; 0: not there. */
 function cornerOf(word: string, corner: number): number[] {
@@ -68,8 +71,20 @@ export function readObj(bytes: ArrayBuffer): Polygons {
         Object.assign(metadata, found.metadata);
     }
     if (libraries.size > 0) metadata.mtllib = [...libraries].join("\n");
-    Object.assign(metadata, metadataIn(Array.from(joined.matchAll(/^#([^\r\n]*)/gm), ([, remark]) => remark)));
+    Object.assign(metadata, commentsOf(text, dropped));
     return { positions, sizes, corners, columns, metadata, notes, dropped };
+}
+
+/** Metadata in comments: what `bsm` wrote, and the text ahead of the first line of data. */
+function commentsOf(text: string, dropped: string[]): Polygons["metadata"] {
+    const begin = /^[ \t]*[^#\s]/m.exec(text)?.index ?? Infinity;
+    const lines = Array.from(text.matchAll(/^#([^\r\n]*)/gm), ({ index, 1: line }) => ({ index, line: line.trim() }));
+    const others = lines.filter(({ line }) => line !== "" && !/^(meta|MRGB) /.test(line));
+    const ahead = others.flatMap(({ index, line }) => (index < begin ? line : [])).join("\n");
+    const later = others.filter(({ index, line }) => index >= begin && !OF_EXPORTERS.test(line)).length;
+    if (later > 0) dropped.push(`comments amid the data (${later})`);
+    const own = metadataIn(lines.map(({ line }) => line));
+    return ahead.length > 0 && ahead.length < MOST_TEXT ? { comment: ahead, ...own } : own;
 }
 
 /** The values of `vt` or `vn` lines for corners; those without get zeros, or the normals of their faces. */

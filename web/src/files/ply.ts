@@ -57,7 +57,7 @@ const GROUPS: [meaning: "normal" | "color" | "texcoord", names: string[]][] = [
     ["texcoord", ["texture_s", "texture_t"]],
 ];
 const NAMES: Record<string, string> = { texnumber: "material", material_index: "material" };
-const MOST_COMPONENTS = 255;
+const MOST_COMPONENTS = 4;
 const MOST_HEADER = 2 ** 20;
 
 /** A column of an element: numbers, or lists after their length, of the type `length`. */

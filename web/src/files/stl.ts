@@ -73,6 +73,9 @@ function ofText(given: string): Soup {
         if (end) facets.push(names.length - 1);
         else names.push(name.trim());
     }
+    const isWhole = /endfacet[^\n]*\s+endsolid[^\n]*\s*$/i.test(text);
+    if (facets.length > 0 && corners.counts.length > 3 * facets.length && isWhole)
+        throw new Error(`${facets.length} facets have ${corners.counts.length} corners; cut them into triangles`);
     if (corners.counts.length !== 3 * facets.length || (facets.length === 0 && !/endsolid/i.test(text)))
         throw new Error(
             `the STL file is cut short: ${corners.counts.length} corners in ${facets.length} finished triangles`,
