@@ -78,7 +78,7 @@ int carried_field(const Encoding *encoding, int key, const double **numbers);
 /* With `congruence` of the header, its rows of `transforms` (V 17.2), and corners of an encoding like it, or NULL. */
 bool encode_positions(Encoding *encoding, const Encoding *like, Source given, const int32_t *largest, int light,
     const double *origin, double step, const double *exact, const int32_t *transforms, int congruence);
-/* Let vertices of a grid go to images (bitstream/fields/placing.c); what is wanted stays as it is until all are coded. */
+/* Let vertices of a grid go to images (bitstream/fields/placing.c). The rows stay as they are until all are coded. */
 bool encode_going(Encoding *encoding, const double *wanted);
 /* Mend places on a grid of the same faces. */
 bool encode_mended(Encoding *encoding, Ints2 places, const int32_t *largest, const double *wanted);
