@@ -18,6 +18,7 @@ from bsm.bitstream.container.wire import FrameType, write_frame
 from bsm.bitstream.errors import MeshError, OptionError, TargetError, counted
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions
+from bsm.codec.blocks import overlap
 from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import Graph, components, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -197,6 +198,11 @@ class Parts:
     size: int
     overlap: float
     metis: bool = False
+
+    @classmethod
+    def of(cls, size: int, growth: float, rule: str) -> Parts:
+        """Parts by a rule's name; without METIS those that decoders derive, so that nothing passes for METIS's."""
+        return cls(size, growth, rule == "metis" and overlap.HAS_METIS)
 
     def count(self, vertices: int) -> int:
         return max(1, round(vertices / self.size))

@@ -270,10 +270,9 @@ def _draft(prepared: Prepared, idea: Idea | Overrides, options: EncodeOptions) -
 
 
 def _prepared(mesh: TriangleMesh, idea: Idea, options: EncodeOptions) -> Prepared:
-    size, overlap = options.block_size, options.growth
-    parts = Parts(size, overlap, options.paper.partition == "metis")
+    parts = Parts.of(options.block_size, options.growth, options.paper.partition)
     if idea.partition is not None:
-        parts = _OwnParts(size, overlap, metis=True, labeled=idea.partition)
+        parts = _OwnParts(parts.size, parts.overlap, metis=True, labeled=idea.partition)
     return prepare(join(mesh, keep=options.keep_order), parts, keep_order=options.keep_order)
 
 

@@ -54,10 +54,9 @@ class Sent:
     @cached_property
     def prepared(self) -> Prepared:
         options = self.options
-        parts = Parts(options.block_size, options.growth, options.paper.partition == "metis")
         return prepare(
             self.joined,
-            parts,
+            Parts.of(options.block_size, options.growth, options.paper.partition),
             keep_order=options.keep_order,
             light=options.effort == "quick",
             congruence=options.congruence,

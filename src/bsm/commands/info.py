@@ -132,7 +132,8 @@ def _worded(summary: Facts) -> str:
 def _paper_lines(summary: Facts) -> list[str]:
     """The settings of a stream of packed coefficients, with the preset "paper" if it has all of that."""
     bits, _, _, power, iterations, *_ = map(int, summary["header"]["paper"] or [0] * 8)
-    parts = "METIS parts" if summary["bytes"]["partition"] else "derived parts"
+    derived = "one part" if summary["blocks"] == 1 else "parts by BSM's own rule, not METIS"
+    parts = "METIS parts" if summary["bytes"]["partition"] else derived
     name = "preset paper" if summary["preset"] else "some settings of preset paper"
     return [f"{name}: R^{power}, iterations {iterations}, {bits} bits a coefficient, {parts}"] if bits else []
 

@@ -108,7 +108,10 @@ def test_a_mesh_smaller_than_a_block_is_one_block_and_a_note_says_so():
 def test_without_metis_our_rule_cuts_and_a_note_says_so(monkeypatch):
     monkeypatch.setattr(overlap, "HAS_METIS", False)
     with pytest.warns(bsm.BsmWarning, match="METIS .* is not installed: BSM's own rule cuts the mesh into parts"):
-        assert len(bsm.decode(bsm.encode(MESH, preset="paper")).faces) == len(MESH.faces)
+        data = bsm.encode(MESH, preset="paper")
+    assert len(bsm.decode(data).faces) == len(MESH.faces)
+    info = inspect_stream(iter([data]))
+    assert info.sizes["partition"] == 0 and not info.is_paper
 
 
 @pytest.mark.parametrize("more", [{"look": 1.0}, {"max_error": 0.01}, {"grid": 12}, {"grid_cell": 0.1}])
