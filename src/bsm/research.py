@@ -24,7 +24,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.container.wire import FrameType, checksum_size
-from bsm.bitstream.errors import ArgumentError, CorruptError, FormatError, OptionError
+from bsm.bitstream.errors import ArgumentError, CorruptError, FormatError, MeshError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Basis
 from bsm.codec.blocks.overlap import Blocks, Partition, derive_partition, grow_blocks, partition_of_labels
@@ -181,22 +181,33 @@ def curves(
     return found
 
 
+PART_OPTIONS = ("keep", "coefficients", "doi", "bits", "power", "iterations", "key_seed", "limits", "threads")
+"""What a `PartCoder` takes: all else is fixed, as one block is a part."""
+
+
 class PartCoder:
     """Codes the parts of a mesh as they arrive, by the preset "paper"; one encodes, another decodes in the same order.
 
     A part with as many vertices as the one before takes one orthogonal iteration from its basis, any other an exact
     basis. Nothing else is shared: vertices on a border are coded in each part, and not averaged. eps is in mean edge
-    lengths of the part. `keywords` change other options; of `limits`, both sides need the same.
+    lengths of the part. `keywords` are among `PART_OPTIONS`; of `limits`, both sides need the same. A part has at most
+    as many vertices as these allow in a block, by default 8,192.
     """
 
     def __init__(self, **keywords: Any) -> None:
+        for name in sorted(keywords):
+            if name not in PART_OPTIONS or (name == "bits" and not keywords[name]):
+                raise OptionError(f"a part cannot have {name}={keywords[name]!r}; options: {', '.join(PART_OPTIONS)}")
         one_block: dict[str, Any] = {"block_size": int(RANGES["block_size"][1]), "partition": "derived"}
         self._options = EncodeOptions(preset="paper", **(one_block | keywords))
         self._limits, self._basis = NAMED_LIMITS[self._options.limits](), np.empty((0, 0), np.float32)
 
     def encode(self, part: Any) -> Encoded:
         """Encode a part, as `bsm.encode` takes a mesh: its bytes, and the mesh that they decode to."""
-        prepared = _prepared(join(as_mesh(part).bare, keep=False).mesh, Idea(), self._options)
+        mesh = join(as_mesh(part).bare, keep=False).mesh
+        if len(mesh.positions) > (most := min(self._limits.block_size, self._options.block_size)):
+            raise MeshError(f"a part has at most {most} vertices, not {len(mesh.positions)}; cut it into smaller parts")
+        prepared = _prepared(mesh, Idea(), self._options)
         _, columns = self._begun(prepared.blocks, InBlocks(prepared, self._options)._rules())
         draft = _draft(prepared, Overrides(lambda _, width, __: columns(width).astype(np.float64)), self._options)
         data = MARK + b"".join(draft.frames)

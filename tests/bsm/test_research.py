@@ -141,3 +141,11 @@ def test_what_is_no_part_is_refused():
             research.PartCoder().decode(other)
     with pytest.raises(bsm.LimitError):
         research.PartCoder(limits="service", keep=1.0).encode(patch(60, 60))
+
+
+def test_what_a_part_cannot_have_is_refused_before_anything_is_coded():
+    with pytest.raises(bsm.MeshError, match="at most 8192 vertices, not 8464; cut it"):
+        research.PartCoder().encode(patch(92, 92))
+    for wrong in ({"bits": None}, {"keep_order": True}, {"block_size": 100}, {"partition": "metis"}, {"look": 1.0}):
+        with pytest.raises(bsm.OptionError, match=f"a part cannot have {next(iter(wrong))}"):
+            research.PartCoder(**wrong)

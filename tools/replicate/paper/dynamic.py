@@ -34,6 +34,11 @@ class Track(NamedTuple):
     bases: list[Floats]
 
     @property
+    def abrupt(self) -> int:
+        """Changes of c, from a block to the next, over a quarter of the mean."""
+        return int((np.abs(np.diff(self.sizes)) > 0.25 * self.sizes.mean()).sum())
+
+    @property
     def jump(self) -> float:
         """The largest change of c from a block to the next, over the mean."""
         return float(np.abs(np.diff(self.sizes)).max(initial=0.0) / self.sizes.mean())
@@ -185,6 +190,7 @@ def dynamic(study: Study) -> Iterator[Row]:
     )
     ours, theirs, literal = (tracks[f"{name}, eps_l = {BANDS[0]:g} eps_h"] for name in runs)
     price = {band: 100.0 * (own[0] / own[1] - 1.0) for band, own in prices.items()}
+    abrupt = [tracks[f"{name}, eps_l = {band:g} eps_h"].abrupt for band in BANDS for name in (LIKE_TEXT, CODEC)]
     capped = int((theirs.iterations == MOST).sum())
     worded = {
         name: " and ".join(", ".join(f"{jump:.0f}" for jump in jumps[name, band]) for band in BANDS) for name in runs
@@ -207,8 +213,10 @@ def dynamic(study: Study) -> Iterator[Row]:
         ),
         claim(
             "There are very few abrupt changes of c",
-            max(jump for band in BANDS for jump in jumps[LIKE_TEXT, band]) <= 25.0,
-            f"in percent of the mean c, at {', '.join(f'{f:g}' for f in factors)} of that error, with eps_l = "
+            10 * max(abrupt[::2]) <= len(cut.blocks),
+            f"of {len(cut.blocks) - 1} changes, {abrupt[0]} and {abrupt[2]} are over a quarter of the mean by "
+            f"Algorithm 2, {abrupt[1]} and {abrupt[3]} by the codec's rule. In percent of the mean c, "
+            f"at {', '.join(f'{f:g}' for f in factors)} of that error, with eps_l = "
             f"{BANDS[0]:g} eps_h and then {BANDS[1]:g}, the largest change is {worded[LIKE_TEXT]} by Algorithm 2. "
             f"It is {worded[CODEC]} by the codec's rule.",
             model,
