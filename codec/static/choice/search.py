@@ -127,8 +127,9 @@ class Search:
         if aim.bounds.contract.look < math.inf:
             queue = self._queue(ways, grid, aim, usual)
         else:
+            first = grid.repeat(usual)  # before any of its trials counts: places may move where parts repeat
             kept += self._widest(ways, aim)
-            queue = self._lucky(grid, aim, usual, kept)
+            queue = [self._hopes(grid, aim, first, begun=True)] if grid.repeats else []  # luck decides about bytes
         least = math.log(max(min((self._size(made.draft) for made in kept), default=math.inf) - aim.rest, 1.0))
         return [*kept, *search(queue, aim, self._price, least)], queue
 
@@ -157,12 +158,6 @@ class Search:
                 with suppress(LimitError):  # blocks that decoders would refuse
                     secant(partial(excess, way), way.first, way.least, way.most, tries, slack=SLACK / 2.0)
         return [*sizes]
-
-    def _lucky(self, grid: Gridded, aim: Smallest, usual: Trial, kept: list[Trial]) -> list[Hopes]:
-        """What to expect of grids where parts repeat, and luck decides about bytes."""
-        about, least = usual.about(), min((made.draft.size for made in kept), default=math.inf)
-        first = usual if least < (1.0 - DOUBT) * about else grid.repeat(usual)
-        return [self._hopes(grid, aim, first, begun=True)] if grid.repeats else []
 
     def _queue(self, ways: list[Way], grid: Gridded, aim: Smallest, usual: Trial) -> list[Hopes]:
         """What to expect of ways whose looks count, of which some have begun."""
