@@ -60,8 +60,9 @@ def read_gmsh(data: bytes, path: str | None, limits: Limits) -> Polygons:
             rows[kind][called][by_number(numbers, asked, "node" if of_nodes else "element")] = values
     dims = np.repeat([block.dim for block in mesh.cells], [len(table) for _, table in blocks])
     names = {(int(dim), int(number)): name for name, (number, dim) in mesh.field_data.items()}
-    pairs, places = np.unique(np.column_stack([dims, groups]), axis=0, return_inverse=True) if any(groups) else ((), 0)
-    metadata = named([names.get((dim, number), str(number)) for dim, number in np.array(pairs).tolist()], "group")
+    owned = np.column_stack([dims, groups]) if any(groups) else np.zeros((0, 2), np.int64)
+    pairs, places = np.unique(owned, axis=0, return_inverse=True)
+    metadata = named([names.get((dim, number), str(number)) for dim, number in pairs.tolist()], "group")
     if len(pairs) > 1:
         rows["ElementData"]["group"] = places.ravel().astype(np.int32)
     left = (*keywords.named, *([f"later steps ({later})"] if later else []))
