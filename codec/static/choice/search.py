@@ -128,7 +128,8 @@ class Search:
             queue = self._queue(ways, grid, aim, usual)
         else:
             first = grid.repeat(usual)  # before any of its trials counts: places may move where parts repeat
-            kept += self._widest(ways, aim)
+            still = [Gridded(self._prepared, aim.bounds, turn=grid.turn)] if grid.repeats else []  # none moves
+            kept += self._widest([*ways, *still], aim)
             queue = [self._hopes(grid, aim, first, begun=True)] if grid.repeats else []  # luck decides about bytes
         least = math.log(max(min((self._size(made.draft) for made in kept), default=math.inf) - aim.rest, 1.0))
         return [*kept, *search(queue, aim, self._price, least)], queue
