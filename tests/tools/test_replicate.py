@@ -5,6 +5,8 @@ import json
 import math
 import os
 import re
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -139,6 +141,19 @@ class TestTables:
         (found,) = json.loads((tmp_path / "results.json").read_text())["rates"]
         assert (found["mesh"], found["group"], found["vertices"]) == ("ring", "named", 384)
         assert "ring |" in (tmp_path / "rates-spread-named.md").read_text()
+
+    def test_one_table_of_the_paper_is_made_of_a_named_mesh(self, tmp_path):
+        for name in ("matplotlib", "pymetis", "scipy", "zstandard"):
+            pytest.importorskip(name, reason=f"needs {name} (extra paper)")
+        write_mesh(tmp_path / "ring.ply", torus(24, 16))
+        paper = [sys.executable, "-m", "tools.replicate", "--figure", "paper", "-o", str(tmp_path / "made"), "--table"]
+        done = subprocess.run([*paper, "7", "--quick", str(tmp_path / "ring.ply")], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        titles = [row["title"] for row in json.loads((tmp_path / "made" / "results.json").read_text())["paper"]]
+        assert titles and all("Table 7" in title for title in titles)
+        for wrong, said in ((["5", str(tmp_path / "ring.ply")], "name 4 more"), (["7", "gone.ply"], "no such file")):
+            done = subprocess.run([*paper, *wrong], capture_output=True, text=True)
+            assert done.returncode == 2 and said in done.stderr
 
     def test_tables_and_figures_of_every_stage(self, tmp_path):
         pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")

@@ -2,7 +2,8 @@
 
 Makes an environment where packages are missing, fetches the meshes of meshes.json, measures and writes one folder:
 tables in Markdown and LaTeX, figures in PDF and PNG, and results.json with every number, the commit, the processor and
-the time. About an hour on two cores; a run that was cut goes on where it was. With files of your own, their rates.
+the time. About an hour on two cores; a run that was cut goes on where it was. With files of your own, their rates, or
+one table of the paper: `--figure paper --table 3 own.ply`.
 """
 
 import argparse
@@ -26,6 +27,13 @@ MINUTES = {
 }
 QUICK = {"rates": 2.0, "outside": 1.0, "ablation": 1.5, "times": 0.5, "motion": 0.8, "denoising": 0.5, "paper": 4.0}
 STAGES = tuple(MINUTES)
+PRINTED = {
+    **{"1": "number-of-segments", "2": "overlap", "3": "overlap", "4": "overlap", "5": "coherence", "6": "times"},
+    **{"7": "powers", "figure-4": "edge-effect", "figure-5": "edge-effect", "figure-8": "coherence"},
+    **{"figure-11": "rate-and-error", "figure-12": "dynamic", "figure-13": "coarse-to-fine", "figure-14": "rivals"},
+    "figure-16": "large",
+}
+"""The job that makes each table and figure of the paper."""
 
 
 def environment(folder: Path, needed: tuple[str, ...]) -> None:
@@ -39,7 +47,8 @@ def environment(folder: Path, needed: tuple[str, ...]) -> None:
     python = folder / "environment" / "bin" / "python"
     if Path(sys.executable).absolute() == python.absolute():
         raise SystemExit(f"{', '.join(missing)} cannot be installed here")
-    print(f"missing here: {', '.join(missing)}; makes an environment in {python.parents[1]}", flush=True)
+    where = f"installs the extras eval and replicate with pip into {python.parents[1]}"
+    print(f"missing here: {', '.join(missing)}; {where}", flush=True)
     if not python.exists():
         subprocess.run([sys.executable, "-m", "venv", str(python.parents[1])], check=True)
     subprocess.run([str(python), "-m", "pip", "install", "-q", "-e", f"{ROOT}[eval,replicate]"], check=True)
@@ -48,20 +57,36 @@ def environment(folder: Path, needed: tuple[str, ...]) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("meshes", nargs="*", metavar="MESH", type=Path, help="only the rates of these files")
+    parser.add_argument("meshes", nargs="*", metavar="MESH", type=Path, help="your own meshes in place of all others")
     parser.add_argument("-o", "--output", metavar="FOLDER", type=Path, default=Path("replicate"))
     parser.add_argument("--quick", action="store_true", help="ten minutes: as many meshes as fit, of all sizes")
     parser.add_argument("--figure", choices=STAGES, help="only this table and figure")
+    parser.add_argument("--table", choices=PRINTED, help="of --figure paper, only this table or figure of the paper")
     parser.add_argument("--docs", action="store_true", help="put the tables into docs/measured.md, too")
     args = parser.parse_args()
+    if args.table and args.figure != "paper":
+        parser.error("--table is of the paper: add --figure paper")
+    if args.meshes and args.figure not in (None, "rates", "paper"):
+        parser.error(f"--figure {args.figure} takes no meshes; rates and paper do")
+    if args.meshes and (short := 5 - len(args.meshes)) > 0 and PRINTED.get(args.table) == "coherence":
+        parser.error(f"it compares five models: name {short} more")
+    if missing := [str(path) for path in args.meshes if not path.exists()]:
+        parser.error(f"no such file: {', '.join(missing)}")
     args.output.mkdir(parents=True, exist_ok=True)
     environment(args.output, FOR_PAPER if args.figure == "paper" else NEEDED)
     from tools.replicate.run import measure_all
 
-    chosen = ("rates",) if args.meshes else (args.figure,) if args.figure else STAGES
+    chosen = (args.figure,) if args.figure else ("rates",) if args.meshes else STAGES
     minutes = QUICK if args.quick else MINUTES
     wanted = {stage: minutes[stage] for stage in chosen}
-    measure_all(args.output, wanted, quick=args.quick, docs=args.docs and not args.meshes, named=args.meshes)
+    measure_all(
+        args.output,
+        wanted,
+        quick=args.quick,
+        docs=args.docs and not args.meshes,
+        named=args.meshes,
+        job=PRINTED.get(args.table),
+    )
 
 
 if __name__ == "__main__":

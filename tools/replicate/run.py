@@ -44,13 +44,22 @@ def shuffled(sources: list[Source]) -> list[Source]:
 
 
 def measure_all(
-    folder: Path, minutes: dict[str, float], *, quick: bool, docs: bool, named: Sequence[Path] = ()
+    folder: Path,
+    minutes: dict[str, float],
+    *,
+    quick: bool,
+    docs: bool,
+    named: Sequence[Path] = (),
+    job: str | None = None,
 ) -> None:
-    """Run the stages that are asked for, and write down what came of all that were run in this folder."""
-    own = Path(os.environ["BSM_MESHES"]) if os.environ.get("BSM_MESHES") else None
+    """Run the stages that are asked for, and write down what came of all that were run in this folder.
+
+    `named` meshes replace all others, and `job` is the only one of the paper's that is run.
+    """
+    own = Path(os.environ["BSM_MESHES"]) if os.environ.get("BSM_MESHES") and not named else None
     own_enough = set(minutes) == {"paper"} and complete(own)
     sources = sources_of(named, "named") if named or own_enough else fetch_meshes(folder / "meshes", note)
-    if own and not quick and not named:
+    if own and not quick:
         sources = sorted([*sources, *own_meshes(own)], key=lambda source: (source.vertices, source.name))
     workers = max(1, len(os.sched_getaffinity(0)))
     if "rates" in minutes:
@@ -73,8 +82,12 @@ def measure_all(
         chosen = [*shuffled(spread_over(unseen(sources, NOISY), NOISED)), *shared]
         run_stage(denoise_mesh, chosen, folder / "denoising", minutes["denoising"], note, workers=workers)
     if "paper" in minutes:
-        jobs = [Job(name, own, sources, quick, folder) for name in TABLES]
-        run_stage(make_tables, jobs, folder / "paper", minutes["paper"], note, workers=workers)
+        jobs = [Job(name, own, sources, quick, folder) for name in TABLES if job in (None, name)]
+        for path in [folder / "paper" / f"{name}.json" for name in TABLES] if named else ():
+            path.unlink(missing_ok=True)  # of other meshes
+        found = run_stage(make_tables, jobs, folder / "paper", minutes["paper"], note, workers=workers)
+        if named and len(found) < len(jobs):
+            raise SystemExit(f"{len(jobs) - len(found)} of {len(jobs)} tables could not be made")
     results = read(folder)
     (folder / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
     report.write(results, folder, note)

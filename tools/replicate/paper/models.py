@@ -129,7 +129,7 @@ class Study:
             wanted = min(role.vertices or 6000, 1200 if self.quick else 12_000)
             taken = {model.name for model in self._models.values()}
             free = [source for source in self.sources if source.name not in taken]
-            source = min(free, key=lambda source: abs(source.vertices - wanted))
+            source = min(free or self.sources, key=lambda source: abs(source.vertices - wanted))
             name, mesh = source.name, source.mesh()
         noisy = self.folder and self.folder / "noisy" / f"{role.noisy}.ply"
         if own and role.noisy and noisy and noisy.exists():
