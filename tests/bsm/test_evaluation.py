@@ -176,6 +176,19 @@ class TestPictures:
         exact = [{**found, "points": [{**p, "nmsve_db": None} for p in found["points"]]} for found in results[:3]]
         assert [picture.name for picture in draw_all(exact)] == ["m.theta"]
 
+    def test_lines_of_the_paper_that_are_named_are_among_whole_files(self, results):
+        figure = pytest.importorskip("matplotlib.figure", reason="needs matplotlib (extra eval)")
+        other = {**results[2], "codec": "oi-r1", "label": "oi-r1"}
+        for named, lines in (((), 2), (("oi-r1",), 3)):
+            (picture,) = (p for p in draw_all([*results[:3], other], named) if p.name == "m.nmsve")
+            picture.draw(drawn := figure.Figure())
+            assert len(drawn.axes[0].lines) == lines
+
+    def test_points_that_another_one_beats_are_counted(self, results):
+        (point,) = results[2]["points"]
+        worse = {**point, "bpv_total": 5, "nmsve_db": -49}
+        assert compare_curves(results[0], {**results[2], "points": [point, worse]})["beaten"]["nmsve_db"] == 1
+
     def test_lines_that_lie_on_each_other_are_drawn_once(self):
         points = [(1.0, -40.0), (2.0, -45.0)]
         moved = [(rate, error + 0.001) for rate, error in points]

@@ -361,6 +361,12 @@ def rate_curve_of(points: Sequence[Result], measure: str) -> RateCurve:
     return rate_curve([bits for bits, _ in pairs], [distortion for _, distortion in pairs])
 
 
+def beaten(points: Sequence[Result], measure: str) -> int:
+    """How many points of a line another one beats in both, so that its curve leaves them out."""
+    usable = [point for point in points_of(points, measure) if scaled(point[measure], measure) is not None]
+    return len(usable) - len(rate_curve_of(points, measure).distortions)
+
+
 def scaled(value: float, measure: str) -> float | None:
     """A distortion on the scale that curves are interpolated over: theta becomes 10 log10(theta)."""
     if measure != "theta_deg":
@@ -391,6 +397,7 @@ def compare_curves(reference: Result, tested: Result) -> Result:
     curves = {m: (rate_curve_of(reference["points"], m), rate_curve_of(tested["points"], m)) for m in MEASURES}
     at_angles = {f"{a:g}": rate_ratio(*curves["theta_deg"], scaled(a, "theta_deg") or 0.0) for a in (7.0, 10.0)}
     return {
+        "beaten": {m: beaten(tested["points"], m) for m in MEASURES},
         "mesh": tested["mesh"]["name"],
         "codec": tested["codec"],
         "reference": reference["codec"],
@@ -530,8 +537,9 @@ def frame_errors(frames: Sequence[Mapping[str, float]], title: str) -> bytes:
     return file.getvalue()
 
 
-def draw_all(results: Iterable[Result]) -> Iterator[Picture]:
-    """Every picture that the results of a folder allow: the paper's mesh by mesh, of whole files all meshes in one."""
+def draw_all(results: Iterable[Result], named: Iterable[str] = ()) -> Iterator[Picture]:
+    """Every picture that results allow: the paper's mesh by mesh, of whole files all in one, with lines by name."""
+    chosen = {"svd", "oi-r2", *named}
     by_mesh: dict[str, list[Result]] = {}
     for result in results:
         by_mesh.setdefault(result["mesh"]["name"], []).append(result)
@@ -544,7 +552,7 @@ def draw_all(results: Iterable[Result]) -> Iterator[Picture]:
         if lines := distinct({codec: line for codec, line in pairs.items() if line.points}):
             yield draw_rates({title_of(group[0]): lines}, PAPER_RATE, MEASURES["nmsve_db"], f"{mesh}.paper")
         if rest:  # SVD in the paper's mode represents the paper among whole files.
-            shown[mesh] = [*rest, *(r for r in paper if r["codec"] in ("svd", "oi-r2"))]
+            shown[mesh] = [*rest, *(r for r in paper if r["codec"] in chosen)]
     stem = next(iter(shown)) if len(shown) == 1 else "meshes"
     for measure, label in MEASURES.items() if shown else ():
         every = {title_of(group[0]): lines_of(group, measure) for group in shown.values()}
