@@ -66,8 +66,8 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
 def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keywords: Any) -> SequenceOptions:
     name = "balanced" if preset is None else preset
     if name in ("none", "lossless", "grid14", "paper"):
-        why = "it is for static meshes only" if name == "paper" else "GOPs round frames together; try near-lossless"
-        raise OptionError(f"a sequence cannot have preset {name}: {why}")
+        why = "it is for static meshes only" if name == "paper" else "GOPs round frames together"
+        raise OptionError(f"a sequence cannot have preset {name}: {why}; try near-lossless")
     effort = keywords.pop("effort", "normal")
     bounds = {bound: value for bound in BOUNDS if (value := keywords.pop(bound, None)) is not None}
     given = _fields("a sequence", _OF_SEQUENCES, keywords, SEQUENCE_TARGETS)
