@@ -499,7 +499,7 @@ class _Part:
         arrays = (("counts", shape.counts_attr, shape.counts), ("corners", shape.corners_attr, shape.corners))
         for name, attr, known in arrays:
             if attr.GetNumTimeSamples() > 1 and not np.array_equal(np.array(attr.Get(time), np.int64), known):
-                raise MeshError(f"{self.name} has other faces {when} (their {name}); if they may change, --runs")
+                raise MeshError(f"the faces of {self.name} change {when} (their {name}); if they may, --runs")
         if len(points) != shape.vertices:
             raise MeshError(f"{self.name} has {len(points)} points {when} and {shape.vertices} before")
         matrix = self.matrix(time, cache)
