@@ -21,7 +21,7 @@ from tests.shapes import torus
 MESHIO = {"inp": "abaqus", "bdf": "nastran", "nas": "nastran", "msh": "gmsh", "xdmf": "xdmf", "xmf": "xdmf"}
 VTK = {"vtk": "vtkUnstructuredGridWriter", "vtu": "vtkXMLUnstructuredGridWriter"}  # one of each library of files
 LIBRARIES = {"3mf": "lib3mf", "dae": "collada", **dict.fromkeys(USD_FORMATS, "pxr"), **dict.fromkeys(MESHIO, "h5py")}
-LIBRARIES |= dict.fromkeys(VTK, "vtk")
+LIBRARIES |= {**dict.fromkeys(VTK, "vtk"), **dict.fromkeys(("xdmf", "xmf"), "lxml")}
 READ = sorted(kind for kind, row in FORMATS.items() if row.reader and (kind in VTK or not row.apart))
 LIMITS = Limits(vertices=10_000, faces=10_000)
 
