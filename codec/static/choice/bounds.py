@@ -244,7 +244,7 @@ class Gaps(NamedTuple):
     def kept(self, reach: Matrix, moved: Matrix | None = None) -> Matrix:
         """How far vertices may be, of `reach`, so that no gap closes, or none of those that `moved` would close."""
         wrong = np.s_[:] if moved is None else self.closed(moved) > 1.0
-        near, reach = 0.5 / np.sqrt(squares_of(self.closing[wrong, 0])), reach.copy()
+        near, reach = (1.0 - FINEST_PART) / 2.0 / np.sqrt(squares_of(self.closing[wrong, 0])), reach.copy()
         np.minimum.at(reach, self.ends[wrong], near[:, None])
         return reach
 

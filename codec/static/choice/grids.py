@@ -12,7 +12,7 @@ from bsm.bitstream.container.header import MOST_GRID, Header
 from bsm.bitstream.container.packets import Grid
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
-from bsm.codec.geometry.mesh import box_around, extent_of
+from bsm.codec.geometry.mesh import box_around, extent_of, squares_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
 from bsm.codec.static.choice.bounds import COARSEST, SEEN, SPIKE, Bounds, Trial
 from bsm.codec.static.choice.congruence import lattice, transforms_of
@@ -157,7 +157,7 @@ class Gridded:
         start = tuple(self._hold(value) for value in origin + least * held)
         grid = Raster(start, held, tuple(int(value) for value in np.ptp(places, axis=0)), turn=self.turn)
         largest = np.array(grid.largest, np.int32)
-        places = self._prepared.linked.mended(places - least, largest, self._wanted(grid))
+        places = self._prepared.linked.mended(places - least, largest, self._wanted(grid, places - least))
         return replace(self._candidate(grid, places), step=step)
 
     def _apart(self, places: Levels, low: Matrix, cell: float) -> Levels:
@@ -203,7 +203,7 @@ class Gridded:
         @lru_cache
         def coded(repeats: bool) -> Draft:
             found = transforms_of(prepared, grid) if repeats else None
-            wanted = self._wanted(grid) if self.repeats and found is not None and len(found) else None
+            wanted = self._wanted(grid, places) if self.repeats and found is not None and len(found) else None
             whole = replace(grid, transforms=found)
             return grid_draft(prepared, whole, places, may and not prepared.light, wanted)
 
@@ -226,8 +226,12 @@ class Gridded:
         make = partial(coded, self.repeats)
         return Trial(step, positions, make, fixed, repeating=repeating, decoded=decoded, about=about)
 
-    def _wanted(self, grid: Raster) -> Matrix:
+    def _wanted(self, grid: Raster, places: Levels) -> Matrix:
         """Where each vertex would be, in cells, and the square of how far from there it may come, shape (n, 4)."""
         cell, low = grid.step / self._prepared.units.scale, self._prepared.units.into(np.array(grid.origin))
-        reach = np.minimum(self._bounds.gaps.kept(self._bounds.reaches) / cell, SPIKE)
-        return np.column_stack([(self._positions - low) / cell, np.square(reach)])
+        wanted, gaps = (self._positions - low) / cell, self._bounds.gaps
+        reach = np.minimum(gaps.kept(self._bounds.reaches) / cell, SPIKE)
+        # Who is past the middle of a gap leaves no room in it: there, all stay where they are.
+        past = squares_of(places - wanted) > np.square(reach)
+        reach[gaps.ends[past[gaps.ends].any(axis=1)]] = 0.0
+        return np.column_stack([wanted, np.square(reach)])
