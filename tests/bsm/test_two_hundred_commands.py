@@ -29,6 +29,7 @@ encode ring.ply --look 2 | ring.bsm
 encode ring.ply --size 2kB | ring.bsm
 encode ring.ply --size 2KB | ring.bsm
 encode ring.ply --theta 3 | ring.bsm
+encode ring.ply --theta 1e-9 | ring.bsm
 encode ring.ply --nmsve-db -45 | ring.bsm
 encode ring.ply --quick | ring.bsm
 encode ring.ply --effort best | ring.bsm
@@ -221,7 +222,6 @@ encode ring.ply --effort bst | unknown value bst; did you mean best
 encode ring.ply --set partition=mtis | unknown value 'mtis' of partition; did you mean metis
 encode ring.ply --set keep=7 | keep | 2
 encode ring.ply --theta 0 | mean angle 0 degrees cannot be a target | 2
-encode ring.ply --theta 1e-9 | cannot be kept | 10
 encode ring.ply --size 20 | 20 bytes at most cannot be | 10
 encode ring.ply -j -3 | argument -j/--jobs: -3 is less than 0
 encode ring.ply -o - --json | json | 2
@@ -260,7 +260,7 @@ decode old.bsm --frames 0:1 -o a.obj | single mesh
 decode cut.bsm | ends | 12
 info ring.ply | bsm encode ring.ply
 info ring.obj | bsm encode ring.obj
-info '' | '': No such file or directory | 9
+info '' | the name given for IN is empty; name a file | 2
 info later.bsm | version | 5
 info streams | folder
 verify ring.ply | bsm encode ring.ply
@@ -291,7 +291,7 @@ view none.ply | No such file
 view --port 99999 | argument --port: 99999 is more than 65535
 view --port -1 | argument --port: -1 is less than 0
 demo --vertices -1 | argument --vertices: -1 is less than 1
-tile ring.ply -o b -j x | argument -j/--jobs: invalid whole_number value: 'x'
+tile ring.ply -o b -j x | argument -j/--jobs: a whole number is expected, not 'x'
 curve -o a --blocks 0 | argument --blocks: 0 is less than 1
 curve -o a --repeat 0 | argument --repeat: 0 is less than 1
 curve ring.ply -o a.json | folder or a picture
@@ -353,6 +353,12 @@ def test_there_are_two_hundred():
 def test_it_does_what_was_meant(folder, words, made):
     assert run(*shlex.split(words)) == 0
     assert not made or (folder / made).stat().st_size > 0
+
+
+def test_what_only_exact_positions_keep_is_kept_with_a_note(folder, capsys):
+    assert run("encode", "ring.ply", "--theta", "1e-9") == 0
+    assert "ring.ply: positions are exact: no coarser ones keep the promise" in capsys.readouterr().err
+    assert (bsm.load("ring.bsm").positions[:, None] == bsm.load("ring.ply").positions).all(axis=2).any(axis=1).all()
 
 
 @pytest.mark.parametrize("row", lines(ADVICE), ids=" | ".join)

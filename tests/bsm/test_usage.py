@@ -127,7 +127,7 @@ def test_a_dry_run_reports_and_writes_nothing(tmp_path, capsys):
 
 def test_a_size_that_is_too_small_names_the_way_out(tmp_path, capsys):
     write_mesh(tmp_path / "a.npz", torus(30, 20))
-    assert main(["encode", str(tmp_path / "a.npz"), "--dry-run", "--size", "260"]) == 10
+    assert main(["encode", str(tmp_path / "a.npz"), "--dry-run", "--size", "180"]) == 10
     assert "preset none reaches it with look " in capsys.readouterr().err
 
 

@@ -33,7 +33,7 @@ def blocks() -> bytes:
 
 
 def refined() -> bytes:
-    return bsm.encode(MESH, max_error="0.1%", congruence=False, effort="best")  # a grid would be smaller
+    return bsm.encode(MESH, congruence=False)  # a grid would be smaller
 
 
 def on_a_grid() -> bytes:
