@@ -36,11 +36,11 @@ DEFINED = re.compile(r"^[A-Za-z_][\w \t*]*?\b\w+\(([^;{}()]*(?:\([^()]*\)[^;{}()
 CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
-    "codec proper, tokens": 346_517,
-    "rest of the product, tokens": 305_389,
-    "tools, tokens": 165_964,
-    "tuned constants of the search": 36,
-    "kernels driven by both Python and C": 11,
+    "codec proper, tokens": 363_099,
+    "rest of the product, tokens": 342_986,
+    "tools, tokens": 172_487,
+    "tuned constants of the search": 39,
+    "kernels driven by both Python and C": 15,
 }
 SLACK = 0.02
 """What a single change may add to a limit in tokens."""
