@@ -19,7 +19,7 @@ from bsm.bitstream.errors import BsmError
 from bsm.codec.decoding import decode
 from bsm.codec.sequence import gop, step_search
 from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.static.choice import blocks, grids, search
+from bsm.codec.static.choice import blocks, search
 from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
@@ -82,7 +82,7 @@ TOOLS: dict[str, Tool] = {
     "frames along normals": Tool(
         {}, [(coding, "local_frames", lambda places, _: UPRIGHT.repeat(len(places), axis=0))], decodes=False
     ),
-    "unfolding of faces": Tool({}, [(blocks, "turned", lambda _: None), (grids, "turned", lambda _: None)]),
+    "unfolding of faces": Tool({}, [(blocks, "turned", lambda _: None)]),
     "overlap of 5 % (not in the default)": Tool({"overlap": 1.05}),
     "warm start": Tool({"key_interval": 1}),
     "springs and prediction": Tool({"predict": False}),

@@ -142,7 +142,7 @@ class Search:
         raise TargetError(f"{bounds.contract} cannot be kept on this mesh; the best possible is {bounds.had}")
 
     def _widest(self, ways: list[Way], aim: Smallest) -> list[Trial]:
-        """Of each way the widest steps that keep the bounds, until finer ones would take more bytes than another."""
+        """Find the widest steps that keep the bounds, for each way, until finer ones take more bytes than another."""
         sizes: dict[Trial, float] = {}
         promise: dict[Way, float] = {}
 

@@ -43,7 +43,7 @@ def with_titles(
     pictures: Sequence[Image], titles: Sequence[str], bar: Bar | None = None, figures: Mapping[str, str] | None = None
 ) -> bytes:
     """A PNG file of pictures under titles, with a bar under the last one, and text; by matplotlib."""
-    for name in ("matplotlib.figure", "PIL.Image"):  # by which matplotlib writes
+    for name in ("matplotlib", "matplotlib.figure", "PIL.Image"):  # by the last of which matplotlib writes
         imported(name, "titles need matplotlib", "eval")
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import ListedColormap, Normalize
