@@ -138,8 +138,8 @@ def steps_of(way: Way) -> tuple[float, Matrix]:
     return first, np.union1d(SLACK * np.arange(math.ceil(low / SLACK), math.floor(high / SLACK)), first)
 
 
-def search(queue: list[Hopes], aim: Aim, price: float, least: float = math.inf) -> Iterator[Trial]:
-    """Open trials until none is worth its price; yield each one that is the best so far."""
+def search(queue: list[Hopes], aim: Aim, price: float, least: float, searches: int) -> Iterator[Trial]:
+    """Open trials until none is worth its price; yield each one that is the best so far. So many searches there are."""
     while queue:
         (gain, at), hopes = max(((hopes.next(least, price), hopes) for hopes in queue), key=lambda of: of[0][0])
         if least < math.inf and gain <= 0.0:
@@ -157,7 +157,7 @@ def search(queue: list[Hopes], aim: Aim, price: float, least: float = math.inf) 
                     else:
                         least = float(hopes.low.mean[at])
                         yield made
-            if len(hopes.bytes.known) > 3 * TRIES or not hopes.left.any():
+            if len(hopes.bytes.known) > 3 * TRIES * searches or not hopes.left.any():
                 queue.remove(hopes)
         except LimitError:  # blocks that decoders would refuse
             queue.remove(hopes)

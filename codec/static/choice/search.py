@@ -24,8 +24,9 @@ from bsm.codec.static.options import BALANCED, RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, TRIES, WIDEST, Contract, secant
 
-PRICES = {"quick": 2e-3, "normal": 6e-4, "best": 8e-5}
-"""Prices of a stage of a trial, as shares of the bytes, over the fourth root of the number of vertices."""
+PRICES = {"quick": (2e-3,), "normal": (6e-4,), "best": (6e-4, 8e-5)}
+"""Prices of a stage of a trial, one search after the other, as shares of the bytes, over the fourth root of the number
+of vertices. The best effort first does all that the normal one does."""
 FINEST = int(RANGES["grid"][1])  # bits along an axis
 BYTES = 3.0 / math.log(256.0)  # of a vertex, that a step e times as wide saves where most levels are not 0
 
@@ -79,7 +80,7 @@ class Search:
     def __init__(self, measures: Measures, options: EncodeOptions, size: Callable[[Draft], int]) -> None:
         self._measures, self._prepared = measures, measures.prepared
         self._options, self._size = options, size
-        self._price = PRICES[options.effort] * self._prepared.graph.size**0.25
+        self._prices = [price * self._prepared.graph.size**0.25 for price in PRICES[options.effort]]
 
     def smallest(self, contract: Contract) -> Draft:
         """The smallest stream that keeps a contract; raises `TargetError` if none does."""
@@ -112,8 +113,8 @@ class Search:
             hopes.fit(aim.most, -math.log(near.contract.look))
         fitting = (made for made in kept[-2:] if self._size(paying(self._prepared, made.congruent)) <= most)
         least = min(map(aim.error, fitting), default=math.inf)
-        price = self._price / max((-hopes.bytes.slope for hopes in queue), default=1.0)  # of bytes, in looks
-        kept += search(queue, aim, price, least)
+        price = self._prices[-1] / max((-hopes.bytes.slope for hopes in queue), default=1.0)  # of bytes, in looks
+        kept += search(queue, aim, price, least, len(self._prices))
         best = sorted((made for made in kept if aim.promised.keeps(made)), key=aim.error)
         drafts = (paying(self._prepared, made.congruent) for made in best)
         return next((draft for draft in drafts if self._size(draft) <= most), None)
@@ -131,8 +132,11 @@ class Search:
             still = [Gridded(self._prepared, aim.bounds, turn=grid.turn)] if grid.repeats else []  # none moves
             kept += self._widest([*ways, *still], aim)
             queue = [self._hopes(grid, aim, first, begun=True)] if grid.repeats else []  # luck decides about bytes
-        least = math.log(max(min((self._size(made.draft) for made in kept), default=math.inf) - aim.rest, 1.0))
-        return [*kept, *search(queue, aim, self._price, least)], queue
+        for count, price in enumerate(self._prices, 1):
+            least = math.log(max(min((self._size(made.draft) for made in kept), default=math.inf) - aim.rest, 1.0))
+            queue = [hopes for hopes in queue if hopes.left.any()]
+            kept += search(opened := [*queue], aim, price, least, count)
+        return kept, opened
 
     def _finest(self, bounds: Bounds) -> Draft:
         """The finest grid, or exact positions, where no other stream keeps a contract."""
