@@ -33,9 +33,8 @@ export async function compiled(url: URL): Promise<WebAssembly.Module> {
     if (/^http/.test(url.protocol)) {
         const response = await answered(url);
         if (/^application\/wasm\b/.test(response.headers.get("content-type") ?? ""))
-            return WebAssembly.compileStreaming(response).catch((error: Error) => {
-                throw new Error(`${url}: ${error.message}`);
-            });
+            // Read as a whole, what is wrong can be said.
+            return WebAssembly.compileStreaming(response).catch(async () => ofBytes(url, await bytesAt(url)));
         return ofBytes(url, await response.arrayBuffer());
     }
     return ofBytes(url, await bytesAt(url));

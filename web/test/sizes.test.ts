@@ -17,7 +17,7 @@ const LOADS: Record<string, [most: number, files: string[]]> = {
     sequences: [77800, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
     everything: [122400, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     encoding: [80000, ["encode-worker.js", "encoding.js", "encode.js", "encode.wasm"]],
-    "the page": [9400, ["three.js", "pool.js"]],
+    "the page": [9500, ["three.js", "pool.js"]],
 };
 
 for (const [what, [most, files]] of Object.entries(LOADS)) {
@@ -28,9 +28,9 @@ for (const [what, [most, files]] of Object.entries(LOADS)) {
     });
 }
 
-test("the page of tiles is at most 271500 bytes as `bsm view` sends it", () => {
+test("the page of tiles is at most 274000 bytes as `bsm view` sends it", () => {
     const sizes = [join(VIEWER, "viewer.js"), join(WEB, "built/small.wasm")].map(
         (path) => gzipSync(readFileSync(path), { level: 9 }).length,
     );
-    assert.ok(sizes[0] + sizes[1] <= 271_500, `viewer.js ${sizes[0]}, small.wasm ${sizes[1]}`);
+    assert.ok(sizes[0] + sizes[1] <= 274_000, `viewer.js ${sizes[0]}, small.wasm ${sizes[1]}`);
 });
