@@ -36,10 +36,10 @@ DEFINED = re.compile(r"^[A-Za-z_][\w \t*]*?\b\w+\(([^;{}()]*(?:\([^()]*\)[^;{}()
 CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
-    "codec proper, tokens": 363_099,
-    "rest of the product, tokens": 342_986,
-    "tools, tokens": 172_487,
-    "tuned constants of the search": 39,
+    "codec proper, tokens": 363_251,
+    "rest of the product, tokens": 342_983,
+    "tools, tokens": 172_474,
+    "tuned constants of the search": 40,
     "kernels driven by both Python and C": 15,
 }
 SLACK = 0.02
