@@ -199,8 +199,13 @@ export class View {
         );
         form.on("keep", "click", () => this.save(new Blob([this.arrival.bytes as BlobPart]), "bsm"));
         root.querySelector("form")!.addEventListener("submit", (event) => event.preventDefault());
-        stage.canvas.addEventListener("webglcontextlost", () => form.say("problem", LOST));
+        // Most lost contexts come back at once: only one that stays away is worth a sentence.
+        let gone = 0;
+        stage.canvas.addEventListener("webglcontextlost", () => {
+            gone = window.setTimeout(() => form.say("problem", LOST), 2000);
+        });
         stage.canvas.addEventListener("webglcontextrestored", () => {
+            clearTimeout(gone);
             if (form.part("problem").textContent === LOST) form.say("problem", "");
         });
         listenToKeys(form, stage, meshes);
