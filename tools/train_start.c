@@ -9,7 +9,7 @@
 
 enum { WEIGHTS = START_ROWS * WEIGHT_ROW, LEARNT = START_LEARNERS * MOST_TERMS };
 typedef struct { int32_t weight[WEIGHTS], learner[LEARNT], hit[TWIN_ROWS], whole[WHOLE_ROWS * WHOLE_CONTEXTS]; } State;
-static Writing written = {.capacity = 1 << 26};
+static Payload written = {.capacity = 1 << 26};
 
 static void code(bsmdec *decoder, const State *start) {
     Context *context = &decoder->context;

@@ -52,13 +52,13 @@ static int64_t faults_of(const Sides *s, int32_t k) {
     int64_t count = !face_at(s, k, false, own) && face_at(s, k, true, own);
     for (int side = 0; side < 3; side++, k = next_corner(k)) {
         if (opposite[k] < 0) continue;
-        face_at(s, opposite[k], false, other);
+        (void)!face_at(s, opposite[k], false, other);
         /* One of both may be turned over. */
         double turn = vertex[next_corner(k)] == vertex[next_corner(opposite[k])] ? -1.0 : 1.0;
         if (turn * dot(own, other) >= 0.0) continue;
         double first[AXES], second[AXES];
-        face_at(s, k, true, first);
-        face_at(s, opposite[k], true, second);
+        (void)!face_at(s, k, true, first);
+        (void)!face_at(s, opposite[k], true, second);
         count += FOLD * (turn * dot(first, second) >= 0.0);
     }
     return count;

@@ -22,7 +22,7 @@ from bsm.codec.blocks import overlap
 from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import Graph, components, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Reference, mean_edge_length
+from bsm.codec.geometry.metrics import Reference
 from bsm.codec.geometry.welding import group_rows
 from bsm.codec.signal.transform import MeasuredSpectrum
 from bsm.codec.static.units import Units, checksum_of, units_of
@@ -140,11 +140,6 @@ class Prepared:
     @cached_property
     def positions(self) -> Matrix:
         return self.units.into(self.mesh.positions)
-
-    @cached_property
-    def mean_edge(self) -> float:
-        """Mean length of a side of a face, in BSM units; 1 where that is zero."""
-        return mean_edge_length(self.positions, self.mesh.faces) or 1.0
 
     @cached_property
     def reference(self) -> Reference:

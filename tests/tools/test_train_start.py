@@ -7,14 +7,14 @@ import pytest
 from bsm.bitstream.container.wire import FrameType
 from tools import train_start
 from tools.surgery import scan
-from tools.vectors.store import NEXT
+from tools.vectors.store import FOLDER
 
 NAMES = "good-congruence-mirrors", "good-congruence-turned", "good-grid-knot"
 
 
 @pytest.mark.slow  # compiles the library
 def test_the_start_moves_to_the_grids_that_it_learns_from(tmp_path, capsys):
-    streams = [NEXT / f"{name}.bsm" for name in NAMES]
+    streams = [FOLDER.parent / "1.1" / f"{name}.bsm" for name in NAMES]
     train_start.main([*map(str, streams), "--rounds", "3", "--output", str(tmp_path / "start.bin")])
     rounds = re.findall(r"round \d: (\d+) grids, (\d+) bytes", capsys.readouterr().out)
     assert {grids for grids, _ in rounds} == {"2"}, "the last has no congruent parts"

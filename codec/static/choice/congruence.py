@@ -10,7 +10,6 @@ from bsm._core.bitstream import constant
 from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
 from bsm.codec.geometry.turns import Turn, cross_of, quaternion_of, turned_by
-from bsm.codec.static.choice.bounds import SEEN
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.targets import SLACK
 from bsm.codec.static.ways.grid import Raster
@@ -52,13 +51,11 @@ def lattice(prepared: Prepared, origin: Matrix, step: float, least: float, turn:
 def _motions(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Matrix, Matrix]:
     """Turns, shape (k, 3, 3), and shifts, shape (k, 3), between parts, in turned axes, and the share of vertices that
     each takes to others; sought once for like steps."""
-    usual = SEEN * prepared.mean_edge * prepared.units.scale
-    # Anew for each step, bytes would jump from one to the next; from the first one on, trials hang on their order.
-    known = usual * 4.0 ** round(math.log(step / usual, 4.0))
-    if known not in prepared.motions:
-        cell = FINER * known
-        prepared.motions[known] = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
-        prepared.motions[known][:, 9:12] *= cell
+    known = min(prepared.motions, key=lambda other: abs(math.log2(other / step)), default=math.inf)
+    if abs(math.log2(known / step)) > 1.0:  # anew for each step, bytes would jump from one to the next
+        known, cell = step, FINER * step
+        prepared.motions[step] = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
+        prepared.motions[step][:, 9:12] *= cell
     turns, shifts, shares = np.split(prepared.motions[known], [9, 12], axis=1)
     axes = turned_by(np.eye(3), turn) if any(turn) else np.eye(3)
     return axes @ turns.reshape(-1, 3, 3) @ axes.T, shifts @ axes.T, shares[:, 0]
