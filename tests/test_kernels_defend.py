@@ -23,9 +23,9 @@ from bsm.codec.static.choice.shaping import Shaper
 from bsm.encoding.options import encode_options
 from tests.codec.static.attributes.test_attributes import dressed
 from tests.motion import bending
+from tests.refined import LAYER, refined
 from tests.shapes import torus
 from tools.noise import gaussian_along_normals
-from tools.vectors.good_fields import LAYER, refined
 from tools.vectors.meshes import tangled
 
 BEYOND = 10**6

@@ -17,13 +17,12 @@ from bsm import AttributeEvent, Decoder, decode, decode_frames, decode_sequence
 from bsm.bitstream import errors
 from tests.streams import all_events, events_of
 from tools.vectors.__main__ import try_product
-from tools.vectors.large import LARGE
 from tools.vectors.made import BADS, GOODS
 from tools.vectors.store import FOLDER, NEEDS, arrays_of, needs_of, read_manifest
 
 VECTORS = read_manifest()
 GOOD = [vector for vector in VECTORS if vector.error is None]
-LONG = {"good-grid-large", "good-grid-noise", *LARGE}
+LONG = re.compile("good-(grid-(large|noise)$|large-|sequence-large)")
 """What takes the reference decoder seconds."""
 OF_SKIPPED = re.compile("(bad|unsupported)-(attribute|values)")
 LACKING = [f"extension {name}" for name in ("light", "sequence", "congruence")]
@@ -60,7 +59,7 @@ def triangles(positions, faces):
 
 
 @pytest.mark.parametrize(
-    "vector", [pytest.param(v, id=v.name, marks=[pytest.mark.slow] * (v.name in LONG)) for v in VECTORS]
+    "vector", [pytest.param(v, id=v.name, marks=[pytest.mark.slow] * bool(LONG.match(v.name))) for v in VECTORS]
 )
 def test_reference_decoder(vector, reference):
     """All of the core as the manifest says; of extensions that it says it lacks, and shapes without what it skips."""

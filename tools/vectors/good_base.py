@@ -16,8 +16,7 @@ from bsm.codec.static.preamble_encoding import Draft, Parts, join, prepare
 from bsm.codec.static.ways.grid import levels_field
 from bsm.codec.static.ways.in_cells import InCells, Spread
 from tools.surgery import Frames, frames_of, stream_of, with_header
-from tools.vectors.bounds import Bad
-from tools.vectors.good import Good
+from tools.vectors.good import Bad, Good
 from tools.vectors.meshes import grid_faces, hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
 
 USUAL = Spread()

@@ -10,9 +10,9 @@ from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Grid, write_brief
 from bsm.codec.decoding import decode
 from bsm.codec.static.encoder import encode
+from tests.refined import header_of
 from tools.surgery import frames_of, is_brief, stream_of
 from tools.vectors.good_attributes import charts, with_attributes
-from tools.vectors.good_fields import header_of
 from tools.vectors.meshes import torus
 
 MESH = torus(12, 9)

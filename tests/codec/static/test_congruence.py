@@ -24,10 +24,23 @@ from bsm.codec.static.targets import Contract, Target
 from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_grid, grid_of, sampled_size
 from bsm.commands.info import summarize
 from bsm.files.inspection import inspect_stream
+from tests.refined import header_of
 from tools.surgery import with_header
-from tools.vectors.good_congruence import about, mirrors
-from tools.vectors.good_fields import header_of
 from tools.vectors.meshes import together, torus
+
+
+def about(axis: int, parts: int) -> np.ndarray:
+    """A turn about an axis by a part of the circle."""
+    angle, (i, j) = 2.0 * np.pi / parts, ((1, 2), (2, 0), (0, 1))[axis]
+    turn = np.eye(3)
+    turn[i, i] = turn[j, j] = np.cos(angle)
+    turn[j, i], turn[i, j] = np.sin(angle), -np.sin(angle)
+    return turn
+
+
+def mirrors() -> np.ndarray:
+    """Mirrors along each axis."""
+    return np.array([np.diag([-1.0, 1.0, 1.0]), np.diag([1.0, -1.0, 1.0]), np.diag([1.0, 1.0, -1.0])])
 
 
 def bumpy(seed: int, rows: int = 24, columns: int = 18) -> TriangleMesh:

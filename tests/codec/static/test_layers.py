@@ -7,9 +7,9 @@ import pytest
 
 import bsm
 from bsm.bitstream.container.wire import FrameType
+from tests.refined import LAYER, base, on_grid, refined, soup
 from tests.streams import events_of
 from tools.surgery import spans_of
-from tools.vectors.good_fields import LAYER, base, on_grid, refined, soup
 from tools.vectors.meshes import torus
 
 MESH = torus(12, 10)

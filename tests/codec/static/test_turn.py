@@ -12,8 +12,8 @@ from bsm import Attribute, EncodeOptions, Encoder, Target, TriangleMesh, read_me
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.turns import turn_of, turned_by
 from bsm.codec.static.encoder import encode
+from tests.refined import header_of
 from tools.surgery import frames_of, is_brief, stream_of
-from tools.vectors.good_fields import header_of
 from tools.vectors.meshes import together, torus
 
 BOX = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])

@@ -12,7 +12,8 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.ways.grid import grid_field, levels_field
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
 from tools.surgery import scan, write_stream
-from tools.vectors.good import BASE
+
+BASE = EncodeOptions(block_size=30, keep=0.3, step=1 / 256, smoothing=0.0, threads=1)
 
 
 def soup(mesh: TriangleMesh) -> TriangleMesh:
