@@ -20,7 +20,9 @@ from bsm.files.pipes import about
 
 Skin: TypeAlias = npt.NDArray[np.float32]
 """Of each corner of each face: texels from the upper left of a picture, the picture, and its chart; or nothing."""
+# Texture filters and the blocks of JPEG and WebP mix neighboring texels. Three of them keep other charts out.
 _PAD = 3  # texels around a chart that have its colors
+# WebP ends at 16,383 pixels, and so do the textures of many graphics cards.
 _MOST_SIDE = 1 << 14
 _NEED = "textures are cut with Pillow and SciPy", "formats"
 
@@ -39,6 +41,8 @@ def checked(picture: bytes, name: str) -> bytes:
     with about(f"the image {name}"):
         try:
             with opened(io.BytesIO(picture)) as image:
+                # Pillow reads only the header until then, and a file that is cut short would fail much later, in
+                # another process.
                 image.load()
         except (OSError, ValueError, SyntaxError) as error:
             raise FormatError("it cannot be read; repair it, or take it away from the mesh") from error
@@ -49,11 +53,13 @@ def skin_of(texcoords: npt.NDArray[np.float32], materials: npt.NDArray[Any], pic
     """The skin of faces by their texture coordinates, shape (faces, 3, 2), and the pictures of their materials."""
     own = np.repeat(materials, 3).reshape(-1, 3, 1)
     ids = row_numbers(np.dstack([texcoords, own]).reshape(-1, 3).astype(np.float32))
+    # Corners with equal texture coordinates and material are one node. What is connected there is a chart.
     charts = components(graph_of_faces(ids.reshape(-1, 3), int(ids.max()) + 1))[ids].reshape(-1, 3, 1)
     sizes = np.zeros((len(pictures), 2))
     for number, path in enumerate(pictures):
         with opened(path) as picture:
             sizes[number] = picture.size
+    # Texture coordinates count from below, pictures from above.
     corners = (texcoords * [1, -1] + [0, 1]) * sizes[materials][:, None]
     return np.dstack([corners, own, charts]).astype(np.float32)
 
@@ -79,6 +85,7 @@ def cut_out(skin: Skin, pictures: Sequence[Path], factor: int) -> tuple[Skin, An
     np.maximum.at(high, charts, skin[..., :2].max(axis=1) / factor)
     if not (high - low).max() < _MOST_SIDE:
         raise LimitError("a texture repeats too often over one part; tiles cut out each repetition")
+    # Bilinear filters read half a texel beyond the edge of a triangle.
     low, high = np.floor(low).astype(np.int64) - 1, np.floor(high).astype(np.int64) + 2  # with texels that edges touch
     sizes = high - low
     places, wide, tall = _packed(sizes + 2 * _PAD)
@@ -90,8 +97,12 @@ def cut_out(skin: Skin, pictures: Sequence[Path], factor: int) -> tuple[Skin, An
             picture = np.asarray(image.convert("RGB"))
         for k in np.flatnonzero(used[:, 0] == number).tolist():
             (x, y), (across, down), (left, top) = (low[k] * factor).tolist(), sizes[k].tolist(), places[k].tolist()
+            # Charts may reach beyond the picture, which then repeats. An atlas cannot repeat, so the repetitions are
+            # cut out.
             found = picture.take(range(y, y + down * factor), 0, mode="wrap")
             found = found.take(range(x, x + across * factor), 1, mode="wrap")
+            # A mean of squares is the exact filter where the factor is a whole number. It needs no library, and does
+            # not blur.
             squares = found.reshape(down, factor, across, factor, 3).mean(axis=(1, 3))
             atlas[top : top + down, left : left + across] = np.rint(squares)
     skin = np.dstack([corners, np.zeros(len(skin) * 3).reshape(-1, 3), np.repeat(charts, 3).reshape(-1, 3)])
@@ -100,6 +111,8 @@ def cut_out(skin: Skin, pictures: Sequence[Path], factor: int) -> tuple[Skin, An
 
 def _packed(sizes: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], int, int]:
     """Where rectangles are on shelves of about a square, the tallest first, and how large it is."""
+    # Shelves waste a tenth of the area or so. Better packing costs far more time, and the waste has one color, which
+    # image codecs send for almost nothing.
     wide = max(int(sizes[:, 0].max()), int(np.sqrt(sizes.prod(axis=1).sum()) * 1.1))
     places, x, y, tall = np.zeros_like(sizes), 0, 0, 0
     for k in np.argsort(-sizes[:, 1], kind="stable").tolist():
@@ -116,8 +129,10 @@ def _spread(atlas: npt.NDArray[np.uint8], corners: npt.NDArray[Any]) -> npt.NDAr
     """An atlas whose texels outside of all triangles have the color of the nearest texel inside of one."""
     outside = imported("PIL.Image", *_NEED).new("1", atlas.shape[1::-1], 1)
     draw = imported("PIL.ImageDraw", *_NEED).Draw(outside).polygon
+    # Not numpy: filling polygons is a loop over pixels in C, and Pillow has it.
     for triangle in (corners.reshape(-1, 6) - 0.5).tolist():  # Pillow counts from the middles of texels
         draw(triangle, fill=0)
+    # Texels between charts get the color of the nearest one, since mipmaps of viewers mix them into the charts.
     nearest = imported("scipy.ndimage", *_NEED).distance_transform_edt
     return np.asarray(atlas[tuple(nearest(np.asarray(outside), return_distances=False, return_indices=True))])
 
@@ -137,5 +152,6 @@ def textured(mesh: TriangleMesh, skin: Skin, atlas: Any, rule: ImageRule) -> Tri
 def side_of_texel(mesh: TriangleMesh, skin: Skin) -> float:
     """The side of a texel on the surface, in the mean."""
     flat = np.pad(skin[..., :2].reshape(-1, 2), ((0, 0), (0, 1))).astype(np.float64)
+    # Areas and not lengths: triangles of a texture are often stretched along one direction.
     texels = face_geometry(flat, np.arange(len(flat), dtype=np.int32).reshape(-1, 3)).areas.sum()
     return float(np.sqrt(face_geometry(mesh.positions, mesh.faces).areas.sum() / max(texels, 1.0)))

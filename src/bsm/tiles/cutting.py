@@ -24,11 +24,17 @@ from bsm.tiles.sliding import slid
 Ints: TypeAlias = npt.NDArray[np.int64]
 Places: TypeAlias = npt.NDArray[np.int32]
 DEPTH = 10  # levels below the first that has to be cut
+# A page shows the coarsest level first, and the user waits for it. The size of the whole mesh must not matter for that.
 COARSEST = 1 << 13  # triangles of the coarsest level at most, about: ten kilobytes until a first picture
+# A table of all nodes of 7 levels has 8^7 entries, 16 MB. Below, only nodes that must be cut again are counted one by
+# one.
 _COUNTED = 7  # levels all of whose nodes are counted
 _SAMPLE = 40_000
+# Sliding spends part of the promise, and rounding to the lattice the rest: half of a look distance of 1 is left for it.
 _SLID = 0.5  # largest look distance of vertices that have slid
 _NEARER = 1.25  # samples are so much larger than in a picture of the whole, since they are few
+# Doubles hold all integers up to 2^53, but places are added and subtracted as 32-bit integers. This leaves a bit for
+# that.
 _FARTHEST = 1 << 30  # from the origin, in cells
 _SPREAD = (0x1F00000000FFFF, 0x1F0000FF0000FF, 0x100F00F00F00F00F, 0x10C30C30C30C30C3, 0x1249249249249249)
 """How 21 bits come to stand three apart."""
@@ -36,6 +42,7 @@ _SPREAD = (0x1F00000000FFFF, 0x1F0000FF0000FF, 0x100F00F00F00F00F, 0x10C30C30C30
 
 def along_curve(places: Ints) -> Ints:
     """A number for each place, of 21 bits an axis; consecutive ones are near each other."""
+    # Spreading the bits by masks takes five steps for a whole array. A loop over 21 bits would take four times as many.
     for halved, mask in enumerate(_SPREAD):
         places = (places | places << (32 >> halved)) & mask
     return np.asarray(places[:, 0] << 2 | places[:, 1] << 1 | places[:, 2])
@@ -56,7 +63,10 @@ class Lattice:
         """Return the cells of positions as floats, which hold any number."""
         with np.errstate(over="ignore"):
             return np.asarray(
-                np.floor((positions.astype(np.float64) - np.array(self.origin)) / self.cell + 0.5), np.float64
+                # Not numpy's rint: it rounds halves to even numbers, and the encoder rounds them up. Both must find the
+                # same cell, or the tile would be off by one along borders that it shares.
+                np.floor((positions.astype(np.float64) - np.array(self.origin)) / self.cell + 0.5),
+                np.float64,
             )
 
     def positions(self, places: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
@@ -69,9 +79,12 @@ def chosen_lattice(
     """Return the requested lattice, or one by the look of samples, and whether vertices slide along the surface.
 
     The cells represent every position exactly."""
+    # Coordinates beyond 1e150 overflow when they are squared, so this comes before anything is measured.
     require_sizes(np.array([raw.low, raw.high]), done="cut")
     chosen, slides = _by_look(raw, threads) if cell is None else (cell, False)
     lattice, ends = Lattice(chosen, origin or (0.0, 0.0, 0.0)), np.array([raw.low, raw.high])
+    # A cell whose mantissa has four bits times an integer below 2^30 is exact in a double. Then a place and its
+    # position are one-to-one, and it does not matter which tile computes it.
     short = 16 * math.frexp(chosen)[0] % 1 == 0
     if origin is None and short and np.abs(lattice.cells(ends)).max() >= _FARTHEST:  # from a point of the same grid on
         lattice = Lattice(chosen, tuple((lattice.cells(ends[0]) * chosen).tolist()))
@@ -88,6 +101,8 @@ def chosen_lattice(
 
 def _by_look(raw: Raw, threads: int) -> tuple[float, bool]:
     """The largest cell of few bits that keeps the default's promise, and whether vertices may slide."""
+    # Colors, normals and textures belong to places of the surface. Vertices that slide would take them along, so only
+    # bare meshes slide.
     bare, extent = not raw.kinds.keys() & {*CARRIED, "texcoord"}, np.ptp([raw.low, raw.high], axis=0).max() or 1.0
 
     def seen(faces: Ints) -> tuple[float, bool]:
@@ -97,23 +112,31 @@ def _by_look(raw: Raw, threads: int) -> tuple[float, bool]:
         edge = np.linalg.norm(np.diff(points[sample.faces], axis=1), axis=2).mean() or math.inf
         most = min(0.01 * sample.diagonal, edge / 2.0) or 1.0
         cell = 2.0 ** math.floor(math.log2(most))
+        # The sample may be flat or tiny, and have no picture at all. The bound on the largest error holds nevertheless.
         with suppress(MeshError):  # there is nothing to see
+            # The look of the whole mesh is measured in pictures of a certain size. A sample is drawn at the scale that
+            # it would have in them, or else the look of a small part would be judged as if the part filled the screen.
             pixels = _NEARER * max(LEAST_PIXELS / extent, EDGE_PIXELS / edge) * np.ptp(points, axis=0).max()
             metric = LookMetric(sample, threads=1, most_pixels=math.ceil(pixels))
             if bare and (slides := metric.distance(moved := slid(points, sample.faces)) <= _SLID):
                 points = moved
+            # The look distance grows about in proportion to the cell, so the next power of two is computed rather than
+            # searched for.
             while (far := metric.distance(np.rint(points / cell) * cell)) > 1.0:
                 cell *= 0.5 ** max(1, math.floor(math.log2(far)))
+            # Between two powers of two, cells of four bits are tried from the largest down: they are still exact.
             larger = (share * cell / 8 for share in range(15, 8, -1) if share * cell <= 8 * most)
             cell = next((c for c in larger if metric.distance(np.rint(points / c) * c) <= 1.0), cell)
         return cell, slides
 
     cells, slides = zip(*ordered_map(seen, _samples(raw), threads))
+    # One lattice serves all tiles. The most delicate of the three samples decides.
     return min(cells), all(slides)
 
 
 def _samples(raw: Raw) -> list[Ints]:
     """The faces around three vertices, in any order of the faces."""
+    # Every k-th face is enough to find how far a part with as many faces as wanted reaches.
     firsts = raw.table("faces")[:: max(1, raw.rows["faces"] // _SAMPLE), 0]
     some = raw.table("positions")[firsts].astype(np.float64)
     share = min(1.0, _SAMPLE / max(1, raw.rows["faces"]))
@@ -211,6 +234,8 @@ def cut(raw: Raw, lattice: Lattice, slides: bool, most: int) -> Plan:
             coded.write(plan.codes(lattice.places(piece)).data)
     # All nodes down to a level that a table has room for, and below it those alone that have to be cut there.
     coarse = 3 * max(0, depth - max(above, _COUNTED))
+    # Faces are counted twice rather than kept: a pass over the file is cheap, and one number for each face might not
+    # fit.
     number = np.zeros(1 << (3 * depth - coarse), np.int64)
     for found in _first_codes(raw, kinds):
         number += np.bincount(found >> coarse, minlength=len(number))
@@ -229,6 +254,8 @@ def cut(raw: Raw, lattice: Lattice, slides: bool, most: int) -> Plan:
         if count and len(name) > above and (count <= most or len(name) > depth):
             yield name, (begin, count)
         elif count:
+            # A face belongs to the leaf of its first corner. Cutting faces at the borders of cubes would add vertices
+            # that the mesh does not have, and cracks where two tiles round them.
             for eighth in "01234567":
                 yield from leaves(name + eighth)
 
@@ -252,17 +279,22 @@ def _sort_faces(plan: Plan, raw: Raw) -> None:
             faces = np.ascontiguousarray(rows[:, : plan.kinds["cut"][1]])
             codes = mapped(raw.folder, "codes", plan.kinds)[:, 0][faces[:, :3]]
             leaf = (np.searchsorted(ends[:, 0], codes[:, 0], "right") - 1).astype(np.min_scalar_type(len(ends)))
+            # Stable, so that the faces of a leaf keep the order of the file: the result does not depend on the size of
+            # pieces.
             order = np.argsort(leaf, kind="stable")
             numbers, first, count = np.unique(leaf[order], return_index=True, return_counts=True)
             for number, begin, size in zip(numbers.tolist(), first.tolist(), count.tolist()):
                 file.seek(faces[0].nbytes * int(following[number]))
                 file.write(faces[order[begin : begin + size]].data)
             following[numbers] += count
+            # Corners outside of the cube belong to another tile, too. Both must leave such a place where it is, or a
+            # crack opens; so the table `outside` tells each tile about them.
             row, corner = np.nonzero((codes < ends[leaf, :1]) | (codes >= ends[leaf, 1:]))
             places = plan.lattice.places(raw.table("positions")[faces[row, corner]])
             found = np.column_stack([codes[row, corner], places, ends[leaf[row], 0]])
             outside.append(np.unique(found, axis=0))
     with table_file(raw.folder / "outside") as file:
         file.write(np.unique(np.concatenate(outside), axis=0).tobytes())
+    # These two are as large as the mesh, and all that is needed of them is in `cut` and `outside` now.
     for name in ("faces", "codes"):
         (raw.folder / name).unlink()

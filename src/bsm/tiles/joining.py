@@ -31,6 +31,8 @@ from bsm.tiles.shards import Table, Tiles
 _COPIED = 1 << 24
 TILESET, _CONTENT = "tileset.json", "glb"
 _NORMALS = "6bits"  # near those that decoders predict, so that they take a bit or two
+# 3D Tiles knows one error for a tile. Without this factor, a viewer would load a finer tile only when texels of the
+# coarse one are 16 pixels wide.
 _SEEN = 16.0  # times its error, of a tile with a texture: viewers let errors have 16 pixels by default, not texels
 CONTENTS = ("bsm", "plain")
 CONTENT_HELP = "GLBs of a tileset: bsm (default, small), or plain, for programs without our decoder"
@@ -40,10 +42,13 @@ def write_joined(
     tiles: Tiles, chosen: Iterable[tuple[Facts, Tile]], output: str, console: Console, *, overwrite: bool
 ) -> dict[str, int]:
     """Write a binary PLY of tiles; vertices that they share are one."""
+    # The tiles are walked twice, first to find shared vertices, and then to number them.
     chosen = list(chosen)
     if not chosen:
         raise OptionError("no tile is that close to the mesh: give a larger --error, or a level")
     with by_its_own_name(tempfile.gettempdir()), ExitStack() as opened:
+        # A PLY file has all vertices before all faces, and their number in its header. So both are collected in files
+        # of their own until their numbers are known.
         tables, points, corners = (opened.enter_context(tempfile.TemporaryFile()) for _ in range(3))
         outside, single = list[Table](), True
         with console.progress("decoding") as progress:
@@ -52,11 +57,17 @@ def write_joined(
                 np.save(tables, table)
                 np.save(tables, triangles)
                 positions = tiles.lattice.positions(table[:, :3])
+                # Floats of 32 bits are written if they hold every position exactly; doubles would double the file for
+                # nothing.
                 single = single and bool((positions.astype(np.float32) == positions).all())
                 outside.append(table[tiles.root.outside(tile.name, table[:, :3])])
                 progress(number, len(chosen))
         # Of what two tiles share one at least reaches out of its cube for it.
+        # Only vertices outside of the cube of a tile can be shared. They are few, so this table fits into memory, and
+        # the mesh need not.
         shared, kind = np.unique(np.concatenate(outside), axis=0), np.float32 if single else np.float64
+        # Index -1 is the last entry: vertices that are not shared look there, and always find that they have no number
+        # yet.
         numbers = np.full(len(shared) + 1, -1, np.int64)  # the last for those that are not shared
         vertices = total = 0
         tables.seek(0)
@@ -89,6 +100,7 @@ def write_joined(
 def _places_in(shared: Table, table: Table) -> Ints:
     """Which of the `shared` vertices each one of a table is; -1: none."""
     low, high = table[:, :3].min(axis=0).astype(np.int64), table[:, :3].max(axis=0)
+    # Comparing with the whole table would take quadratic time over all tiles.
     near = np.flatnonzero(((shared[:, :3] >= low) & (shared[:, :3] <= high)).all(axis=1))
     which = row_numbers(np.concatenate([shared[near], table]))
     known = np.full(len(which), -1, np.int64)
@@ -110,8 +122,11 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
     with console.progress("writing") as progress:
         for number, (name, (shard, tile)) in enumerate(known.items(), 1):
             mesh = tiles.mesh(shard, tile)
+            # glTF holds single precision. Positions from the corner of the tile are small integers times the cell, and
+            # keep all bits.
             moved = (tiles.lattice.cells(mesh.positions) - ends[name][0]) * tiles.lattice.cell
             moved = moved.astype(np.float32).astype(np.float64)
+            # Viewers of 3D Tiles draw a mesh without normals flat, or not at all.
             normals = vertex_normals(moved, mesh.faces).astype(np.float32)
             shown = (*mesh.attributes, *([Attribute("normal", normals, "vertex", "normal")] if sent else []))
             mesh = replace(mesh, positions=moved, attributes=shown, metadata={**mesh.metadata, "up": "z"})
@@ -149,6 +164,8 @@ def _tree(tiles: Tiles, errors: Mapping[str, float], ends: Mapping[str, Ints]) -
         """A node of the octree, where `around` is the lowest place of the one above."""
         low, high = ends[name]
         half, moved = (high - low) * tiles.lattice.cell / 2, (low - around) * tiles.lattice.cell
+        # A node without a tile of its own has the largest error there is, so that viewers go on to its children at
+        # once.
         tile: Facts = {"geometricError": errors.get(name, diagonal), "refine": "REPLACE"}
         tile["boundingVolume"] = {"box": [*half.tolist(), *np.diag(half).ravel().tolist()]}
         tile["transform"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *moved.tolist(), 1]
@@ -158,6 +175,7 @@ def _tree(tiles: Tiles, errors: Mapping[str, float], ends: Mapping[str, Ints]) -
 
     root = node("r", ends["r"][0])
     moved = np.eye(4)  # from the mesh to meters with z up
+    # 3D Tiles has meters and z up. One matrix at the root turns and scales everything, and no position changes.
     moved[:3, :3], moved[:3, 3] = placed.matrix, placed.matrix @ tiles.lattice.positions(ends["r"][0])
     root["transform"] = moved.T.ravel().tolist()
     return {"asset": {"version": "1.1", "generator": "bsm"}, "geometricError": diagonal * placed.scale, "root": root}

@@ -29,6 +29,8 @@ from bsm.tiles.reading import mapped
 from bsm.tiles.sliding import slid
 
 Faces: TypeAlias = npt.NDArray[np.int32]
+# Of a surface, an eighth of a cube has a quarter of the faces. With a quarter kept, tiles of all levels are about
+# equal.
 _KEPT = 4  # one of this many triangles stays from level to level
 
 
@@ -57,12 +59,15 @@ def tile_one(job: TileJob, console: Console) -> Facts:
         sent = textured(mesh, skin, atlas, job.images)
         written = compare_image(name, (folder / f"{name}.atlas").read_bytes(), images_in(sent.metadata)[0][1])
         counts["psnr_db"] = finite(math.inf if written.psnr_db is None else written.psnr_db)
+        # A viewer chooses the level by this number. Where a texture is halved with each level, its texels are the
+        # larger error.
         error = error if name in plan.leaves else max(error, plan.lattice.cell * side_of_texel(mesh, skin))
     if not job.finest:
         with open_output(folder / f"{name}.mesh", overwrite=True, follow=False) as file:
             for table in (np.array(error), places, mesh.faces, skin, *(_of_vertices(a, mesh) for a in mesh.attributes)):
                 write_npy(file, table)
     sent, cells = replace(sent, positions=plan.lattice.positions(places)), plan.lattice
+    # One thread: tiles are encoded side by side, in processes, and those have all cores already.
     part = given_part(sent, grid_cell=cells.cell, grid_origin=tuple(cells.origin), threads=1)
     data = b"".join(part.encode(Progress("")).attempt.frames)
     write_output(job.output, data, overwrite=True, follow=False)
@@ -80,16 +85,21 @@ def _leaf(plan: Plan, name: str, folder: Path) -> tuple[TriangleMesh, Skin, int]
     begin, count = plan.leaves[name]
     faces = mapped(folder, "cut", plan.kinds)[begin : begin + count]
     used, corners = np.unique(faces[:, :3], return_inverse=True)
+    # Fancy indices copy only the rows that the tile needs, so a process holds a tile and not the mesh.
     points = mapped(folder, "positions", plan.kinds)[used].astype(np.float64)
     corners = corners.reshape(-1, 3)
     spots = plan.lattice.places(points)
+    # Vertices that other tiles use stay, since those tiles do not know how far they would slide here.
     if plan.slides:
         spots = plan.lattice.places(slid(points, corners, _held(plan, name, folder, spots)))
     places, numbers, _ = welded(spots)
     inside = ~plan.outside(name, places)
+    # Each vertex counts in the tile whose cube it is in, or shared vertices would count several times in the sum of all
+    # tiles.
     joined = len(np.unique(row_numbers(points)[inside[numbers]])) - int(inside.sum())
     # Faces that have a place twice cannot be seen, and take more bits than others.
     seen = (spots[corners] != spots[corners[:, [1, 2, 0]]]).any(axis=2).all(axis=1)
+    # A tile without faces would not be a mesh. One face, though it has no area, keeps the tree whole.
     faces, corners = (rows[seen] if seen.any() else rows[:1] for rows in (faces, corners))
     left, corners = np.unique(corners, return_inverse=True)
     used, corners = used[left], corners.reshape(-1, 3)
@@ -97,6 +107,8 @@ def _leaf(plan: Plan, name: str, folder: Path) -> tuple[TriangleMesh, Skin, int]
 
     def carried(what: Any) -> Attribute:
         values = mapped(folder, what, plan.kinds)[used]
+        # Vertices that fall together may have different colors. These become values of corners, so that no color is
+        # lost.
         if np.array_equal(values[some][numbers], values):
             return Attribute(what, values[some], "vertex", what)
         different, rows = np.unique(values, axis=0, return_inverse=True)
@@ -128,6 +140,7 @@ def welded(places: npt.NDArray[np.int32]) -> tuple[Places, Faces, Ints]:
 def keys_of(places: npt.NDArray[np.int32], low: Ints | None = None) -> Ints:
     """A number for each place of a tile, different for different places."""
     shifted = places.astype(np.int64) - (places.min(axis=0) if low is None else low)
+    # The code of a place has 21 bits for each axis. Long triangles reach far out of their cube and can exceed that.
     if shifted.max(initial=0) > MOST_GRID:
         raise TargetError(
             f"a tile is larger than {MOST_GRID} cells, for it has long triangles; choose a larger --grid-cell"
@@ -139,6 +152,8 @@ def _held(plan: Plan, name: str, folder: Path, places: Places) -> npt.NDArray[np
     """Which places other tiles use, too: those outside of a node, and those inside that faces of others reach."""
     outside = mapped(folder, "outside", plan.kinds)
     begin, end = plan.ends(name)
+    # The table is sorted by codes, and a node is a range of codes: two binary searches find its part of a file of any
+    # size.
     rows = np.array(outside[slice(*np.searchsorted(outside[:, 0], (begin, end)))])
     rows = rows[(rows[:, 4] < begin) | (rows[:, 4] >= end)]
     low = places.min(axis=0).astype(np.int64)
@@ -157,6 +172,7 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
         children.append((places, faces + first, *values))
         first += len(places)
     together, corners, *tables = map(np.concatenate, zip(*children))
+    # Coarse tiles of large meshes are made in many processes at a time. Each would otherwise hold its input twice.
     del children, places, faces, values  # as large as all else
     places, numbers, some = welded(together)
 
@@ -168,6 +184,7 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
 
     faces, skin = numbers[corners], joined_skins(skins)
     del together, corners, numbers
+    # Welding may leave nothing of flat or tiny children. See `_leaf`: one face keeps the tree whole.
     if (empty := degenerate(faces)).all():
         return TriangleMesh(places.astype(np.float64), faces[:1], carried(np.arange(len(places)))), skin[:1], before
     faces, skin = faces[~empty], skin[~empty]
@@ -180,6 +197,7 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
     apart = farthest_from_surface(places.astype(np.float64), new.astype(np.float64), smaller)
     near = np.zeros(0, np.int64)
     if tables:
+        # Imported here, since a process of leaves never needs it, and there are many such processes.
         from scipy.spatial import KDTree  # a third of what a process loads
 
         near = KDTree(places).query(new)[1]
@@ -195,4 +213,5 @@ def simplified(
     new, numbers, _ = welded(np.rint(kept + low).astype(np.int32))
     there = ~degenerate(corners := numbers[corners])
     new, smaller, _ = compact(new, corners[there])
+    # Simplifying may end with nothing, where all vertices fall together. The input is then the better coarse tile.
     return (new, smaller, left[there]) if len(smaller) else (places, faces, faces if wedges is None else wedges)

@@ -19,6 +19,7 @@ from bsm.tiles.reading import ABOUT, CARRIED, Kinds
 
 FOOT = 16  # bytes behind the index of a shard
 NO_JSON = (ValueError, KeyError, TypeError, AttributeError, RecursionError)
+# These keep sums and products of such numbers finite, and exact as 64-bit integers.
 _MOST, _FARTHEST_PLACE, _LARGEST = 1 << 60, 1 << 31, 1e290
 _KINDS = ("|u1", "<u2", "<f4")  # of numbers that vertices have
 _SUM = re.compile(r"[0-9a-f]{64}")
@@ -46,6 +47,7 @@ class Tile:
 def json_of(name: str, limits: Limits) -> Any:
     """Return the contents of a JSON file of at most `limits.metadata_bytes`."""
     source = Input(name)
+    # One byte more than allowed tells a file that is too large without reading all of it.
     data = source.peek(int(min(limits.metadata_bytes, _MOST)) + 1)
     source.close()
     limits.check("metadata_bytes", len(data))
@@ -54,6 +56,8 @@ def json_of(name: str, limits: Limits) -> Any:
 
 def parsed(data: bytes) -> Any:
     """Return what JSON text means; numbers that JSON does not have are a `ValueError`."""
+    # Python reads NaN and Infinity, which JSON does not have. They would pass every comparison that asks whether a
+    # number is too large.
     return json.loads(data, parse_constant=_refuse)
 
 
@@ -70,6 +74,7 @@ def read_manifest(path: str, limits: Limits) -> tuple[Facts, Lattice, Root, Kind
             raise KeyError("format")
         if given["version"] != 1:
             raise FormatError(f"{name}: these tiles are of version {given['version']!r}; this program knows 1")
+        # Said here, since each tile would otherwise be refused one by one, by an error that speaks of a stream.
         if (major := given.get("stream", 0)) != MAJOR:  # version 0 had no such entry
             older = "encode the source again, or decode it with the release that wrote it"
             message = f"{name}: these tiles are written by version {major} of the format, and this reads {MAJOR}: "
@@ -81,6 +86,8 @@ def read_manifest(path: str, limits: Limits) -> tuple[Facts, Lattice, Root, Kind
         return _checked(given)
     except BsmError:
         raise
+    # Whatever is missing or of a wrong type raises one of these. A list of checks for each would be longer, and would
+    # forget some.
     except NO_JSON as error:
         raise FormatError(f"{name}: this is not a manifest of tiles: {error!r:.300}") from error
 
@@ -90,6 +97,7 @@ def _checked(given: Facts) -> tuple[Facts, Lattice, Root, Kinds]:
     root = Root(places(given["root"]["low"]), whole(given["root"]["bits"], 1, 59))
     if not cell >= 1.0 / _LARGEST:
         raise ValueError(f"the cell is {cell}")
+    # A name of a numpy type comes from the file. Others than these three could take any amount of memory.
     kinds = {what: (str(kind), whole(size, 3, 4)) for what, (kind, size) in given.get("attributes", {}).items()}
     if any(what not in CARRIED or kind not in _KINDS for what, (kind, _) in kinds.items()):
         raise ValueError("attributes")
@@ -99,10 +107,12 @@ def _checked(given: Facts) -> tuple[Facts, Lattice, Root, Kinds]:
         whole(given[key], 1)
     for number, level in enumerate(_listed(given["levels"])):
         [whole(level[key], 1) for key in ("tiles", "faces", "bytes")]
+        # A cube has at most 2^59 places along a side, so there are no deeper levels.
         if whole(level["level"]) > 60 or (number and level["level"] <= given["levels"][number - 1]["level"]):
             raise ValueError("the order of levels")
         real(level["error"], 0.0)
     for shard in _listed(given["shards"]):
+        # The name becomes a part of a path or URL. A name like ../x would lead out of the folder.
         if not re.fullmatch(r"\d{5,9}\.tiles", shard["file"]) or not _SUM.fullmatch(shard["sha256"]):
             raise ValueError(shard["file"])
         whole(shard["index"], 2, whole(shard["size"]) - FOOT)
@@ -122,6 +132,7 @@ def parse_index(name: str, data: bytes, shard: Mapping[str, Any], root: Root) ->
         for tile in tiles:
             if not re.fullmatch("r[0-7]{0,59}", tile.name) or tile.level > root.bits or not _SUM.fullmatch(tile.sha256):
                 raise ValueError(tile.name)
+            # An offset that is too large would make a server send nothing, or another tile.
             whole(tile.offset, 0, shard["size"] - shard["index"] - FOOT - whole(tile.size, 1))
             [whole(count, 1) for count in (tile.vertices, tile.faces)]
             real(tile.error, 0.0)

@@ -33,15 +33,22 @@ ABOUT = ("unit", "up", "provenance")
 CARRIED = {"color": ("red", "green", "blue", "alpha"), "normal": ("nx", "ny", "nz")}
 _CORNERS = ("vertex_indices", "vertex_index")
 _KNOWN = ("x", "y", "z", "length", "corners")
+# A piece of this many positions takes 6 MB as doubles, and all that is derived from it (cells, codes, corners) is in
+# memory at the same time.
 ROWS = 1 << 18  # that are in memory at a time
 _HEAD = 1 << 16
 _TEXT = 1 << 23
+# A backslash at the end of a line of OBJ joins it with the next one. A piece of text must not end there, or the reader
+# would take the rest for a line of its own.
 _TEXT_END = 1 << 6  # bytes in which a line that goes on ends
 _MOST_INDEX = (1 << 32) - 1
+# A piece of an OBJ file inherits the material that was named last, so its line is put before the next piece.
 _USED = re.compile(rb"^[ \t]*usemtl[ \t][^\r\n]*[^\s\\]", re.MULTILINE)
 _WHITE = b"P6 1 1 255 \xff\xff\xff"  # the picture of a material that has none
 
 
+# The tables are files, not arrays, since a mesh may be larger than memory. Each is written once from start to end,
+# which any disk does fast, and is mapped afterwards, so that the system drops pages when memory gets short.
 @dataclass(frozen=True)
 class Raw:
     """A mesh as tables in files of a folder."""
@@ -62,6 +69,8 @@ class Raw:
         """A table from its beginning to its end."""
         kind, columns = self.kinds[what]
         with (self.folder / what).open("rb") as file:
+            # Mapped pages would count as memory of this process for as long as the map lives. A pass from start to end
+            # reads instead.
             while len(piece := np.fromfile(file, kind, columns * ROWS)):
                 yield piece.reshape(-1, columns)
 
@@ -79,6 +88,7 @@ def table_file(path: Path) -> Iterator[BinaryIO]:
 def mapped(folder: Path, what: str, kinds: Kinds) -> Array:
     kind, columns = kinds[what]
     path = folder / what
+    # mmap refuses empty files.
     return (np.memmap(path, kind, "r") if path.stat().st_size else np.zeros(0, kind)).reshape(-1, columns)
 
 
@@ -89,6 +99,8 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     kind = file_format or format_of_name(name) or format_of_bytes(head)
     if not head:
         raise FormatError("the file is empty")
+    # Text, and polygons in binary files, have rows of unknown sizes. Such files are read as a whole, which needs
+    # memory, but is right for every file that the ordinary readers know.
     raw, read = Raw(folder), _READERS.get(kind or "", partial(_read_whole, kind))
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     largest, files = 0, dict[str, BinaryIO]()
@@ -103,6 +115,7 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
                 largest = max(largest, int(piece[:, :3].max()))
             if what not in files:
                 files[what] = opened.enter_context(table_file(folder / what))
+                # The order of bytes is fixed, so that processes on other machines of a cluster read the same numbers.
                 raw.kinds[what] = piece.dtype.newbyteorder("<").str, piece.shape[1]
             if raw.kinds[what][1] != piece.shape[1]:
                 raise MeshError(
@@ -118,6 +131,8 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     if largest >= vertices:
         raise MeshError(f"a face refers to vertex {largest}, outside 0..{vertices - 1}")
     for what in CARRIED:
+        # An OBJ file may give some vertices a color and others none. Rows of a table are found by the number of the
+        # vertex, so a gap would move the colors of all vertices after it.
         if raw.rows.get(what, vertices) != vertices:
             raise MeshError(f"{raw.rows[what]} of {vertices} vertices have a {what}: give all of them one, or none")
     beside = Beside(None if is_url(name) or name == "-" else Path(name).parent, DEFAULT_LIMITS)
@@ -140,6 +155,7 @@ def _textures(raw: Raw, beside: Beside) -> int:
         for what in ("material", "mtllib", "image"):
             raw.left_out.pop(what, None)
     raw.left_out.update(dict.fromkeys([*([] if any(pictures) else ["texcoord"]), *notes]))
+    # A material without an image gets a white picture: faces with and without textures can then share one atlas.
     for number, picture in enumerate(pictures if any(pictures) else ()):
         (raw.folder / f"texture.{number}").write_bytes(picture or _WHITE)
     return len(pictures) if any(pictures) else 0
@@ -156,6 +172,8 @@ def _checked(what: str, piece: Array, before: int) -> Array:
     if what in ("normal", "texcoord"):
         return piece.astype("<f4")
     if what == "color":
+        # Tiles are encoded one by one, and each would find a range of its own for floats. Bytes mean the same in all of
+        # them.
         if floats and piece.min() >= 0 and piece.max() <= 1:
             return np.asarray(np.rint(piece * 255), "u1")
         if piece.dtype.kind != "u" or piece.dtype.itemsize > 2:
@@ -180,10 +198,13 @@ def _read_ply(given: Input, raw: Raw) -> Pieces:
     header = parse_header(given.peek(MOST_HEADER))
     lists = (c.name for element in header.elements for c in element.properties if c.length is not None)
     if not header.order or {*lists} - {*_CORNERS}:  # text, or rows of different sizes
+        # The position in a text file does not tell the number of the row, and lists of two elements could differ in
+        # length.
         yield from _read_whole("ply", given, raw)
         return
     given.read(header.size)
     raw.about.update({name: str(header.metadata[name]) for name in ABOUT if name in header.metadata})
+    # Comments of unit, axis and provenance are read as metadata. All other lines are lost, and the user hears of it.
     others = (keyword for keyword, line in header.comments if not parse_remarks([line]).keys() & {*ABOUT})
     raw.left_out.update(dict.fromkeys(f"lines of {keyword}" for keyword in others))
     for element in header.elements:
@@ -208,6 +229,8 @@ def _read_ply(given: Input, raw: Raw) -> Pieces:
                 for what, columns in {"positions": ("x", "y", "z"), **carried}.items():
                     yield what, np.stack([rows[column] for column in columns], axis=1)
             elif element.name == "face":
+                # The row type has room for three corners. A polygon would shift all bytes after it, and the rest would
+                # be garbage.
                 if (rows["length"] != 3).any():
                     raise MeshError("the faces are not all triangles; triangulate polygons first")
                 yield "faces", rows["corners"]
@@ -230,6 +253,7 @@ def _row_of(element: Element, order: str) -> np.dtype[Any]:
 
 def _read_stl(given: Input, raw: Raw) -> Pieces:
     head = given.peek(_HEAD)
+    # The word "solid" at the beginning does not prove that an STL file is text. The size does, where it is known.
     size = size_of(given.name) if given.is_file else None
     if is_text(head, size):
         yield from _read_whole("stl", given, raw)
@@ -245,11 +269,14 @@ def _read_stl(given: Input, raw: Raw) -> Pieces:
         records = np.frombuffer(data, RECORD)
         raw.left_out.update(dict.fromkeys(["attribute"] if records["attribute"].any() else ()))
         yield "positions", records["corners"].reshape(-1, 3)
+        # STL repeats the corners of each triangle. They stay apart here; the lattice of the tiles joins equal places
+        # later.
         yield "faces", np.arange(3 * first, 3 * (first + rows)).reshape(-1, 3)
 
 
 def _read_obj(given: Input, raw: Raw) -> Pieces:
     rest = given.read(len(BOM_UTF8)).removeprefix(BOM_UTF8)
+    # Row 0 stands for corners without texture coordinates, so that all rows of faces have the same number of columns.
     yield "texcoord", np.zeros((1, 2), np.float32)  # of corners without
     while data := given.read(_TEXT):
         text = rest + data
@@ -265,6 +292,7 @@ def _read_obj(given: Input, raw: Raw) -> Pieces:
 
 def _of_obj(text: bytes, raw: Raw) -> Pieces:
     """The tables of some lines. Corners are followed by their rows of texture coordinates, and a material."""
+    # Relative indices count back from the present end of the lists, so the reader must know how many rows came before.
     piece = read_obj(text, DEFAULT_LIMITS, (raw.rows["positions"], raw.rows["texcoord"] - 1, 0))
     raw.about.update({name: str(piece.metadata[name]) for name in ABOUT if name in piece.metadata})
     raw.libraries.update(dict.fromkeys(str(piece.metadata.get("mtllib", "")).split("\n")))
@@ -282,9 +310,13 @@ def _of_obj(text: bytes, raw: Raw) -> Pieces:
     points, corners = piece.positions, piece.corners
     if (piece.sizes != 3).any():
         used, corners = np.unique(piece.corners, return_inverse=True)
+        # A triangle may use vertices of later pieces: it only needs their numbers. To cut a polygon, their places are
+        # needed.
         if used[0] < 0 or used[-1] >= raw.rows["positions"]:
             raise MeshError(f"a face refers to vertex {used[0] if used[0] < 0 else used[-1]}, which comes later")
         points = raw.table("positions")[used]
+    # The ordinary reader cuts polygons by the same function, so that `bsm tile` and `bsm encode` give the same
+    # triangles.
     places, owner, crossing = triangulate(points, piece.sizes, corners)
     raw.left_out.update(dict.fromkeys([CROSSING] if crossing else ()))
     names = names_in(piece.metadata, "material")

@@ -29,10 +29,13 @@ from bsm.tiles.manifest import FOOT, NO_JSON, Tile, json_of, parse_index, read_m
 from bsm.tiles.reading import ABOUT, Kinds
 
 Table: TypeAlias = npt.NDArray[np.float64]
+# Millions of small files are slow on every file system and in every object store. Servers answer ranges of large files,
+# and 64 MB can still be sent again after an error.
 SHARD, MOST_TILES = 64_000_000, 1 << 14  # bytes, and tiles, from which on a shard takes no more
 _END = b"BSMTILES"  # behind the length of the index, the last bytes of a shard
 
 
+# A killed run leaves this manifest. Readers then say that the tiles are unfinished, and not that they are damaged.
 def write_unfinished(folder: str, source: str) -> None:
     """Write the manifest of a run that has not ended."""
     given = {"format": "bsm tiles", "version": 1, "stream": MAJOR, "source": source, "complete": False}
@@ -57,6 +60,7 @@ def is_unfinished(folder: str) -> bool | None:
 
 def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *, overwrite: bool) -> tuple[Facts, int]:
     """Write tiles in their order, and the manifest when all else is there; return it, and all bytes."""
+    # Reversed, because `pop` takes from the end, and the coarsest tiles come first.
     shards, tiles, waiting = list[Facts](), list[Tile](), list(reversed(done))
     while waiting:
         shard, held = _write_shard(folder, f"{len(shards):05}.tiles", waiting, overwrite)
@@ -83,6 +87,8 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
         "levels": levels,
         "shards": shards,
     }
+    # The manifest is written last. It names the digests of the indexes, and these those of the tiles: a reader
+    # of it can check everything.
     text = json.dumps(manifest, indent=1).encode() + b"\n"
     write_output(inside(folder, MANIFEST), text, overwrite=True, follow=False)
     return manifest, sum(shard["size"] for shard in shards) + len(text)
@@ -100,6 +106,8 @@ def _write_shard(folder: str, name: str, waiting: list[Facts], overwrite: bool) 
             ends = tuple(facts["low"]), tuple(facts["high"])
             tiles.append(Tile(node, offset, len(data), facts["output_sha256"], *counts, *ends))
             offset += file.write(data)
+        # The index stands at the end, since sizes and digests of tiles are known only when they are written. A reader
+        # gets it by one range, because the manifest has its size.
         index = json.dumps([asdict(tile) for tile in tiles], separators=(",", ":")).encode()
         file.write(index + len(index).to_bytes(8, "little") + _END)
     shard = {"file": name, "size": offset + len(index) + FOOT, "index": len(index), "tiles": len(tiles)}
@@ -135,6 +143,7 @@ def open_tiles(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) ->
     >>> part = bsm.open_tiles("scan").region((0, 0, 0), (1, 1, 1), error=0.01)
     """
     name = named(path)
+    # Tiles may lie on a server. Opening them costs one request, and no index is fetched before it is needed.
     manifest, lattice, root, kinds = read_manifest(name, limits)
     return Tiles(name, manifest, lattice, root, limits, kinds)
 
@@ -199,6 +208,7 @@ class Tiles:
             raise ArgumentError("a box has a low and a high corner of three numbers each")
         if not isinstance(error, (int, float, np.number)) or not isinstance(level, (int, np.integer, NoneType)):
             raise ArgumentError(f"error must be a number, and level a whole one, not {error!r} and {level!r}")
+        # The box is moved to the lattice, and not the vertices to the box: those are exact integers there.
         box = (ends - np.array(self.lattice.origin)) / self.lattice.cell
         tables, triangles, first = [], [], 0
         for shard, tile in self.chosen(error, box, level):
@@ -211,6 +221,7 @@ class Tiles:
         if not sum(map(len, triangles)):
             raise OptionError("no part of the mesh is in this box")
         used, rows = np.unique(np.concatenate(triangles), return_inverse=True)
+        # Vertices on borders come with each tile. They are equal to the last bit, so equal rows are one vertex.
         different, numbers = np.unique(np.concatenate(tables)[used], axis=0, return_inverse=True)
         joined = numbers.reshape(-1)[rows].reshape(-1, 3).astype(np.int32)
         return TriangleMesh(self.lattice.positions(different[:, :3]), joined, self.attributes(different), self.about)
@@ -231,6 +242,7 @@ class Tiles:
         """Return the coarsest tiles of at most this error, or those of a level, that meet a box."""
         found = {tile.name: (shard, tile) for shard, tile in self.all(box)}
         taken: set[str] = set()
+        # A leaf is known by having no child among the tiles that meet the box. An error of 0 does not tell it.
         inner = {name[:-1] for name in found}
         for name in sorted(found, key=lambda name: (len(name), name)):
             tile = found[name][1]
@@ -257,9 +269,11 @@ class Tiles:
         self.limits.check("metadata_bytes", size)
         data = read_range(name, shard["size"] - size, size)
         index = data[: shard["index"]]
+        # The digest alone would do; the length and the mark tell people, and other programs, where the index begins.
         if data[-FOOT:] != len(index).to_bytes(8, "little") + _END or sha256(index).hexdigest() != shard["sha256"]:
             raise CorruptError(f"{name}: the index at the end of this shard differs from the manifest")
         tiles = parse_index(name, index, shard, self.root)
+        # Copied, since another thread may add to the dictionary while this one walks over it.
         others = [held for file, held in [*self._held.items()] if file != shard["file"]]  # a thread may have been here
         if twice := {tile.name for tile in tiles} & {tile.name for held in others for tile in held}:
             raise CorruptError(f"{name}: tile {min(twice)} is in another shard, too")
@@ -280,6 +294,7 @@ class Tiles:
         with about(name):
             mesh = decode_whole(iter([self.data(shard, tile)]), self.limits)
         cells = self.lattice.cells(mesh.positions)
+        # A viewer trusts the box of the index. A tile outside of it would be missing from pictures without any error.
         if not ((cells >= tile.low) & (cells <= tile.high)).all():
             raise CorruptError(f"{name} is not where the index says that it is")
         return mesh
@@ -307,6 +322,7 @@ class Tiles:
                 continue
             for tile in tiles:
                 try:
+                    # One fault does not end the check, so that a user sees at once which tiles to fetch or make again.
                     self.decoded(shard, tile) if decode else self.data(shard, tile)
                 except (BsmError, OSError) as error:
                     yield error

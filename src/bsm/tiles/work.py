@@ -12,11 +12,13 @@ from bsm.bitstream.errors import OptionError
 from bsm.files.output import open_own
 
 try:
+    # Windows has other locks. There, two runs in one folder are the user's own care.
     import fcntl
 except ImportError:  # not a POSIX system
     fcntl = None  # type: ignore[assignment]
 LOCK, NOTE = ".tile.lock", "asked"
 _BEGIN = "({'triangles'"  # of the note of a run
+# Only files with these names are ever removed: the folder is named by the user, and may hold anything.
 _MADE = re.compile(
     rf"({LOCK}|{NOTE}|plan\.json|tiles\.json|positions|faces|color|normal|cut|codes|outside|texcoord|texture\.\d+|r[0-7]*\.(mesh|bsm|atlas))"
     r"|\.(plan|tiles|r[0-7]*)\.(json|mesh|bsm|atlas)\.\w{8}\.part"
@@ -45,6 +47,8 @@ def held(folder: Path, take_over: bool) -> Iterator[bool]:
         try:
             if fcntl is not None:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            # Between opening and locking, the owner may have removed the file. The lock would then be on a file without
+            # a name, and another process could lock a new one.
             if path.exists() and os.path.samestat(os.fstat(file.fileno()), path.stat()):
                 break
             file.close()  # its owner has just removed it
@@ -52,6 +56,7 @@ def held(folder: Path, take_over: bool) -> Iterator[bool]:
             with file:
                 raise _held_by(path, "works in this folder; wait until it has ended, or name another one") from error
     with file:
+        # A process removes its file at the end. One with contents that nobody locks was left by a process that died.
         if (left := file.seek(0, os.SEEK_END) > 0) and not take_over:
             raise _held_by(path, "left this folder unfinished; --resume continues, -f starts again")
         file.truncate(0)
@@ -76,12 +81,14 @@ def is_own(work: Path) -> bool:
     """Return whether a run has left its note in a folder; a run that was killed at once has left an empty one."""
     with suppress(OSError):
         note = (work / NOTE).read_text(errors="replace") if (work / NOTE).is_file() else None
+        # A note with nothing in it comes from a run that was killed between opening and writing it.
         return note is not None and (note.startswith(_BEGIN) or (not note and {*os.listdir(work)} <= {LOCK, NOTE}))
     return False
 
 
 def refuse_others(work: Path) -> None:
     """Raise `OptionError` for a folder with files, but without the note of a run, and for links in it."""
+    # A link could lead the run, which writes and removes files by fixed names, to files elsewhere.
     if work.is_dir() and any(path.is_symlink() for path in work.iterdir()):
         raise OptionError(f"{work} holds symbolic links; name an empty folder, or a new one, with --work")
     if work.is_dir() and {*os.listdir(work)} - {LOCK} and not is_own(work):

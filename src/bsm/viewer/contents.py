@@ -57,8 +57,10 @@ PRESETS = ("small", "balanced", "fine", "near-lossless")
 _EVERY = 0.1  # seconds between two reports of a process
 _ENCODING = 0.7  # of the time that a mesh takes
 _LONGEST = 60  # letters of a name
+# The most bits that a grid of the format can have.
 _FINEST = 20  # bits of a grid along the longest side
 _FINE = 1e-4  # step of an original sequence that is drawn, of the diagonal
+# 32 MB as floats. A page gets them before it can draw, so a longer sequence shows errors of frames only.
 _MOST_COLORS = 1 << 23  # errors of vertices in frames that a page gets
 
 
@@ -91,12 +93,14 @@ def carried(source: TriangleMesh | Frames) -> bytes:
     """Return a stream that is drawn as the original: see `_carrier` for meshes; sequences are nearly exact."""
     if isinstance(source, TriangleMesh):
         return _carrier(source)[0]
+    # A sequence cannot be exact in the format, so its step is one that no picture shows.
     frames = np.array(list(source.frames))
     return encode_sequence(frames, source.faces, frame_rate=source.frame_rate, metadata=source.metadata, step=_FINE)
 
 
 def _carrier(mesh: TriangleMesh) -> tuple[bytes, Order]:
     """Return a stream to the bit, or on the finest grid where single precision is coarser; and its order."""
+    # Lossless streams hold single precision. A mesh in doubles may have more, and is then drawn from a grid.
     with suppress(MeshError, TargetError):
         encoder = Encoder(mesh, ALL["lossless"])
         return b"".join(encoder.chunks()), encoder.vertex_order
@@ -116,6 +120,7 @@ def compared(
 ) -> Content:
     """Return a stream with its original, a file of `size` bytes, `before`, and Draco's file if DracoPy is there."""
     header, _ = peek_header(Input(stream).chunks())
+    # An animated mesh and a single one have no common frames; nothing of the page would fit both.
     if bool(header and header.gop_frames) != isinstance(original, Frames):
         raise MeshError(f"{name} and its original must both be sequences, or both meshes")
     rivals: tuple[Shown, ...] = ()
@@ -140,12 +145,15 @@ def _at_rest(
     used, kept = decoded.without_isolated_vertices()
     whole = original.without_isolated_vertices()[0]
     source = whole.bare
+    # Vertices in no face have no error, and NaN says so.
     off = np.full(len(decoded.positions), np.nan, np.float32)
     diagonal, alike = source.diagonal or 1.0, True
     facts: dict[str, Any] = {"before": [len(original.positions), len(original.faces)], "diagonal": diagonal}
     try:
         paired = pair(whole, used)
     except MeshError:
+        # Without matching vertices, the distance between the surfaces is the only fair measure: it does not ask for the
+        # same triangles.
         apart = surface_distance(source.positions, source.faces, used.positions, used.faces)
         facts |= {"apart": apart.mean / diagonal, "farthest": apart.hausdorff / diagonal}
         off[kept] = distances_to_surface(used.positions, source.positions, source.faces)
@@ -159,6 +167,7 @@ def _at_rest(
     rivals: tuple[Shown, ...] = ()
     with suppress(DependencyError, MeshError):  # faces without area are invisible; Draco refuses some meshes
         facts["look"] = look(source, used).distance
+        # Draco's file would need the same attributes at the same quality, or the sizes would not compare.
         if alike and not original.attributes:
             rivals, facts["draco"] = _rival(source, size, facts["look"])
     return facts, off, rivals
@@ -181,12 +190,14 @@ def _over_time(
         raise MeshError(f"{name} has {len(decoded)} frames, and its original has {len(before)}")
     off = np.full(decoded.shape[:2], np.nan, np.float32)
     facts: dict[str, Any] = {"diagonal": float(np.linalg.norm(extent_of(before[0]))) or 1.0}
+    # The encoder measures the look of the same frames. To draw all of them would take longer than encoding.
     kept, some = np.unique(decoder.faces), np.linspace(0, len(before) - 1, min(KNOTS, len(before))).round().astype(int)
     try:
         paired = paired_frames(before, faces, decoded, decoder.faces)
         first, second, shared = paired.before, paired.after, paired.faces
         errors = np.linalg.norm(first - second, axis=2).max(axis=1) / facts["diagonal"]
         shaded = [shading_error(*both, shared) for both in zip(first, second, strict=True)]
+        # The page colors decoded vertices, so errors are needed in their order as well.
         with suppress(MeshError):  # vertices that were merged have no error of their own
             back_again = paired_frames(decoded, decoder.faces, before, faces)
             off[:, kept] = np.linalg.norm(back_again.before - back_again.after, axis=2)
@@ -194,6 +205,8 @@ def _over_time(
         for frame, (now, then) in enumerate(zip(decoded, before, strict=True)):
             off[frame, kept] = distances_to_surface(now[kept], then, faces)
         used = np.unique(faces)
+        # Distances of one surface from the other are not symmetric: a part that is missing shows from the other side
+        # only.
         back = [farthest_from_surface(t[used], d, decoder.faces) for d, t in zip(decoded, before, strict=True)]
         errors = np.maximum(np.nanmax(off, axis=1), back) / facts["diagonal"]
         facts["apart"], shaded = float(np.nanmean(off)) / facts["diagonal"], errors.tolist()
@@ -219,11 +232,14 @@ def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Show
     def mesh(bits: int) -> TriangleMesh:
         return TriangleMesh(positions_in_order(source, decode_draco(file(bits)), bits), source.faces)
 
+    # Sizes grow with the bits, so a bisection over 21 settings encodes four or five times instead of all.
     small = DRACO_BITS[max(bisect_left(DRACO_BITS, True, key=lambda bits: len(file(bits)) > size) - 1, 0)]
     good = bisect_left(DRACO_BITS, True, key=lambda bits: look(source, mesh(bits)).distance <= distance)
+    # The page has no decoder of Draco. Its result travels as a stream of ours that changes nothing.
     stream, order = _carrier(mesh(small))  # joins vertices that Draco merged
     off = np.linalg.norm(mesh(small).positions - source.positions, axis=1)[order]
     layer = Shown("Draco", f"{small} bits", len(file(small)), stream, off.astype(np.float32))
+    # Draco may not come that close at any number of bits. Then there is nothing to say about its size.
     if good == len(DRACO_BITS):
         return (layer,), None
     return (layer,), {"bytes": len(file(DRACO_BITS[good])), "bits": DRACO_BITS[good]}
@@ -287,6 +303,7 @@ def given_at(path: str, limits: Limits = DEFAULT_LIMITS, wanted: Wanted | None =
         used = (path, str(wanted.mesh)) if wanted and wanted.mesh else (path,)
         return Given(path, frames, None if PurePath(path).suffix == "" else size_of(path), used)
     data = b"".join(read_chunks(path))
+    # An empty file begins every other text, so it counts as a stream, and the decoder says that it ends too early.
     if MAGIC.startswith(data[: len(MAGIC)]):
         return Given(path, data, len(data), (path,))
     if path == "-":
@@ -302,8 +319,10 @@ def given_at(path: str, limits: Limits = DEFAULT_LIMITS, wanted: Wanted | None =
 
 def given_among(paths: Sequence[str], folder: str) -> list[Given]:
     """Open files that were sent together: one or two with all that they name, or the frames of a sequence."""
+    # Files that are dropped on a page come from anywhere. The limits are those for strangers.
     limits = Limits.service()
     caches = [path for path in paths if PurePath(path).suffix[1:].lower() in CACHES]
+    # A cache of positions has no faces, so the mesh beside it is its topology, and not a second thing to show.
     shown = caches or [path for path in paths if path.lower().endswith(".bsm") or is_mesh_name(path)]
     if len(shown) > 2:
         frames = replace(given_at(folder, limits), name=PurePath(common_name(shown)).name)
@@ -337,6 +356,7 @@ def against(before: Given, given: Given, limits: Limits) -> Content:
 
 def _work(pipe: Connection, paths: Sequence[str], folder: str, preset: str) -> None:
     """Encode an upload in a process, or compare two; send reports, then the result or an error message."""
+    # Ctrl-C reaches every process of a terminal. The parent ends this one, so it must not print a traceback of its own.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     def report(stage: str, share: float) -> None:
@@ -352,18 +372,22 @@ def _work(pipe: Connection, paths: Sequence[str], folder: str, preset: str) -> N
             raise FormatError(f"{name} is a stream, which the page opens by itself, or empty")
         else:
             content = made(name, first.size, first.source, preset, report)
+        # Temporary folders may lie behind a link, as /tmp does on macOS. Names are compared where they lead.
         used = {os.path.realpath(path) for each in given for path in each.used}
         said = {"missing": [name for each in given for name in each.missing]}
         for what, is_used in (("used", True), ("unused", False)):
             said[what] = [PurePath(path).name for path in paths if (os.path.realpath(path) in used) == is_used]
         pipe.send(replace(content, facts={**content.facts, **said}))
     except (BsmError, MemoryError) as error:
+        # The temporary folder means nothing to the user, who sent a file by its name.
         pipe.send({"error": worded(error).replace(f"{folder}/", "")})
 
 
 def _put(folder: str, name: str, data: bytes) -> str:
     """Write a file that was sent, at its place in a folder that was dropped."""
     parts = PurePosixPath(name.replace("\\", "/").replace("\0", "")).parts
+    # The name comes from a page. Parts like .. would lead out of the folder, and long names exceed what file systems
+    # allow.
     path = Path(folder, *[part[-_LONGEST:] for part in parts if part not in ("/", "..")] or ["mesh"])
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(data)
@@ -372,12 +396,14 @@ def _put(folder: str, name: str, data: bytes) -> str:
 
 def uploaded(files: Sequence[tuple[str, bytes]], preset: str) -> Generator[dict[str, Any] | Content]:
     """Encode files dropped on the page, or compare two, in a process that ends with this generator; yield reports."""
+    # Not forked: the server has threads, and a fork copies their locks as they are, perhaps held for ever.
     context = multiprocessing.get_context("spawn")
     here, there = context.Pipe()
     folder = tempfile.mkdtemp(prefix="bsm-")
     paths = [_put(folder, name, data) for name, data in files]
     process = context.Process(target=_work, args=(there, paths, folder, preset), daemon=True)
     process.start()
+    # With the other end open here as well, `recv` would wait for ever after the process has died.
     there.close()
     try:
         report: Any = {"stage": "reading", "share": 0.0}

@@ -47,7 +47,9 @@ class Arrival:
         self._data = bytearray()
         self._over = False
         self._change = Condition()
+        # Wide, since the stream comes from a program that the user has started. The page has limits of its own.
         self._skimmer: Skimmer | None = Skimmer(Limits.wide())
+        # A page that is opened late need not get hours of frames: it enters at the last GOP that begins anew.
         self._head: list[slice] = []  # of the present mesh: its header, all metadata so far, what is before its GOPs
         self._metadata: list[slice] = []
         self._entry: int | None = None
@@ -70,6 +72,8 @@ class Arrival:
                 for packet in self._skimmer.receive(chunk) if self._skimmer else ():
                     self._note(packet, slice(packet.offset, packet.offset + packet.length))
             except BsmError:
+                # After damage no place to enter is known for certain. Pages then get all bytes, and their decoder says
+                # what is wrong.
                 self._entry = self._skimmer = None
             self._change.notify_all()
 
@@ -89,6 +93,8 @@ class Arrival:
         with self._change:
             at = 0
             if self._entry is not None and not self._over:
+                # Only while bytes still arrive: a complete stream is sent from its beginning, so that the page can play
+                # all of it.
                 at = self._entry
                 first = write_preamble() + b"".join(self._data[place] for place in self._head)
         if at > 0:
@@ -96,6 +102,8 @@ class Arrival:
         while True:
             with self._change:
                 if not self._over and len(self._data) == at:
+                    # An empty piece follows if nothing has come, so that the caller can see whether the page is still
+                    # there.
                     self._change.wait(_PATIENCE)
                 piece = bytes(self._data[at : at + _CHUNK])
                 if self._over and not piece:
@@ -110,6 +118,7 @@ class Arrival:
         if packet.type == FrameType.HEADER:
             assert self._skimmer is not None
             self._entry = None
+            # A run that repeats an earlier mesh cannot be entered: its faces were sent only then.
             self._head = [place, *self._metadata] if self._skimmer.header.mesh_of is None else []
         elif packet.type == FrameType.GOP:
             if self._head and packet.begins:
@@ -122,6 +131,7 @@ def written_to(file: BinaryIO) -> Iterator[bytes]:
     """Yield the bytes of a file that is still being written, until it is deleted or truncated; close it then."""
     size = 0
     with file:
+        # A file without a name, or a shorter one, will not grow to what it was going to be.
         while (now := os.fstat(file.fileno())).st_nlink > 0 and now.st_size >= size:
             if chunk := file.read(_CHUNK):
                 size += len(chunk)
@@ -130,6 +140,7 @@ def written_to(file: BinaryIO) -> Iterator[bytes]:
                 time.sleep(_PAUSE)
 
 
+# A range is held in memory while it is sent. A page asks for tiles, which are far smaller.
 _MOST_RANGE = 1 << 26  # bytes of a range that is sent
 _RANGE = re.compile(r"bytes=(\d{1,18})-(\d{1,18})")
 _LENGTH = re.compile(r"\d{1,15}")
@@ -162,13 +173,18 @@ class Tiled:
 LOOPBACK = "127.0.0.1"
 UPLOAD = "/upload"
 _UPLOAD_TIME, _SLOWEST = 10.0, 1e6  # seconds that any upload has, and bytes per second that give it more
+# The body is held in memory, and then written to files for the process that encodes it.
 MOST_BYTES = 64 << 20
 
 _SLOT = '<script type="application/json" id="bsm-streams">'
 _SCRIPT = "<!-- script -->"
 _BYTES = "application/octet-stream"
+# A client may name gzip to say that it does not want it, by q=0.
 _GZIP = re.compile(r"\bgzip\b(?!\s*;\s*q=0)")
+# The page and the kernels are the same for every request. Streams are never compressed again: they would not shrink.
 _gzipped = lru_cache(maxsize=8)(gzip.compress)
+# The page shows names from files. Should one of them ever become markup, no foreign script may run, and nothing may
+# leave this machine.
 _POLICY = (
     "default-src 'none'; script-src 'sha256-{}' 'wasm-unsafe-eval' blob:; worker-src blob:; connect-src 'self' data:; "
     "style-src 'unsafe-inline'; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -180,6 +196,8 @@ Place = Callable[[str, bytes], dict[str, str]]
 def _built(name: str) -> bytes:
     """A file that `web` builds: in the package, or in the checkout that is installed."""
     viewer = files("bsm.viewer")
+    # An editable install has links in the package or none, by how the checkout was made; a wheel has the files
+    # themselves.
     for place in (viewer / name, viewer / "built" / name, Path(__file__).parents[3] / "web" / "built" / name):
         if place.is_file():
             return place.read_bytes()
@@ -188,6 +206,7 @@ def _built(name: str) -> bytes:
 
 def embedded(_: str, data: bytes) -> dict[str, str]:
     """Return bytes as a data URL of the page."""
+    # A page that is opened from a disk cannot fetch files beside it. Everything is inside of it.
     return {"data": base64.b64encode(data).decode()}
 
 
@@ -237,7 +256,9 @@ def listed(content: Content, path: str, place: Place) -> dict[str, Any]:
 
 def _page(entries: list[dict[str, Any]], script: str) -> str:
     # No text inside a script may look like its end tag.
+    # A stream or a name could spell the end tag of the script.
     inside = json.dumps(entries).replace("<", "\\u003c")
+    # One replacement each: what was inserted might hold the words of the slot.
     return _built("page.html").decode().replace(f"{_SLOT}[]", _SLOT + inside, 1).replace(_SCRIPT, script, 1)
 
 
@@ -247,6 +268,7 @@ def in_browser(address: str) -> Iterator[None]:
     with tempfile.TemporaryDirectory(prefix="bsm-") as folder:
         page = Path(folder, "view.html")
         page.touch(0o600)
+        # The address holds the token, and a command line can be read by every user of the machine. The file cannot.
         page.write_text(f'<meta http-equiv="refresh" content="0; url={address}"><a href="{address}">bsm view</a>')
         webbrowser.open(page.as_uri())
         yield
@@ -255,9 +277,11 @@ def in_browser(address: str) -> Iterator[None]:
 class PageServer(ThreadingHTTPServer):
     """Serves the page and its streams to this machine only, and encodes meshes that are dropped on it."""
 
+    # A page that is open holds a connection. Without this, Ctrl-C would wait until it is closed.
     daemon_threads = True
 
     def __init__(self, contents: Sequence[Content | Arrival | Tiled], port: int = 0) -> None:
+        # Never another address: the server reads files that the user named, and has no accounts.
         super().__init__((LOOPBACK, port), _Handler)
         self.content: dict[str, tuple[str, bytes | Arrival | Ranged]] = {}
         self.encoding = Lock()
@@ -284,8 +308,10 @@ class PageServer(ThreadingHTTPServer):
 
     def dropped(self, content: Content) -> dict[str, Any]:
         """Have the page fetch the result of an upload, in place of the previous one."""
+        # Results of uploads would otherwise stay in memory for as long as the server runs.
         for path in [path for path in self.content if path.startswith(UPLOAD)]:
             del self.content[path]
+        # A new address each time, since the page might find the result of an earlier upload in its cache.
         return listed(content, f"{UPLOAD}/{time.monotonic_ns()}", self.place)
 
     @property
@@ -308,6 +334,7 @@ class _Handler(BaseHTTPRequestHandler):
         token, _, path = self.path.removeprefix("/").partition("/")
         self.path = f"/{path}"
         # With another name for this machine, a page of someone else looks for its servers.
+        # The usual comparison ends at the first letter that differs, and its time tells how many were right.
         knows = secrets.compare_digest(token.encode(), self.server.token.encode())
         if knows and self.headers.get("Host") == self.server.host:
             return True
@@ -324,6 +351,7 @@ class _Handler(BaseHTTPRequestHandler):
             if isinstance(data, Ranged):
                 asked = _RANGE.fullmatch(self.headers.get("Range", ""))
                 begin, end = map(int, asked.groups()) if asked else (1, 0)
+                # Only ranges with both ends are answered. A request without one would fetch a shard of 64 MB.
                 if not begin <= end < min(data.size, begin + _MOST_RANGE):
                     self.send_error(HTTPStatus.REQUESTED_RANGE_NOT_SATISFIABLE)
                     return
@@ -346,12 +374,15 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_error(HTTPStatus.FORBIDDEN)
         elif url.path != UPLOAD or asked.get("preset", [""])[0] not in PRESETS:
             self.send_error(HTTPStatus.NOT_FOUND)
+        # int() takes signs, spaces, underscores and digits of other scripts, which no header has.
         elif not all(map(_LENGTH.fullmatch, (length, *sizes))) or sum(map(int, sizes)) != int(length):
             self.send_error(HTTPStatus.LENGTH_REQUIRED)
         elif int(length) > MOST_BYTES:
             self.send_error(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"At most {MOST_BYTES >> 20} MiB")
         elif len(data := self._body(int(length))) < int(length):
             self.close_connection = True  # the page is gone, or too slow
+        # One upload at a time: encoding uses all cores and much memory, and a page that is reloaded often must not pile
+        # it up.
         elif not self.server.encoding.acquire(timeout=10 * _PATIENCE):  # one that was cancelled ends soon
             self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "One mesh at a time")
         else:
@@ -366,6 +397,7 @@ class _Handler(BaseHTTPRequestHandler):
         """Read the body as far as it arrives in time; no other upload waits for it."""
         data, end = bytearray(), time.monotonic() + _UPLOAD_TIME + length / _SLOWEST
         with suppress(OSError):
+            # The time-out of a socket begins again with each byte, so the time that is left is set before each read.
             while len(data) < length and (left := end - time.monotonic()) > 0:
                 self.connection.settimeout(left)
                 if not (piece := self.rfile.read1(length - len(data))):
@@ -388,6 +420,7 @@ class _Handler(BaseHTTPRequestHandler):
             data = _gzipped(data)
             self.send_header("Content-Encoding", "gzip")
         self.send_header("Content-Type", kind)
+        # A stream holds bytes from anywhere. A browser must not find out by itself that they look like a page.
         self.send_header("X-Content-Type-Options", "nosniff")
         self.send_header("X-Frame-Options", "DENY")
         self.send_header("Referrer-Policy", "no-referrer")
@@ -399,6 +432,8 @@ class _Handler(BaseHTTPRequestHandler):
         with suppress(OSError):  # the page is closed
             for piece in data.chunks() if isinstance(data, Arrival) else data:
                 # The page has gone; it says nothing more while it is there.
+                # Sending to a page that is gone fails only after some time. Until then an upload would be encoded for
+                # nobody.
                 quiet = (kind != _BYTES or not piece) and select.select([self.connection], [], [], 0)[0]
                 if quiet and not self.connection.recv(1, socket.MSG_PEEK):
                     return
