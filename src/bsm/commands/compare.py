@@ -49,6 +49,7 @@ from bsm.jobs.plan import STREAM_SUFFIXES, files_in
 from bsm.jobs.report import largest_error
 from bsm.jobs.task import Facts
 
+# STL and OFF have colors of faces at best, and the map has one for each vertex.
 COLORED = ("ply", "obj", "glb")  # formats that hold colors of vertices
 ATTRIBUTE_LOOKS: dict[Semantic, str] = {"texcoord": "checker", "color": "colors"}
 
@@ -62,6 +63,8 @@ EXPLAINED = dict(line.split(": ", 1) for line in _FIGURES)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
+    # Two commands in one: trees are compared file by file, with one line each. Pictures and surfaces would take
+    # minutes.
     if args.recursive:
         return _compare_trees(args, console)
     _compare_one(args, console)
@@ -82,6 +85,8 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
             facts |= _compared(original, decoded, pair(original, decoded), args, console)
             facts |= {"unit": unit} if (unit := unit_of(original.metadata) or unit_of(decoded.metadata)) else {}
             said = sentence(facts, unit)
+        # One file that cannot be compared must not end the run: the others are compared, and the exit code tells of the
+        # failure.
         except (BsmError, OSError) as error:
             facts |= {"error": worded(error), "exit": exit_of(error).code}
             said = f"not compared: {facts['error']}"
@@ -94,6 +99,7 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
     else:
         worst = largest_error(good)
         print(f"{len(good)} of {counted(files=len(done))} compared{f'; largest vertex error {worst}' if worst else ''}")
+    # The code of the first failure, as in all commands that take many inputs.
     return next((int(facts["exit"]) for facts in done if "error" in facts), 0)
 
 
@@ -102,6 +108,8 @@ def _same_name(path: str, args: argparse.Namespace) -> str:
     place = Path(args.decoded, Path(path).relative_to(args.original))
     endings = (*STREAM_SUFFIXES, *MESH_SUFFIXES)
     longer = (Path(f"{place}{end}") for end in endings)
+    # An output may keep the suffix of its input (part.obj.bsm) or replace it (part.bsm). The name as it stands comes
+    # first.
     candidates = [place, *longer, place.with_suffix(""), *(place.with_suffix(end) for end in endings)]
     found = next((name for name in candidates if name.is_file()), None)
     if found is None:
@@ -110,10 +118,12 @@ def _same_name(path: str, args: argparse.Namespace) -> str:
 
 
 def _compare_one(args: argparse.Namespace, console: Console) -> None:
+    # Sequences first: a folder or npz is none of the mesh formats, and an error about those would mislead.
     if _compare_sequences(args, console):
         return
     with console.progress("reading") as progress:
         whole = [_load(path, args, console) for path in (args.original, args.decoded)]
+        # Only a note: the numbers are right as they are, but they may not be what the user takes them for.
         for name, known in (("up", str.lower), ("unit", metres)):
             own, other = (str(mesh.metadata.get(name, "")) for mesh in whole)
             if own and other and known(own) != known(other):
@@ -125,12 +135,15 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
         more: dict[str, float] = {}
         if args.look or args.picture:
             progress.stage("comparing pictures")
+            # The look comes before the errors of vertices: it needs no matching faces, and those may end with an error.
             seen, more = _seen(args, original, decoded, console)
         progress.stage("comparing")
         try:
             order = order_of_used(read_permutation(args.permutation), *whole) if args.permutation else None
             compared = _compared(original, decoded, pair(original, decoded, order), args, console)
         except MeshError as error:
+            # Look and surface are measured without matching vertices. If the user asked for one of them, the command
+            # has an answer.
             if seen is None and not args.surface:
                 raise
             console.note(f"vertices are not compared: {str(error).partition(';')[0]}")
@@ -161,6 +174,7 @@ def _seen(
     args: argparse.Namespace, original: TriangleMesh, decoded: TriangleMesh, console: Console
 ) -> tuple[Look, dict[str, float]]:
     """Return the look of a mesh, and that in flat shading, of texture coordinates and of colors; write the picture."""
+    # An output that exists is refused before minutes of drawing, not after them.
     if args.picture:
         refuse_to_overwrite(args.picture, args.force)
     looker = LookMetric(original)
@@ -172,6 +186,7 @@ def _seen(
     if args.picture:
         titles = (Path(args.original).name, Path(args.decoded).name)
         meshes = [Panel(mesh, title) for mesh, title in zip((original, decoded), titles)]
+        # From the side where the difference is largest: any other might show nothing of it.
         picture = drawing((*meshes, _errors_of(original, decoded)), original, console, looker.view(decoded))
         write_output(args.picture, picture, overwrite=args.force)
     return seen, more
@@ -182,6 +197,7 @@ def _errors_of(original: TriangleMesh, decoded: TriangleMesh) -> Panel:
     try:
         paired = pair(original, decoded)
     except MeshError:
+        # One direction is enough for colors: each vertex that is drawn has a distance.
         far = distances_to_surface(decoded.positions, original.positions, original.faces)
         return Panel(decoded, "distance from the original", far)
     return Panel(paired.original, "error", np.linalg.norm(paired.positions - paired.original.positions, axis=1))
@@ -215,14 +231,17 @@ def _compared(
 def _apart(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, float]:
     """The distances between two surfaces."""
     require_sizes(np.concatenate([original.positions, decoded.positions]), done="compared")
+    # Squares of distances overflow for coordinates beyond 1e150, and would come out as "no distance".
     found = surface_distance(original.positions, original.faces, decoded.positions, decoded.faces)
     relative = found.hausdorff / (original.diagonal or 1.0)
     return {"hausdorff": found.hausdorff, "surface_distance": found.mean, "hausdorff_relative": relative}
 
 
 def sentence(compared: dict[str, Any], unit: str) -> str:
+    # Not a sentence full of zeros: equality is what users of lossless streams look for.
     found, share = ["all vertices are equal"], 100.0 * compared["max_error_relative"]
     if share > 0.0:
+        # The ratio of both relative figures gives the length without asking for the diagonal again.
         rms = compared["rms_relative"] / compared["max_error_relative"] * compared["max_error"]
         found = [
             f"largest vertex error {length(compared['max_error'], unit)}, {share:.3g} % of the diagonal",
@@ -240,6 +259,7 @@ def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh
     """A mesh file or a stream."""
     with about(path):
         if is_stream(path):
+            # Streams of a batch may have their images beside them. Without these, all images would count as missing.
             return with_linked_images(decode_whole(read_chunks(path), limits_of(args.limits)), path)
         source = read_mesh(path)
     for note in source.notes:
@@ -253,11 +273,13 @@ def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
         sides = [_load_sequence(path, args, changing if names_many(path) else None) for path in paths]
         if sides == [None, None]:
             return False
+        # An animated glTF can be meant either way. What stands beside it decides.
         # An animated glTF is a sequence where the other one is.
         sides = [_load_sequence(path, args, changing) if side is None else side for path, side in zip(paths, sides)]
         original, decoded = sides
         if original is None or decoded is None:
             moving, still = reversed(paths) if original is None else paths
+            # If the still one cannot be read at all, that is the better message.
             _load(still, args, console)  # what cannot be read says so
             raise MeshError(f"{moving} is a sequence, but {still} is a single mesh")
         if args.map:
@@ -276,6 +298,7 @@ Pieces = list[tuple[Positions, Faces, list[Attributes]]]
 def _pieces_of(frames: Iterable[tuple[Positions, Faces, Attributes]]) -> Pieces:
     found: list[tuple[list[Positions], Faces, list[Attributes]]] = []
     for positions, faces, attributes in frames:
+        # Equal faces, not the same array: some readers make new ones for each frame.
         same = found and len(found[-1][0][0]) == len(positions) and np.array_equal(found[-1][1], faces)
         if not same:
             found.append(([], faces, []))
@@ -288,6 +311,7 @@ def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -
     """The frames and faces of a file, folder or stream; None if it is a mesh."""
     with about(path):
         scene = Path(path).is_file() and is_scene(path)
+        # Looked up by name: the module takes long to load, and few inputs are scenes.
         moving = by_name("bsm.gltf.document", "read_document")(path).moving if scene else None
         if moving or (Path(path).is_file() and is_stream(path)):
             header, chunks = peek_header(iter([moving]) if moving else read_chunks(path))
@@ -308,6 +332,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     counts = [[len(frames) for frames, _, _ in side] for side in (original, decoded)]
     if sum(counts[0]) != sum(counts[1]):
         raise MeshError(f"{args.original} has {sum(counts[0])} frames and {args.decoded} {sum(counts[1])}")
+    # Runs are compared pair by pair. With other borders, a frame would be held against one with other faces.
     if counts[0] != counts[1]:
         starts = [np.cumsum(side)[:-1].tolist() or "none" for side in counts]
         raise MeshError(
@@ -324,6 +349,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
         done = sum(len(before) for before, _, _ in runs)
         for name, errors in errors_of_frames(first[2], second[2], (first[1], second[1]), paired, done).items():
             known = attributes.get(name, errors)
+            # None stands for a missing attribute, and once it is missing in some run, the whole must say so.
             larger = (errors and known) and max(errors, known, key=lambda one: one["max_error"])
             attributes[name] = larger or None
         runs.append((paired.before[:, kept], paired.after[:, kept], faces))
@@ -335,6 +361,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
         progress.stage("comparing")
     if Path(args.decoded).is_file() and is_stream(args.decoded):
         samples = sum(frames[..., 0].size for frames, _, _ in decoded)
+        # By the size of the file itself, so that everything counts: header, metadata and checksums.
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / samples
     if args.picture:
         from bsm.evaluation.curve import frame_errors
@@ -357,6 +384,7 @@ def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]
     pairs = [(shown, other, faces) for first, second, faces in runs for shown, other in zip(first, second, strict=True)]
     for number, (shown, other, faces) in enumerate(pairs):
         progress(number, len(pairs))
+        # A frame may have collapsed to nothing visible, as at the end of an explosion. The others still count.
         with suppress(MeshError):
             found.append(LookMetric(TriangleMesh(shown, faces)).look(other))
     if not found:
@@ -383,11 +411,13 @@ def _write_map(
     console.note(f"{path}: red is {length(top, unit)} and more; the largest error is {length(largest, unit)}")
     if kind == "png":
         whole = replace(original, metadata=metadata)
+        # Errors on the far side would be hidden, so the picture shows both.
         behind = DEFAULT_VIEW * np.array([[-1.0], [1.0], [-1.0]])
         panel = Panel(whole, f"error of {Path(args.decoded).name}", distances)
         picture = drawing([panel], whole, console, DEFAULT_VIEW, behind)
         write_output(path, picture, overwrite=overwrite)
         return
     color = Attribute("color", np.rint(colors_of(distances / top)).astype(np.uint8), "vertex", "color")
+    # The distances themselves are kept as well: other programs can choose their own colors.
     mesh = replace(original.bare, attributes=(color, Attribute("distance", distances)))
     save_written(path, written_mesh(mesh, kind, path), overwrite=overwrite)

@@ -70,12 +70,15 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
 
 def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -> None:
+    # A run takes minutes to hours. It must not end at the last step, for want of a package.
     _refuse_missing(args.codecs if args.meshes else "ours")
+    # All meshes are read before the first is measured, for the same reason.
     chosen = [(path, read_mesh(path).mesh.bare) for path in args.meshes]  # rates are those of the shape
     for path, mesh in chosen:
         for curve in _chosen(args.codecs, len(mesh.positions), args.blocks):
             with console.progress(f"{Path(path).stem}, {curve.label}") as progress:
                 result = rates.run_curve(curve, mesh, Path(path).stem, args.repeat, progress, console.note)
+            # After each curve, so that a run that is stopped keeps its results.
             rates.write_result(result, folder)
     meshes = {result["mesh"]["name"]: result["mesh"] for result in rates.read_results(folder)}
     for rival in (rival for path in args.points for rival in rates.read_points(path, meshes)):
@@ -132,6 +135,7 @@ def _save(
 
 
 def _chosen(names: str, vertices: int, blocks: int | None) -> list[rates.Curve]:
+    # 500 vertices are the blocks of the paper's figures.
     paper = rates.paper_curves(round(vertices / blocks) if blocks else 500)
     groups = {"ours": (rates.our_curve(),), "paper": paper, "draco": (rates.DRACO,)}
     groups |= {line.name: (line,) for line in paper}

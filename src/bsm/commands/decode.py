@@ -38,6 +38,7 @@ from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Job, Task, anywhere, came_to
 
 WITH_FLOATS = 2  # of `Header.light`
+# Streams of live sequences do not say how many frames they have, so this is found out only at their end.
 NO_FRAMES = "the stream does not contain these frames; they count from 0, and bsm info says how many there are"
 
 
@@ -75,6 +76,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     suffix = f".{args.format or 'ply'}"
     for name in () if args.recursive else args.inputs:
         with about(name):
+            # All inputs are looked at before the first is decoded: with a hundred files, a wrong one should not come up
+            # in between.
             if not is_scene(name):
                 refuse_mesh(name)
     if args.recursive and args.format == "same":
@@ -92,6 +95,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.permutation and (args.blocks is not None or args.tolerant):
         raise OptionError("--permutation orders whole meshes; leave out --blocks and --tolerant")
     refuse_two_on_one_pipe(args, jobs[0].output)
+    # Workers of a cluster have other current folders.
     given = args.output and (anywhere(args.output) if args.dask else args.output)
     job = asked(DecodeJob, args, output="", given=given, many=len(jobs) > 1)
     return run_jobs(asked(Batch, args), job, console, decode_one, jobs)
@@ -100,10 +104,14 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def _as_source(job: Job) -> Job:
     """Give the output the name of the file that a stream was made of; a format that is not written becomes another."""
     name = ""
+    # A damaged stream has no name that can be trusted; it is decoded with the usual name, and the error comes from
+    # there.
     with suppress(BsmError, OSError):  # decoding it will say so
         name = str(inspect_stream(read_chunks(job.input)).metadata.get("source_name", ""))
+    # The name comes from the stream, that is from anyone. It must not lead out of the folder, or hide the file.
     if name != Path(name).name or name.startswith(".") or Path(name).suffix.lower() not in MESH_SUFFIXES:
         return job
+    # A format that cannot be written is replaced by one that loses least of its contents.
     other = "glb" if Path(name).suffix.lower() in (".dae", ".gltf") else "vtp"  # which hold units, and fields
     name = name if format_of_name(name) else f"{name}.{other}"
     return replace(job, output=no_link(str(Path(job.output).with_name(name))))
@@ -112,6 +120,7 @@ def _as_source(job: Job) -> Job:
 def decode_one(args: DecodeJob, console: Console) -> Facts:
     if is_scene(args.input):
         return _decode_scene(args, console)
+    # The header comes first in a stream, so a pipe can be asked whether it is a sequence before it is read.
     header, chunks = peek_header(read_chunks(args.input))
     if header is not None and header.gop_frames:
         return _decode_sequence(args, console, chunks)
@@ -121,6 +130,8 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     begin = time.perf_counter()
     limits = limits_of(args.limits)
     with console.progress("decoding", until=0.6) as progress:
+        # Whole, in part and damaged streams have three readers, since each promises something else: everything or an
+        # error, a prefix, and whatever is left.
         if args.tolerant:
             mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"), limits)
         elif args.blocks is None:
@@ -133,8 +144,10 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     exact = header is not None and header.light == WITH_FLOATS
     mesh = _as_asked(args, console, with_linked_images(mesh, args.input), kind, exact=exact)
     for name in mesh.metadata:
+        # The stream names a file that is not beside it any more. The mesh is fine without it, so this is a note.
         if is_link(name) and name.replace("link", "data") not in mesh.metadata:
             console.note(f"{args.input}: left out: the image {printable(str(mesh.metadata[name]))}, which is not there")
+    # A stream that was cut, or decoded in part, has values of the first attributes only.
     if header is not None and header.attributes > len(mesh.attributes):
         missing = f"{header.attributes - len(mesh.attributes)} of {header.attributes} attributes"
         console.note(f"{args.input}: left out: {missing}, whose values are missing")
@@ -152,14 +165,17 @@ def _note_unheard(args: DecodeJob, console: Console, metadata: Metadata, kind: s
 
 def _as_asked(args: DecodeJob, console: Console, mesh: TriangleMesh, kind: str, *, exact: bool) -> TriangleMesh:
     """A mesh in the requested unit and precision, which says that it was decoded if it is not exact."""
+    # A file made of a lossy stream says so. If it is encoded again, errors add up, and the encoder can warn.
     said = mesh.metadata if exact else as_decoded(mesh.metadata)
     metadata, scale = {n: v for n, v in said.items() if n != "source_name" and (kind == "obj" or not is_link(n))}, 1.0
     if args.unit_out:
+        # Only a known unit can be converted. To invent one would change the size of the mesh by powers of ten.
         own, wanted = metres(unit_of(metadata)), known_unit(args.unit_out, "unit")
         if own is None:
             console.note(f"{args.input}: not scaled: its unit is {printable(unit_of(metadata)) or 'not known'}")
         else:
             scale, metadata["unit"] = own / wanted, args.unit_out
+    # Writers look for this mark, and round; positions stay doubles until then, so that scaling does not round twice.
     metadata |= PRECISION if args.float32 else {}
     return replace(mesh, positions=scale * mesh.positions, metadata=metadata)
 
@@ -172,6 +188,7 @@ def _mesh_output(args: DecodeJob) -> tuple[str, str]:
     kind = args.format or ("ply" if output == "-" else format_of_name(output))
     if kind not in WRITTEN_FORMATS:
         raise unknown_suffix(output, kind=kind)
+    # Before anything is decoded, so that the user does not wait for an error.
     refuse_to_overwrite(output, args.may_replace(output))
     return output, kind
 
@@ -179,6 +196,7 @@ def _mesh_output(args: DecodeJob) -> tuple[str, str]:
 def _decode_scene(args: DecodeJob, console: Console) -> Facts:
     """Decode the sequence in a glTF scene; write other scenes without compressed geometry, or as meshes at rest."""
     document = by_name("bsm.gltf.document", "read_document")(args.input, limits_of(args.limits))
+    # A scene that wraps a sequence of ours holds the whole stream, and decodes as that would.
     if (moving := document.moving) is not None:
         return _decode_sequence(args, console, iter([moving]))
     if args.tolerant or any(given is not None for given in (args.blocks, args.layers, args.permutation, args.frames)):
@@ -218,19 +236,25 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     kind = sequence_kind(output, args.format)
     refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
+    # Decoding begins at the first frame that is wanted; GOPs before it are skipped where no later one needs them.
     stream = SequenceStream(chunks, console.note if args.tolerant else None, first, limits_of(args.limits))
     header, frames = stream.header, stream.changing_frames()
+    # Writers need the faces before the first frame, and the decoder has those only with it.
     ahead = list(islice(frames, 1))  # whose faces are those that are written first
     if not ahead or ahead[0][0] >= last:
         raise OptionError(NO_FRAMES)
+    # With damage, frames may be missing: a writer that was told their number would wait for them.
     expected = min(last, header.frames) - first if header.frames and not args.tolerant else 0
     order, faces = _ordered(stream.faces, args.permutation)
     said = as_decoded(stream.metadata)
+    # Attributes follow the order of the stream. With another order of vertices they would be at wrong places, so they
+    # are left out, and a note says so.
     shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: said, first=first)
     how: dict[str, Any] = {"overwrite": args.may_replace(output), "follow": args.follow, "shared": shared}
     with sequence_writer(output, kind, faces, expected, **how) as write, console.progress("decoding") as progress:
         for count, (number, frame) in enumerate(takewhile(lambda found: found[0] < last, chain(ahead, frames)), 1):
             changed = stream.run_starts[-1:] == [number]
+            # A permutation belongs to one set of faces.
             if args.permutation and changed:
                 raise OptionError(f"--permutation is the order of one mesh, but the faces change at frame {number}")
             write(frame[order], stream.faces if changed else None)
@@ -241,6 +265,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
         because = " with --permutation" if args.permutation else ""
         console.note(f"{args.input}: not written to {kind}{because}: {', '.join(lost)}")
     _note_unheard(args, console, said, kind)
+    # Files of an earlier, longer run would be read as further frames of this sequence.
     if names_many(output) and (others := len(mesh_files(output)) - count) > 0:
         console.note(f"{output}: {others} other meshes are there and count as frames; remove them")
     seconds = time.perf_counter() - begin
@@ -277,6 +302,7 @@ def _ordered(faces: Faces, permutation: str | None) -> tuple[Order | slice, Face
     """The rows of frames in the order that a file says, if there is one, and faces that fit."""
     if permutation is None:
         return slice(None), faces
+    # `reorder` takes meshes. Their numbers as coordinates make it tell where each row goes.
     numbers = np.repeat(np.arange(faces.max() + 1.0)[:, None], 3, axis=1)  # as positions, which tell the order
     mesh = _reordered(TriangleMesh(numbers, faces), permutation)
     return mesh.positions[:, 0].astype(np.int64), mesh.faces
@@ -289,6 +315,7 @@ def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], nu
     begin = time.perf_counter()
     stream = SequenceStream(chunks, console.note if args.tolerant else None, number, limits_of(args.limits))
     found = next(stream.changing_frames(), None)
+    # A tolerant decoder may go on after a lost frame, and return a later one.
     if found is None or found[0] != number:
         raise OptionError(NO_FRAMES)
     mesh = TriangleMesh(found[1], stream.faces, stream.attributes, stream.metadata)

@@ -33,6 +33,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
     sample = knot(args.vertices)
     vertices, faces = len(sample.positions), len(sample.faces)
+    # The arrays that a program would hold, since a sample has no file to compare with.
     plain = 12 * (vertices + faces)  # as float32 and int32
     console.note(f"sample     a knotted rope: {vertices} vertices, {faces} faces, {plain} bytes as plain arrays")
     encoder, begin = Encoder(sample, encode_options(**keywords_of(args))), time.perf_counter()
@@ -48,6 +49,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         received = decode(stream)
     decoding = time.perf_counter() - begin
     positions = np.empty_like(received.positions)
+    # The decoder has its own order of vertices. The picture compares vertex by vertex.
     positions[encoder.vertex_order] = received.positions
     seen = "" if encoder.look is None else f"look {encoder.look:.2f}, "
     console.note(

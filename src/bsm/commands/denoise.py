@@ -76,8 +76,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
     inputs = [name for given in args.inputs for name in (found[given] or [given])]
     if args.output is not None and any(found.values()) and not Path(args.output).is_dir():
         # A folder of meshes becomes a folder, whether its name ends in / or not.
+        # Without the sign, `plan` would take the name for that of a file, and refuse several inputs.
         args.output = args.output.rstrip("/") + "/"
     beside = "" if args.output else ".denoised"
+    # Never onto the input itself: denoising is a judgment, and the original may be needed again.
     jobs = plan(inputs, args.output, lambda name: beside + _suffix(name), sole_folder=True)
     refuse_two_on_one_pipe(args, jobs[0].output)
     job = asked(DenoiseJob, args, output="", options=options_of(args, "denoise method"))
@@ -102,6 +104,7 @@ def _suffix(name: str) -> str:
 
 def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions | None") -> dict[str, Any]:
     kind = _kind_of_output(args)
+    # Imported here, since only some runs need them, and the codec takes time to load.
     from bsm.api import encode, look
     from bsm.codec.denoise import FrameDenoiser
 
@@ -117,11 +120,14 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions |
     for line in _found(denoiser.choice, args.goal, mean_edge_length(mesh.positions, mesh.faces), unit):
         console.note(line)
     words, moves = _movement(np.linalg.norm(positions - mesh.positions, axis=1), unit)
+    # If no vertex has moved, the file is copied byte by byte. To write it anew would lose what the reader does not
+    # keep.
     same = not moves["vertices"] and kind == format_of_name(args.input) and Path(args.input).is_file()
     for note in source.notes if not same else ():
         console.note(f"{args.input}: {note}")
     console.note(f"moved      {words}{'; the file is copied' if same else ''}")
     seconds = time.perf_counter() - begin
+    # Normals belong to the positions that they were made for. They are left out, and a note says so.
     moved, stale = mesh.moved(positions) if moves["vertices"] else (mesh, ())
     more: dict[str, Any] = {"moved": moves}
     if args.look:
@@ -156,6 +162,7 @@ def _kind_of_output(args: DenoiseJob) -> str:
     stream = args.output.lower().endswith(f".{STREAM}")
     kind = args.format if args.output == "-" else STREAM if stream else format_of_name(args.output)
     if kind not in (*table.WRITTEN_FORMATS, STREAM):
+        # A pipe has no name that could tell a format.
         if args.output == "-":
             raise OptionError(f"a pipe has no suffix; give --format: {', '.join(table.WRITTEN_FORMATS)}")
         raise meshes.unknown_suffix(args.output, STREAM)
@@ -172,6 +179,7 @@ def _denoise_sequence(
 
     if args.look:
         raise OptionError("--look is for single meshes; leave it out for a sequence")
+    # The denoiser learns from the first frame how noisy the sequence is, before it sees the others.
     first = next(source.frames)
     begin = time.perf_counter()
     denoiser = FrameDenoiser(first, source.faces, options, goal=args.goal, strength=args.strength, force=args.force)
@@ -185,6 +193,7 @@ def _denoise_sequence(
             if source.count:
                 progress(count, source.count)
             if count == 1:
+                # The choice is made while the first frame is denoised, so it can be told only now.
                 for line in _found(denoiser.choice, args.goal, mean_edge_length(first, source.faces)):
                     console.note(line)
     seconds = time.perf_counter() - begin
@@ -208,6 +217,7 @@ def _found(choice: "AutomaticChoice | None", goal: str, edge: float, unit: str =
         return
     if choice.outliers:
         yield f"outliers   {counted(vertices=choice.outliers)} moved back"
+    # Doing nothing is a result. It is told with its reason, and with the way to insist.
     if not choice.steps:
         if not choice.outliers:
             line = "steadied   " if choice.kind == "unsteady" else "unchanged  "

@@ -22,6 +22,7 @@ from bsm.jobs.plan import plan, plan_trees
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Job
 
+# A user who asks for `-o x.obj` expects a mesh file, and would get a stream under a false name.
 _OTHERS = (*SEQUENCE_FORMATS, "gltf", "drc", "3mf", "dae", "fbx", "abc", "json", "zip")
 """Suffixes that are not names of streams."""
 
@@ -41,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     _refuse_other_formats(args.inputs, args.output)
+    # The option of other programs chooses the format of the output. Here it is that of the input.
     if args.format in GLTF and format_of_name(args.inputs[0]) not in (None, "glb"):
         given = shlex.quote(args.inputs[0])
         raise OptionError(f"--format is the format of the input; for a scene, run: bsm glb {given} -o OUT.glb")
@@ -49,6 +51,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     jobs, members = _planned(args, console)
     refuse_two_on_one_pipe(args, jobs[0].output)
     many, options = asked(Batch, args), keywords_of(args)
+    # Processes side by side use all cores already. More threads in each would only take turns.
     threads = options.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
     metadata = {"up": args.up} if args.up else {}
     for name, sign, value in (text.partition("=") for text in args.meta):
@@ -56,15 +59,18 @@ def run(args: argparse.Namespace, console: Console) -> int:
             raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
         metadata[name] = value
     more = {"output": "", "metadata": metadata, "options": options, "threads": threads, "members": members}
+    # Images in files need a folder that they can be written to.
     if args.images == "link" and any(job.output == "-" or is_url(job.output) for job in jobs):
         raise OptionError("--images link writes files beside streams; it takes neither a pipe nor a URL")
     if args.images not in (None, "keep", "none", "link"):
         ImageRule.parse(args.images)
+        # Decoders of images are a usual way into a process. Bytes of strangers never reach Pillow.
         if args.untrusted:
             raise OptionError("--images lets Pillow read images; leave it out with --untrusted")
     more["format"] = "npy" if args.piped_frames else args.format
     job = asked(EncodeJob, args, **more)
     others = (path for folder in args.inputs for path in Path(folder).rglob("*") if args.recursive)
+    # Without any other file in the folders there can be no shared image, and the meshes need not be read twice.
     if args.images is None and any(path.suffix.lower() not in MESH_SUFFIXES and path.is_file() for path in others):
         job = replace(job, shared=shared_images(many, job, console, jobs))
     if job.shared:
@@ -77,6 +83,7 @@ def _planned(args: argparse.Namespace, console: Console) -> tuple[list[Job], tup
     """Return the jobs; for several meshes in one stream, one job and the names of these meshes."""
     members: tuple[str, ...] = ()
     one_stream = (args.output or "").lower().endswith(".bsm") and not Path(args.output).is_dir()
+    # Several meshes to one stream can only mean frames.
     if len(args.inputs) > 1 and one_stream and not args.recursive:
         members, args.inputs = tuple(args.inputs), [common_name(args.inputs)]
     elif args.output is None and len(args.inputs) > 1 and look_like_frames(args.inputs):
@@ -93,10 +100,12 @@ def _planned(args: argparse.Namespace, console: Console) -> tuple[list[Job], tup
     else:
         jobs = plan(args.inputs, args.output, lambda _: ".bsm")
     if args.dry_run:
+        # A dry run does all the work and throws it away, so that its figures are those of the real run.
         jobs = [replace(job, output=os.devnull, follow=True) for job in jobs]
     if args.permutation:
         if len(jobs) > 1:
             raise OptionError("--permutation is for one input")
+        # The three may name one file by mistake. The second write would destroy the first.
         refuse_collisions(args.inputs, [jobs[0].output, args.permutation, args.report or ""])
     return jobs, members
 

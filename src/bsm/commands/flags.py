@@ -16,6 +16,8 @@ from bsm.codec.choices import suggestion
 from bsm.files.output import refuse_terminal
 
 
+# A row of a table and not a call, since tests and documents read the table, too: what an option is called and does is
+# told once.
 @dataclass(frozen=True)
 class Flag:
     """A row of options.csv: an option, or the keyword of a setting; "unset": without a value the namespace has none."""
@@ -40,6 +42,8 @@ class Flag:
         if self.default == "required":
             how |= {"required": True}
         elif self.default:
+            # Without a default in the namespace, an option that was not given differs from one that was given its
+            # default. Presets need to know which.
             how |= {"default": argparse.SUPPRESS if self.default == "unset" else self.parse(self.default)}
         adder(group)(self.names, self.value, self.help, **how)
 
@@ -48,12 +52,14 @@ def adder(parser: argparse._ActionsContainer) -> Callable[..., argparse.Action]:
     """Return a function that adds an argument: names, the name of its value or "" for a switch, help, and details."""
 
     def add(names: str, value: str, about: str, **more: Any) -> argparse.Action:
+        # A switch has no value, and argparse refuses a metavar for it.
         plain = {"metavar": value} if value else {} if "choices" in more else {"action": "store_true"}
         return parser.add_argument(*names.split(), help=about, **{**plain, **more})
 
     return add
 
 
+# The usual help stays short enough to be read. Settings for researchers are listed here only.
 class HelpAll(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
         parser.print_help()
@@ -86,6 +92,7 @@ def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
 
     def parsed(text: str) -> tuple[float, ...]:
         found = tuple(map(float, text.split(",")))
+        # float() reads "nan" and "inf", which no coordinate may be.
         if len(found) != count or not all(map(math.isfinite, found)):
             raise ValueError(text)
         return found
@@ -110,6 +117,7 @@ def named_setting(text: str) -> tuple[str, Any]:
         raise argparse.ArgumentTypeError(f"{name}={setting.value} is expected, not {text!r}") from None
 
 
+# The numbers stand in the codec as well. A test holds the text against them.
 PROMISES = Path(__file__).with_name("presets.txt").read_text("utf-8").rstrip()
 """A table of the presets; written out, because importing their definitions takes time."""
 PRESETS = tuple(re.findall(r"^([\w-]+)  ", PROMISES, re.MULTILINE))[1:]
@@ -123,6 +131,7 @@ def number_or_length(text: str) -> float | str:
 
 
 def named_quality(text: str) -> tuple[str, str]:
+    # From the right, since names of attributes may hold the sign.
     name, separator, quality = text.rpartition("=")
     if not (name and separator):
         raise argparse.ArgumentTypeError(f"NAME=QUALITY is expected, such as texcoord=12bits, not {text!r}")
@@ -130,6 +139,7 @@ def named_quality(text: str) -> tuple[str, str]:
 
 
 def unit(text: str) -> str:
+    # numpy takes longer to load than the rest of a short command.
     from bsm.ground.lengths import UnitError, known_unit  # needs numpy
 
     try:
@@ -165,6 +175,7 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     add_flags(group, "coding")
     add, unset = adder(group), {"default": argparse.SUPPRESS}
     repeated = {"action": "append", **unset}
+    # Both are in use. Two names for one keyword, so that they cannot contradict each other.
     add("--quick", "", "same as --effort quick", dest="effort", action="store_const", const="quick", **unset)
     quality = "quality of an attribute: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none. The name * means "
     quality += "all others; *=none also drops materials and images. May be repeated"
@@ -225,6 +236,7 @@ def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | N
 
 def refuse_two_on_one_pipe(args: argparse.Namespace, output: str) -> None:
     """Raise `OptionError` if a file and JSON would both go to standard output, or bytes to a terminal."""
+    # Both would write to the same pipe, and no program could tell them apart.
     if output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
     refuse_terminal(output)

@@ -40,11 +40,13 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if Path(args.output).suffix.lower() != ".glb":
         raise OptionError(f"{args.output}: the output must be a .glb")
     streamed = not Path(args.input).is_dir() and is_stream(args.input)
+    # A moving mesh is one stream. glTF has no compressed morph targets, so the scene only wraps it.
     if streamed and (header := peek_header(read_chunks(args.input))[0]) and header.gop_frames:
         _wrap_sequence(args, console)
         return
     with about(args.input):
         document, taken = _document(args.input, console)
+    # Chosen by the scene unless the user says so: few primitives are better small, and many are better fast.
     quick = count_primitives(document) >= MANY if args.quick is None else args.quick
     if args.preset == "lossless" and args.quick:
         raise OptionError("--quick rounds positions to a grid; leave out --preset lossless")
@@ -57,6 +59,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     with console.progress("encoding") as progress:
         name = beside.name if beside else None
         found = compress(document, options, rule, name, progress, jobs=args.jobs, one_grid=args.one_grid)
+    # A scene that came back as it was would look like success.
     if not (found.coded or taken or rule or args.force):
         why = "; ".join(found.left) or "the scene has no primitives"
         raise HarmError(f"{args.input}: nothing was coded: {why}; --force writes the scene anyway")
@@ -91,6 +94,7 @@ def _notes_on(found: Compressed, document: Document, before: int, *, shrinks: bo
         yield "small components are coarse; use --preset fine or near-lossless"
     yield from changed(list(found.images))
     yield from (f"{note}{f' ({count} times)' if count > 1 else ''}" for note, count in found.notes.items())
+    # Often most of the bytes are images, and someone who compares sizes should know it.
     images = sum(len(document.image(number)[1] or b"") for number in range(len(document.items("images"))))
     if not shrinks and 2 * images > len(found.data):
         yield f"{images} bytes are unchanged images; --images webp:85 makes them smaller"
@@ -108,6 +112,7 @@ def _document(path: str, console: Console) -> tuple[Document, int | None]:
             console.note(f"{path}: compressed already, by {name}: errors add up")
         return document, None
     else:
+        # The way from a sequence to a scene has two steps, and the message gives both.
         if open_sequence(path) is not None:
             stream = shlex.quote(f"{Path(path).stem}.bsm")
             advice = f"bsm encode {shlex.quote(path)} -o {stream}; bsm glb {stream} -o {Path(path).stem}.glb"

@@ -38,6 +38,7 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
     limits = limits_of(args.limits)
     if is_tiles(args.input):
         return {"input": args.input, **by_name("bsm.tiles.shards", "open_tiles")(args.input).manifest}
+    # A scene may hold many streams, and each is described on its own.
     if is_scene(args.input):
         document = by_name("bsm.gltf.document", "read_document")(args.input, limits)
         streams = {n: summarize(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}
@@ -52,6 +53,7 @@ def summarize(info: StreamInfo) -> dict[str, Any]:
         "order": sizes["order"] > 0,
         "light": header.light > 0,
         "congruence": header.congruence > 0,
+        # A part of the law of its own: older drafts had none, and decoders may lack it.
         "whole": header.whole,  # vertices where images of others are take one decision
         "turn": any(header.turn),
         "base": bool(header.base),
@@ -81,6 +83,7 @@ def summarize(info: StreamInfo) -> dict[str, Any]:
         "bpv_paper": info.bpv_paper,
         "header": {name: getattr(header, name) for name in header.__dataclass_fields__},
         "metadata": {
+            # JSON has no bytes.
             name: base64.b64encode(value).decode() if isinstance(value, bytes) else value
             for name, value in info.metadata.items()
         },
@@ -96,6 +99,7 @@ def _worded(summary: Facts) -> str:
         return "\n\n".join([head, *(f"bufferView {n}: {_worded(found)}" for n, found in summary["streams"].items())])
     total = summary["bytes"]["total"]
     sizes = {("positions" if name == "coefficients" else name): size for name, size in summary["bytes"].items()}
+    # Bytes of all parts add up to the file, framing included, so that nothing stays unexplained.
     shares = [f"  {name:<13}{size:>12}  {100 * size / total:5.1f} %" for name, size in sizes.items()]
     rates = []
     if not summary["frames"]:
@@ -145,6 +149,7 @@ def _tile_lines(summary: Facts) -> Iterator[str]:
     )
     for level in summary["levels"]:
         counts = f"{level['tiles']:>6} tiles {level['faces']:>12} faces {level['bytes']:>12} bytes"
+        # The diagonal of half a cell: as far as rounding moves a vertex.
         off = level["error"] + 0.5 * 3.0**0.5 * summary["cell"]  # and by rounding to the grid
         yield f"  level {level['level']}: {counts}, off by up to {off:.3g}"
     yield f"{len(summary['shards'])} shards, {sum(shard['size'] for shard in summary['shards'])} bytes"

@@ -14,6 +14,7 @@ _TABLES = (Path(__file__).parent / "synonyms.txt").read_text("utf-8").split("\n\
 _LINES = ([line.split(": ", 1) for line in table.splitlines()] for table in _TABLES)
 COMMANDS, OPTIONS = ({word: instead for words, instead in lines for word in words.split()} for lines in _LINES)
 
+# A word like 0.1 or mm among the inputs comes from an option that takes no value, or from a space inside of one.
 _NUMBER = re.compile(r"[-+]?[\d.]+(?:e[-+]?\d+)?%?")
 _UNIT = re.compile(r"mm|cm|m|in|inch|%|[kMG]i?B|KB|bytes|dB|deg(?:rees)?|bpv", re.IGNORECASE)
 
@@ -32,6 +33,7 @@ def advice_on_command(words: Sequence[str]) -> str:
 
 def refuse_misplaced(command: str, inputs: Sequence[str], *, recursive: bool) -> None:
     """Raise an error that says what to type, if a word is an output, a unit or a value instead of an input."""
+    # A folder is a sequence to encode, but decode would find no stream in it.
     if command == "decode" and not recursive and (folder := next(filter(os.path.isdir, inputs), None)):
         command = f"bsm decode -r {shlex.quote(folder)} -o OUT/"
         raise OptionError(f"{folder} is a folder. To decode each stream in it, run: {command}; tiles: bsm untile")

@@ -37,13 +37,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
+    # Raises the errors of wrong values, before hours of reading.
     EncodeOptions(grid_cell=1.0 if args.grid_cell is None else args.grid_cell, grid_origin=args.grid_origin)
     if not is_url(args.input) and args.input != "-":
         os.stat(args.input)
     beside = f"{name_in(args.output) or 'tiles'}.work" if is_url(args.output) else os.path.join(args.output, ".work")
     work = Path(os.path.abspath(args.work or beside))
+    # The default lies in the output folder, which others may be able to write to.
     if not args.work and work.is_symlink():
         raise OptionError(f"{work} is a symbolic link; remove it, or name a folder with --work")
+    # Both folders are locked for the whole run. A second run would take away the files of the first.
     with ExitStack() as folders:
         outputs = [] if is_url(args.output) else [Path(args.output)]
         taken = [*outputs, *([work] if args.work or not outputs else [])]
@@ -63,9 +66,12 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
         if outcome.error is not None:
             report_error(outcome.error, as_json=args.json, options=console.options)
 
+    # The report is what --resume reads: tiles that are done and unchanged are not made again.
     many = asked(Batch, args, report=str(work / "tiles.json"))
     with console.progress(until=0.5 if args.tileset else 0.96):
         done = run_many(many, asked_for, console, tile_one, _jobs(plan, work, args.finest), ended)
+    # Without all tiles there is no manifest, so that no reader takes a part for the whole. The work stays, to be
+    # resumed.
     if failed := [facts for facts in done if "error" in facts]:
         console.note(f"{len(failed)} of {len(done)} tiles failed; --resume repeats these and the tiles above them")
         return int(failed[0]["exit"])
@@ -73,6 +79,7 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
     done.sort(key=lambda facts: (-len(Path(facts["output"]).stem), facts["output"]))
     write_unfinished(args.output, args.input)
     manifest, given = write_shards(args.output, plan, done, os.path.basename(args.input), overwrite=over)
+    # Before the tileset, which needs as much room again.
     remove_made(work)
     if args.tileset:
         given = write_tileset(open_tiles(args.output), args.output, console, content=args.tileset, overwrite=over)
@@ -103,6 +110,7 @@ def _jobs(plan: Plan, work: Path, finest: bool) -> list[Job]:
     names = [name for name in plan.nodes() if name in plan.leaves or not finest]
     numbers, jobs = {name: number for number, name in enumerate(names)}, list[Job]()
     for name in names:
+        # A coarse tile waits for its eight parts only, not for its whole level: few processes are ever idle.
         below = tuple(numbers[name + eighth] for eighth in "01234567" if name + eighth in numbers)
         source = f"{name}[0-7].mesh" if below else "plan.json"
         jobs.append(Job(str(work / source), str(work / f"{name}.bsm"), below))
@@ -112,6 +120,7 @@ def _jobs(plan: Plan, work: Path, finest: bool) -> list[Job]:
 def _begun(args: argparse.Namespace, work: Path, console: Console, left: bool) -> Plan:
     """Return the plan, with the output marked as unfinished; `left`: a killed process had locked a folder before."""
     unfinished = is_unfinished(args.output)
+    # The user chooses. Both continuing and starting again are reasonable, and starting again may throw away hours.
     if unfinished and (work / "plan.json").is_file() and not (args.force or args.resume):
         message = "these tiles are unfinished: --resume continues, -f starts again"
         raise FileExistsError(errno.EEXIST, message, args.output)
@@ -133,6 +142,7 @@ def _begun(args: argparse.Namespace, work: Path, console: Console, left: bool) -
 def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
     """Return the plan of the resumed run, or of a new one."""
     options = {name: getattr(args, name) for name in ("triangles", "grid_cell", "grid_origin", "images")}
+    # With other options or another input, tiles of two runs would not fit together.
     asked_for = repr((options, state_of(args.input)))
     note = work / NOTE
     if args.resume and (work / "plan.json").is_file():
@@ -153,6 +163,7 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
         with console.progress("cutting", until=0.3):
             threads = args.jobs or available_threads()
             plan = cut(raw, *chosen_lattice(raw, args.grid_cell, args.grid_origin, threads), args.triangles)
+    # Plain errors of the system, such as a full disk, leave the work for --resume.
     except BsmError:  # no run could go on with what is refused
         remove_made(work)
         raise

@@ -31,15 +31,18 @@ def run(args: argparse.Namespace, console: Console) -> None:
         folder = args.output[: -len(TILESET)].rstrip("/") or "."
         write_tileset(tiles, folder, console, content=args.content, overwrite=args.force)
         return
+    # PLY can be written with the memory of a tile. Other formats need the whole mesh at once.
     if args.box is None and (args.output == "-" or Path(args.output).suffix.lower() == ".ply"):
         refuse_terminal(args.output)
         chosen = tiles.chosen(args.error or 0.0, level=args.level)
         summary = write_joined(tiles, chosen, args.output, console, overwrite=args.force)
     else:
+        # Numbers rather than infinities, since the box is divided by the cell.
         ends = args.box or (*(-1e300,) * 3, *(1e300,) * 3)
         with console.progress("decoding"):
             mesh = tiles.region(ends[:3], ends[3:], args.error or 0.0, level=args.level)
         summary = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
+        # On the grid that the tiles are on, a stream keeps their positions to the bit.
         grid: dict[str, Any] = {"grid_cell": tiles.lattice.cell, "grid_origin": tiles.lattice.origin}
         stream = Path(args.output).suffix.lower() == ".bsm"
         by_name("bsm.api", "save")(mesh, args.output, overwrite=args.force, **(grid if stream else {}))

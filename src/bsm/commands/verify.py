@@ -44,9 +44,12 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
             what, size, more = _verify_scene(args)
         else:
             refuse_mesh(args.input)
+            # Held in memory, since a pipe gives the bytes once and they are read twice: the structure first, because
+            # its errors name the place.
             info = _checked(list(read_chunks(args.input)), args)
             what, size = counted(blocks=info.header.blocks), info.sizes["total"]
             more = {"checked": not args.quick and info.checksum is not None}
+    # Only streams with a checksum of decoded positions prove that. Short ones have none.
     matches = ", positions match the encoder's" if more.get("checked") else ""
     console.note(f"{args.input}: whole, {what}, {size} bytes{matches}")
     return {"input": args.input, "ok": True, "decoded": not args.quick, **more, "bytes": size}
@@ -73,6 +76,7 @@ def _verify_tiles(args: VerifyJob, console: Console) -> tuple[str, int, Facts]:
     """Check every tile of every shard; report all faults, and raise the first."""
     tiles = by_name("bsm.tiles.shards", "open_tiles")(args.input, limits_of(args.limits))
     faults = list(tiles.faults(not args.quick))
+    # The first becomes the error of the command. All others are notes, so that nothing is told twice.
     for fault in faults[1:]:
         console.note(worded(fault))
     if faults:

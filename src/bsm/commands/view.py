@@ -32,6 +32,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     whole = [name for name in ("save", "static", "original") if getattr(args, name)]
     if args.follow and whole:
         raise OptionError(f"--{whole[0]} needs complete streams; leave out --follow")
+    # Tiles are gigabytes. The page fetches those that it shows, and can neither hold nor compare all.
     if (args.follow or args.save or args.original) and any(map(is_tiles, args.inputs)):
         raise OptionError("tiles are loaded on demand; leave out --save, --original and --follow")
     if args.original and len(args.inputs) != 1:
@@ -53,6 +54,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.save or args.static:
         return 0
     with PageServer(served, args.port) as server:
+        # To standard output and at once: scripts wait for this line before they open the page.
         print(server.address, flush=True)
         console.note("press Ctrl-C to stop")
         with suppress(KeyboardInterrupt), nullcontext() if args.no_open else in_browser(server.address):
@@ -82,6 +84,7 @@ def _opened(
     with about(path):
         given = given_at(path)
         if isinstance(given.source, bytes):
+            # A page on a disk is opened by people who were not there. A damaged stream must be found now.
             if args.save or args.static:
                 inspect_stream(iter([given.source]), limits_of(args.limits))
             return alone(name, given.source)
@@ -95,6 +98,7 @@ def _opened(
 def _growing(name: str, path: str) -> Arrival:
     growing = Arrival(name)
     chunks = read_chunks(path) if path == "-" else written_to(open(path, "rb"))  # noqa: SIM115
+    # A daemon, because a pipe may never end, and Ctrl-C must.
     Thread(target=growing.receive, args=(chunks,), daemon=True).start()
     if not growing.begins():
         raise FormatError(NO_STREAM if path == "-" else f"{path} is not a BSM stream; only streams can be followed")
@@ -106,6 +110,7 @@ def _named(paths: list[str]) -> dict[str, str]:
     named: dict[str, str] = {}
     for path in paths:
         name = Path(path).name
+        # Two files of one name from two folders are two entries of the page.
         others = (f"{name} ({number})" for number in itertools.count(2))
         named[next(candidate for candidate in itertools.chain([name], others) if candidate not in named)] = path
     return named

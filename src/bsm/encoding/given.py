@@ -32,9 +32,11 @@ from bsm.ground.console import Progress
 from bsm.ground.lengths import as_said, asked_unit, in_own_unit, known_unit, metres, unit_of
 
 if TYPE_CHECKING:
+    # A single mesh never needs it, and it loads scipy.
     from bsm.codec.sequence.encoder import SequenceEncoder
 
 _GENERATION = re.compile(r" generation=(\d{1,6})")
+# A quarter of a texel cannot be seen: filters of textures mix whole ones.
 _TEXELS = 0.25  # how far texture coordinates may be off
 
 
@@ -52,6 +54,7 @@ class Wishes:
 
     def check(self) -> None:
         """Raise errors that no mesh could avoid; a sequence and a mesh have different options."""
+        # An unknown unit would make a GLB a thousand times too large, without a word.
         if unit := self.metadata.get("unit"):
             known_unit(unit, "metadata")
         if self.options is not None:
@@ -59,6 +62,8 @@ class Wishes:
         said = as_said(self.keywords)
         try:
             encode_options(**said)
+        # It is not known yet whether the input is a mesh or a sequence. Only what is wrong for both is an error here;
+        # that of the mesh is the one told, since meshes are more frequent.
         except BsmError as error:
             try:
                 sequence_options(**said)
@@ -71,6 +76,7 @@ class Wishes:
 
     def joined(self, metadata: Metadata) -> tuple[dict[str, Any], list[str]]:
         """Return the metadata of a mesh with those of the user, and a note on a unit that is not known."""
+        # What the user says counts more than what a file says: files are often wrong about their unit.
         known = {**metadata, **self.metadata}
         own = unit_of(known)
         doubt = f"its unit {own} is not known, so sizes stay as they are; --meta unit=mm names it"
@@ -79,10 +85,12 @@ class Wishes:
     def signed(self, metadata: Metadata, options: Any) -> tuple[Metadata, list[str]]:
         """Return metadata with a provenance entry, if it is requested or the input has one, and notes."""
         said = str(metadata.get(PROVENANCE, ""))
+        # Provenance of other programs is kept, but not counted.
         if not said.startswith("bsm "):
             return {**metadata, **({PROVENANCE: self._words(options, 1)} if self.provenance else {})}, []
         found = _GENERATION.search(said)
         generation = 1 + int(found[1] if found else 1)
+        # On one grid, encoding again changes nothing. Otherwise each generation adds its error.
         more = "" if getattr(options, "is_grid", False) else ": errors add up, so encode the original if you have it"
         notes = [f"the mesh was decoded from a stream, so this is generation {generation}{more}"]
         kept = {name: value for name, value in metadata.items() if name != PROVENANCE}
@@ -91,6 +99,7 @@ class Wishes:
         return kept if self.provenance is False else {**kept, PROVENANCE: words}, notes
 
     def _words(self, options: Any, generation: int) -> str:
+        # The number of threads changes no byte, and values that are not plain cannot be written down.
         given = {**self.keywords, "simplify": self.simplify}
         parts = [f"bsm {__version__}", given.pop("preset", None) or ("balanced" if options.promise else "none")]
         plain = {n: v for n, v in given.items() if n != "threads" and isinstance(v, str | int | float)}
@@ -123,11 +132,14 @@ def given_mesh(mesh: TriangleMesh, wishes: Wishes) -> Recipe:
     known, notes = wishes.joined(mesh.metadata)
     options: EncodeOptions = wishes.made(encode_options, EncodeOptions, known, mesh)
     qualities = dict(options.attributes)
+    # Names of attributes that are left out would point to nothing.
     left = {a.name for a in mesh.attributes if qualities.get(a.name, qualities.get("*")) == "none"} - {"material"}
     bare = qualities.get("*") == "none" and set(qualities.values()) == {"none"}
     held = without_names(without_materials(mesh.metadata) if bare else mesh.metadata, left)
     left_out = ["left out: materials, images"] * bool(mesh.metadata.keys() - held.keys())
     precision = PRECISION if is_single_and_far(mesh.positions) else {}
+    # Images are changed before the provenance is written: it tells how the stream was made of the file, not of the
+    # images.
     sent, generations = wishes.signed(wishes.images({**precision, **held, **wishes.metadata}), options)
     losses, unit = (*notes, *generations), asked_unit(wishes.keywords, known)
     sent_mesh, options = replace(mesh, metadata=sent), with_texels(options, mesh)
@@ -156,9 +168,11 @@ def given_frames(source: Frames, wishes: Wishes, shown: TriangleMesh | None = No
     """Frames for the wishes; `shown`: one of them, for the words of errors."""
     rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
     known, notes = wishes.joined({name: value for name, value in source.metadata.items() if name != TIME_VALUE} | rate)
+    # Caches of animations have no faces. Their reader finds vertices by number, so the order is part of their meaning.
     played = {"keep_order": True} if source.rigged and wishes.options is None else {}
     asked = replace(wishes, keywords={**played, **wishes.keywords})
     options: SequenceOptions = asked.made(sequence_options, SequenceOptions, known, shown)
+    # Which order faces have in such a file is an accident of its mesh; sorted ones take fewer bits.
     source = source.on_sorted_faces() if source.rigged and options.keep_order else source
     sent, generations = wishes.signed(known, options)
     from bsm.codec.sequence.encoder import SequenceEncoder  # not for meshes
@@ -170,6 +184,7 @@ def given_frames(source: Frames, wishes: Wishes, shown: TriangleMesh | None = No
 
 def with_texels(options: EncodeOptions, mesh: TriangleMesh) -> EncodeOptions:
     """Let texture coordinates be off by a quarter of a texel of the largest image, where looks choose their quality."""
+    # Only where a look is promised: other options say themselves how exact attributes are.
     side, promise = largest_side(mesh.metadata), options.promise
     asked = dict(options.attributes)
     if not side or "*" in asked or promise is None or promise.look == math.inf:

@@ -26,6 +26,7 @@ SEQUENCE_STEPS = {"small": 0.006, "balanced": 0.002, "fine": 0.0007, "near-lossl
 
 def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptions:
     base: EncodeOptions = EncodeOptions() if preset is None else named("preset", PRESETS, preset)
+    # None means "not given", in Python as on the command line, so callers can pass on what they got.
     asked = [name for name, value in keywords.items() if value is not None]
     promised = [name for name in asked if name in (*BOUNDS, "contract")]
     grids, coding = ([name for name in names if name in asked] for names in (("grid", "grid_cell"), CODING))
@@ -34,6 +35,7 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
         raise OptionError(f"preset {preset} fixes all positions and cannot be combined with {' and '.join(excluded)}")
     if base.sets_coding and (excluded := [*promised, *grids]):
         raise OptionError(f"preset {preset} fixes the coding and cannot be combined with {' and '.join(excluded)}")
+    # The default preset gives way to a grid, but one that the user has named contradicts it.
     if grids and preset is not None and base.contract is not None:
         promised.insert(0, f"the preset {preset}")
     if promised and (fixed := [*grids, *coding]):
@@ -50,10 +52,12 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
         return given
     if given.get("contract") is not None:
         raise OptionError("a contract says all that is promised: look and max_error are its bounds")
+    # "none" promises nothing, and a single bound must then not bring others with it.
     contract = base.contract or Contract(WIDEST)
     if farthest is not None:
         number, absolute = parse_length("max_error", farthest)
         if named and not absolute:
+            # A bound beside a named preset adds to it. It can make the promise stricter, never looser.
             number = min(number, contract.farthest)
         contract = replace(contract, farthest=number, absolute=absolute)
     if look is not None:
@@ -65,6 +69,7 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
 
 def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keywords: Any) -> SequenceOptions:
     name = "balanced" if preset is None else preset
+    # Said by name, since these are known words for meshes, and "unknown preset" would surprise.
     if name in ("none", "lossless", "grid14", "paper"):
         why = "it is for static meshes only" if name == "paper" else "GOPs round frames together"
         raise OptionError(f"a sequence cannot have preset {name}: {why}; try near-lossless")
@@ -82,6 +87,7 @@ def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keyword
         if given.get("target") is not None or given.get("step") is not None:
             raise OptionError(f"{' and '.join(bounds)} of a sequence cannot be combined with a target or a step")
         farthest, absolute = parse_length("max_error", bounds.get("max_error", PROMISES[name].farthest))
+        # With low delay, frames are sent before later ones are known; there is no search that could keep a look.
         look = checked("look", bounds.get("look", math.inf if together else PROMISES[name].look), float)
         given["promise"] = Contract(farthest, look=look, absolute=absolute)
     elif not (together or quick or {"target", "step", "promise"} & {key for key in given if given[key] is not None}):
@@ -91,6 +97,7 @@ def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keyword
 
 def denoise_options(**keywords: Any) -> Any:
     """The options for denoising that keywords ask for; None without any: everything is chosen by the data."""
+    # Imported on demand, like all that loads scipy.
     from bsm.codec.denoise import DenoiseOptions  # needs scipy
 
     return DenoiseOptions(**_fields("denoising", _names(DenoiseOptions), keywords, {})) if keywords else None
@@ -108,6 +115,7 @@ def _fields(what: str, known: set[str], keywords: Mapping[str, Any], targets: Ma
     """The fields of options that keywords give, the target among them; `ArgumentError` if one is not known."""
     given = {name: value for name, value in keywords.items() if name not in targets}
     for name in (name for name in given if name not in known):
+        # An option of the other kind is the usual mistake, and "unknown" would be wrong.
         for others, names in (("single meshes", {*_OF_MESHES, "simplify"}), ("sequences", _OF_SEQUENCES)):
             if name in names and what != "denoising":
                 raise ArgumentError(f"{name} is for {others}, not for {what}")

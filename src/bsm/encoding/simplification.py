@@ -30,8 +30,11 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import ANY_ANGLE
 from bsm.ground.console import Progress
 
+# Ten numbers hold a symmetric quadric of four dimensions (Garland and Heckbert 1997). Costs are sorted into buckets
+# instead of a heap: about the cheapest is good enough, and takes constant time.
 _TERMS, _BUCKETS = 10, 1 << 15  # of the scratch memory of the kernel
 _SEAM, _FIXED, _STEADY = 2, 4, 8  # states of vertices in the kernel
+# Rungs and not any number: results are kept by rung, and the searches meet the same ones again and again.
 RUNG, RUNGS = 2.0 ** (-1 / 16), 64  # triangles over those of the rung before; rungs, down to a sixteenth
 NEAREST, CHEAPEST = (1e-4, 0.0), (3e-4, 0.2)
 """Costs of moving along the surface, over leaving it, and of vertices without six neighbors: for the nearest surface,
@@ -39,6 +42,8 @@ and for the fewest bytes."""
 LOOSEST, LOOSER, LADDER = 0.1, 0.4, 9  # what it costs to be rough over leaving the surface: most, each over the last
 SMOOTHING, SWEEPS, PACE = 0.5, 8, 0.7  # of vertices that slide: the filter, how often, and how much of the way
 SLID = 0.25  # of the promise, what sliding may take before any triangle is left out
+# Simplifying and coding share one promise. How to divide it best depends on the mesh, so a few shares are tried, as
+# long as the bytes fall.
 SPENT = {False: (0.65, 0.8), True: (0.25, 0.4, 0.55, 0.7)}
 """Of the promise, what fewer triangles may take, and sliding if vertices slide: more as long as bytes get fewer."""
 TRIES = 3  # streams of one simplified mesh, each under the promise that the one before calls for
@@ -66,15 +71,19 @@ def encode_source(mesh: TriangleMesh, options: EncodeOptions, progress: Progress
         return Chosen(encoder, encoder.result(progress), mesh)
     source = Source(mesh, options)
     with progress.part("encoding all triangles", 0.3):
+        # All triangles come first: whatever follows must beat this stream, so nobody gets a larger file for having
+        # asked.
         encoder = Encoder(mesh, options)
         best = Chosen(encoder, encoder.result(progress), source.whole)
     if encoder.unseen or degenerate(source.whole.faces).all():
         return best
     # Smooth positions save most where blocks are refined; on grids, those that were regular may take fewer bytes.
+    # Where blocks win, smooth positions are what saves; on grids both ways must be tried.
     for slides in (True,) if best.attempt.header.refinement else SPENT:
         for share in SPENT[slides]:
             with progress.part("encoding fewer triangles", 0.4):
                 made = source.encoded(source.taking(share, slides), best.attempt.size, progress)
+            # Less of the promise did not save bytes, so more of it will not either: the tries go from careful to bold.
             if made is None:
                 break
             best = made
@@ -90,6 +99,7 @@ class StandIn:
     spent: float  # of the promise
 
 
+# The encoder must compare with the original, whose pictures are made already, and not with its stand-in.
 class _Encoder(Encoder):
     """Encodes a mesh that stands for another one, of which pictures are shown."""
 
@@ -102,6 +112,7 @@ class Source:
     """An original to simplify, and how its results are measured."""
 
     def __init__(self, mesh: TriangleMesh, options: EncodeOptions) -> None:
+        # Without a promise there is no measure of how much may be left out.
         promise = options.promise
         if promise is None:
             raise OptionError("simplify needs a promise to keep; it excludes grids, lossless, steps and preset none")
@@ -120,6 +131,8 @@ class Source:
         kept = {"*", *(attribute.name for attribute in attributes)}
         asked = {name: quality for name, quality in dict(options.attributes).items() if name in kept}
         self.options = replace(options, attributes=asked)
+        # Two searches over the same rungs. A stand-in takes long to make, and as much memory as the mesh, so a few are
+        # kept.
         self.stand_in = lru_cache(16)(self._stand_in)
 
     @cached_property
@@ -150,6 +163,8 @@ class Source:
         """The largest distance of both surfaces as a share of the bound (others: `reach`); exact if above `enough`."""
         shares = []
         for one, two, bound in ((self.whole, other, self._reach), (other, self.whole, reach)):
+            # Vertices alone would miss a fold between them, so middles of sides and faces are measured, with the
+            # stricter bound of their ends.
             allowed = np.concatenate([bound, *_of_sides(bound[one.faces], np.min)])
             places = np.concatenate([one.positions, *_of_sides(one.positions[one.faces], np.mean)])
             far = distances_to_surface(places, two.positions, two.faces, enough=enough * allowed)
@@ -166,13 +181,21 @@ class Source:
         low, scale, target = whole.positions.min(axis=0), whole.diagonal or 1.0, RUNG**rung * len(whole.faces)
         placed = (whole.positions - low) / scale
         new, faces, owners, _, quadrics = collapsed(
-            placed, whole.faces, np.zeros(len(placed), np.bool_), round(target), costs=CHEAPEST
+            # In a unit cube, since costs are compared with numbers that do not know the size of the mesh.
+            placed,
+            whole.faces,
+            np.zeros(len(placed), np.bool_),
+            round(target),
+            costs=CHEAPEST,
         )
         new = new if loose is None else slid(new, faces, quadrics, LOOSEST * LOOSER**loose)
         kept = np.flatnonzero(owners >= 0)
+        # Of all vertices that became one, the nearest gives it its attributes. A mean of colors would be a color that
+        # the mesh does not have.
         kept = kept[np.lexsort((np.square(new[owners] - placed).sum(axis=1)[kept], owners[kept]))]
         nearest = kept[np.unique(owners[kept], return_index=True)[1]]
         reach = np.full(len(new), np.inf)
+        # A vertex that stands for several must keep the strictest of their bounds.
         np.minimum.at(reach, owners[kept], self._reach[kept])
         attributes = tuple(replace(attribute, values=attribute.values[nearest]) for attribute in whole.attributes)
         mesh = TriangleMesh(new * scale + low, faces, attributes, whole.metadata)
@@ -194,9 +217,12 @@ class Source:
         """Return a stream of a stand-in in fewer bytes than `most` that was found to keep the promise, if any."""
         promise, look, off = self.promise, self.promise.look, 0.0 if self._looks else one.spent
         for _ in range(TRIES):
+            # Nothing of the promise is left for the coder.
             if not off < AIM:
                 break
             near = AIM - off
+            # The second stream is asked for what the first one missed, in proportion. Three tries find it, or nothing
+            # does.
             asked = replace(promise, look=look, farthest=near * promise.farthest, by_part=near * promise.by_part)
             encoder = _Encoder(one.mesh, replace(self.options, contract=asked), self._metric)
             try:
@@ -206,6 +232,8 @@ class Source:
                 break
             if attempt.size >= most:
                 break
+            # Measured on the decoded mesh, as always: the encoder's own promise is about the stand-in, not about the
+            # original.
             decoded = decode(b"".join(attempt.frames), NAMED_LIMITS[self.options.limits](), self.options.threads)
             placed = np.full(len(decoded.positions), np.inf)
             np.minimum.at(placed, encoder.vertex_index, one.reach)
@@ -226,6 +254,7 @@ def _of_vertices(attribute: Attribute, mesh: TriangleMesh, faces: Faces, kept: n
     corners = at_corners(attribute, mesh.faces)[kept]
     values = np.zeros((int(faces.max(initial=-1)) + 1, attribute.components), corners.dtype)
     values[faces[::-1]] = corners[::-1]
+    # Collapsing edges across a seam would have to choose one of two values. Refused, since either would be seen.
     if not np.array_equal(values[faces], corners):
         raise OptionError(f"{name} has seams, where a vertex has several values; simplify cannot keep them: {advice}")
     return Attribute(name, values, "vertex", attribute.semantic)
@@ -246,9 +275,11 @@ def collapsed(
     sides_of, _, uses = edges_of(faces)
     stay = np.where(locked, _FIXED, 0 if wedges is None else _STEADY).astype(np.uint8)
     # At open borders, and where more than two triangles meet at an edge.
+    # An open border that moves changes the outline, which eyes notice first.
     stay[sides_of[uses != 2]] = _FIXED
     if wedges is not None:
         vertices = faces.ravel()[np.unique(wedges, return_index=True)[1]]  # of the wedges
+        # A vertex with several wedges is on a seam; it may only move along it.
         stay[np.bincount(vertices, minlength=count) > 1] |= _SEAM
     moved, left, own = np.array(positions, np.float64), np.array(faces, np.int32), np.array(own, np.int32)
     ends, marks, owners = np.empty((3, count), np.int32)
@@ -272,6 +303,7 @@ def compact(rows: npt.NDArray[Any], faces: Faces) -> tuple[npt.NDArray[Any], Fac
 def slid(positions: Positions, faces: Faces, quadrics: Matrix, worth: float) -> Positions:
     """Positions that have slid along the surface to where they are smooth on the graph, and take fewer bytes."""
     graph = graph_of_faces(faces, len(positions))
+    # The kernel keeps the upper half of each symmetric matrix.
     squares, places = quadrics[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3), -quadrics[:, 6:9]
     areas = np.trace(squares, axis1=1, axis2=2)
     loose = worth * (areas[:, None, None] * np.eye(3) - squares)  # but across the surface

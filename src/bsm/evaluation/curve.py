@@ -35,6 +35,7 @@ from bsm.ground.console import finite
 
 def encode_draco(mesh: TriangleMesh, position_bits: int, level: int, **more: Any) -> bytes:
     draco, settings = _draco(), {"quantization_bits": position_bits, "compression_level": level, **more}
+    # DracoPy ends the process on ranges that underflow in single precision, so they are refused here.
     require_sizes(mesh.positions, 1e-30, done="encoded by Draco")  # it crashes with smaller ones
     try:
         return bytes(draco.encode(mesh.positions.astype(np.float32), mesh.faces, **settings))
@@ -49,6 +50,7 @@ def decode_draco(data: bytes) -> TriangleMesh:
 
 def positions_in_order(mesh: TriangleMesh, decoded: TriangleMesh, position_bits: int) -> Positions:
     """What Draco made of each vertex of `mesh`, given the mesh that it decoded."""
+    # Draco reorders vertices and does not tell how. A number that travels with each of them does.
     numbers = np.arange(len(mesh.positions), dtype=np.uint32)[:, None]
     numbered = _draco().decode(encode_draco(mesh, position_bits, 10, generic_attributes={0: numbers}))
     original = numbered.get_attribute_by_unique_id(0)["data"].reshape(-1).astype(np.int64)
@@ -57,6 +59,7 @@ def positions_in_order(mesh: TriangleMesh, decoded: TriangleMesh, position_bits:
         raise MeshError("Draco dropped vertices; remove those that no face with area uses")
     if not np.array_equal(canonical(original[numbered.faces]), canonical(mesh.faces[~degenerate(mesh.faces)])):
         raise MeshError("Draco's numbered faces are not those of the original")
+    # The measured file has no numbers, which would cost bytes. Both are compared to be sure that the order is the same.
     _, identity = np.unique(np.concatenate([points, decoded.positions]), axis=0, return_inverse=True)
     first, second = identity[: len(points)], identity[len(points) :]
     if not np.array_equal(canonical(first[numbered.faces]), canonical(second[decoded.faces])):
@@ -75,6 +78,7 @@ Align = Callable[[TriangleMesh], Positions]
 """Maps a decoded mesh to positions in the vertex order of the original."""
 
 SCHEMA = 1
+# Small enough for a moment, and large enough for several blocks.
 SAMPLE = 1000  # vertices of the mesh by which the time of a line is estimated
 PARTS = ("connectivity", "partition", "order", "coefficients", "framing")
 
@@ -95,6 +99,7 @@ class Spectral:
             for item in fields(mine)
             if item.name not in ("limits", "paper") and getattr(mine, item.name) != getattr(usual, item.name)
         }
+        # A target finds its own step, so the step of the options would mislead.
         if options.target is not None:
             return {**given, "target": asdict(options.target)}
         return given if options.paper.bits else {"step": options.first_step, **given}
@@ -103,6 +108,7 @@ class Spectral:
         """Return a whole file of a mesh all of whose vertices are in faces, and how to find their order again."""
         encoder = Encoder(mesh, self.options)
         data = encoder.encode()
+        # A mesh that has kept its order needs no map.
         order = slice(None) if self.options.keep_order else encoder.vertex_index
         return data, lambda decoded: decoded.positions[order]
 
@@ -128,6 +134,7 @@ class Draco:
         return {"position_bits": self.position_bits, "levels": list(self.levels)}
 
     def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
+        # The rival gets its best setting, by trying.
         data = min((encode_draco(mesh, self.position_bits, level) for level in self.levels), key=len)
         return data, lambda decoded: positions_in_order(mesh, decoded, self.position_bits)
 
@@ -232,9 +239,11 @@ def run_curve(
     note: Callable[[str], None] | None = None,
 ) -> Result:
     """Measure a curve; before that, note about how long it will take."""
+    # The same mesh for all codecs, or the rates would be per different numbers of vertices.
     mesh = join(mesh, keep=False).mesh  # Draco drops faces without area
     reference = Reference(mesh.positions, mesh.faces)
     # Loads the compiled kernels, so that no time contains that.
+    # The first call compiles and loads. It must not be part of any time.
     sample = knot(SAMPLE)
     timed_on = measure(curve.codecs[0], sample, Reference(sample.positions, sample.faces), 2)
     if note:
@@ -263,6 +272,7 @@ def read_results(folder: Path) -> Iterator[Result]:
     for path in sorted(folder.glob("*.*.json")):
         try:
             result = json.loads(path.read_text())
+            # Old results have other meanings for the same names.
             if result.get("schema") != SCHEMA:
                 raise CorruptError(f"{path}: schema {result.get('schema')} is not {SCHEMA}; run the evaluation again")
             points = [_POINT | point for point in result["points"]]
@@ -302,6 +312,7 @@ def read_points(path: str, meshes: Mapping[str, Result]) -> list[Result]:
             raise FormatError(f"{where}: a number is missing or wrong: {error}") from error
         if not point["bpv_total"] > 0.0 or not all(math.isfinite(point[name] or 0.0) for name in measures):
             raise FormatError(f"{where}: bits per vertex must be above 0, and errors finite")
+        # The name becomes a part of a file name.
         codec = re.sub(r"[^\w-]+", "-", row["label"] or "").strip("-").lower() or "rival"
         if codec in STYLES:
             raise FormatError(f"{where}: {row['label']} is a codec that is measured here; give another label")
@@ -316,6 +327,7 @@ def timed(work: Callable[[], Any], repeats: int, clock: Callable[[], float] = ti
     for _ in range(max(1, repeats)):
         start, result = clock(), work()
         runs.append(clock() - start)
+    # The least of several times: everything that disturbs a measurement makes it longer.
     return min(runs), result
 
 
@@ -331,6 +343,8 @@ class RateCurve:
 
     @property
     def interpolated(self) -> Any:
+        # Monotone between points, as Bjontegaard's deltas are computed today: his cubic overshoots where points are far
+        # apart.
         from scipy.interpolate import PchipInterpolator
 
         return PchipInterpolator(self.distortions, self.log_rates)
@@ -347,6 +361,7 @@ def rate_curve(rates: Sequence[float], distortions: Sequence[float]) -> RateCurv
     kept: dict[float, float] = {}
     least = np.inf
     # From the least distortion up, a point is of use only if it costs less than all before it.
+    # A point that costs more and is worse would make the curve fold back.
     for index in np.lexsort((rates, distortions)):
         if rates[index] < least:
             least = rates[index]
@@ -382,6 +397,7 @@ def bd_rate(reference: RateCurve, tested: RateCurve) -> float | None:
     low, high = max(curve.distortions[0] for curve in curves), min(curve.distortions[-1] for curve in curves)
     if not low < high:
         return None
+    # Over the logarithm of the rate, so that the mean difference is a ratio.
     areas = [curve.interpolated.integrate(low, high) for curve in curves]
     return float(100.0 * np.expm1((areas[1] - areas[0]) / (high - low)))
 
@@ -539,6 +555,7 @@ def frame_errors(frames: Sequence[Mapping[str, float]], title: str) -> bytes:
 
 def draw_all(results: Iterable[Result], named: Iterable[str] = ()) -> Iterator[Picture]:
     """Every picture that results allow: the paper's mesh by mesh, of whole files all in one, with lines by name."""
+    # A picture of whole files with all lines of the paper would be unreadable.
     chosen = {"svd", "oi-r2", *named}
     by_mesh: dict[str, list[Result]] = {}
     for result in results:

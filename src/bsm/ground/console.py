@@ -16,9 +16,11 @@ from typing import Any
 from bsm.bitstream.errors import ArgumentError
 from bsm.codec.progress import PARTS
 
+# Work that ends within half a second shows no bar, which would only flash.
 _PATIENCE, _SECOND = 0.5, 1.0
 _OFTEN, _BAR = 0.1, 24  # seconds between two drawings, at least; and letters of a bar
 _LEAST_LEFT, _MOST_SHARE = 1.0, 0.99  # shown before the end
+# The clock of a bar writes from a thread of its own.
 _writing = threading.Lock()
 _bar = ""  # on the terminal, below all other lines
 
@@ -33,6 +35,7 @@ class Console:
     _running: "list[Progress]" = field(default_factory=list, compare=False)
 
     def note(self, text: str) -> None:
+        # Notes quote names from files. An escape sequence in one could rewrite the terminal.
         text = printable(for_command(text, self.options))
         if self.kept is not None:
             self.kept.append(text)
@@ -42,6 +45,7 @@ class Console:
     @contextmanager
     def progress(self, what: str = "", until: float = 1.0) -> "Iterator[Progress]":
         """Report a job; within another job, report its part `until` a share of all time."""
+        # Jobs inside of jobs report parts of one bar: two bars would fight for one line.
         if self._running:
             with self._running[0].part(what, until) as progress:
                 yield progress
@@ -71,8 +75,10 @@ class Progress:
             raise ArgumentError(f"progress must be a function, not {heard!r}")
         self._shown, self._lines, self._heard = shown, lines, heard
         self._begun = self._said_at = time.monotonic()
+        # Programs that read lines get the first at once; people see no bar before it is worth one.
         self._said_at += 0.0 if lines else _PATIENCE - _OFTEN
         self._share, self._when = 0.0, 0.0  # as reported, and after how many seconds
+        # Estimates may fall, and a bar that goes back looks like a fault.
         self._most = 0.0  # the largest share that was shown, which never falls
         self._reported = 0
         self.stopped: BaseException | None = None
@@ -91,6 +97,7 @@ class Progress:
             self._clock.join()
         if self._shown:
             _write("")
+        # Work that failed never reaches the whole.
         if kind is None:
             self._tell_listener(1.0)
 
@@ -98,6 +105,7 @@ class Progress:
     def part(self, what: str, until: float = 1.0) -> "Iterator[Progress]":
         """Report a part of the innermost part, up to a share of its time."""
         _, low, high = self._parts[-1]
+        # A part may take more than was foreseen. The share must not fall because of that.
         end = max(low + until * (high - low), self._share)
         self._parts.append((what, self._share, end))
         try:
@@ -130,6 +138,7 @@ class Progress:
         self._reported = int(PARTS * share)
         try:
             self._heard(self._reported, PARTS)
+        # A listener stops the work by an exception. It is kept, so that it can be told from an error of the work.
         except BaseException as error:
             self.stopped = error
             raise
@@ -142,6 +151,7 @@ class Progress:
         # Since the last report work went on as before it, but hardly beyond the part that it was in.
         passed = (since - self._when) * self._share / (self._when or 1e-3)
         rest = max(self._parts[-1][2] - self._share, 1e-3)
+        # The exponential nears the end of the part and never reaches it, however long the part takes.
         share = min(self._share + rest * (1.0 - math.exp(-passed / rest)), 1.0)
         left = since / share * (1.0 - share)
         self._most = max(self._most, min(share, _MOST_SHARE))
@@ -159,17 +169,20 @@ class Progress:
             return
         done = "" if left is None else f"{100 * share:3.0f}%|{'█' * int(_BAR * share):{_BAR}}| "
         rest = "" if left is None else f"<{int(left) // 60:02d}:{int(left) % 60:02d}"
+        # A line as wide as the terminal would wrap, and the next one could not be written over it.
         line = f"{printable(what)}: {done}{int(since) // 60:02d}:{int(since) % 60:02d}{rest}"
         _write("", line[: shutil.get_terminal_size().columns - 1])
 
     def _tick(self) -> None:
         """Say it again each second, so that silence does not look like the end."""
+        # The clock ends at once when the work does, instead of at its next tick.
         while not self._over.wait(_PATIENCE if time.monotonic() - self._begun < _PATIENCE else max(_SECOND, 0.1)):
             self._say(_SECOND / 2 if self._lines else 0.0)
 
 
 _CLAUSES = re.compile(r"(; |\? |(?<=\w)\. )")
 _OPTION = re.compile(r"(?<![\w/.-])--?[a-z][\w-]*")
+# A clause that tells to run another command may name the options of that one.
 _OTHER = re.compile(r"\b(?:bsm|pip|python|python3|cc) [a-z-]")  # their options are not those of this command
 
 
@@ -180,6 +193,7 @@ def for_command(text: str, options: frozenset[str] | None) -> str:
     first, *rest = _CLAUSES.split(text)
     pairs = zip(rest[::2], rest[1::2], strict=True)
     kept = [(mark, clause) for mark, clause in pairs if _OTHER.search(clause) or {*_OPTION.findall(clause)} <= options]
+    # The first clause is the error itself, and stays whatever it names.
     return first + "".join(mark + clause for mark, clause in kept)
 
 
@@ -216,6 +230,7 @@ def _put(text: str) -> None:
         if sys.stderr is not None:
             print(text, end="", file=sys.stderr, flush=True)
     except (OSError, ValueError):
+        # A full disk or a closed pipe would fail again with each further note.
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 - as long as the program runs
 
 
@@ -233,6 +248,7 @@ def print_json(value: Mapping[str, Any]) -> None:
 
 
 def in_notebook() -> bool:
+    # Not imported: a notebook has loaded it already.
     library = sys.modules.get("IPython")
     shell = library.get_ipython() if library else None
     return shell is not None and "IPKernelApp" in shell.config

@@ -24,7 +24,8 @@ class Exit:
 
 UNEXPECTED = Exit(1, "unexpected error: please report it")
 USAGE = Exit(2, "wrong usage or option", (failures.OptionError, failures.ArgumentError))
-# The first row that fits an error counts.
+# BrokenPipeError is an OSError, and our errors derive from builtins as well, so the order matters. The first row that
+# fits an error counts.
 EXITS = (
     Exit(0, "done"),
     UNEXPECTED,
@@ -67,6 +68,7 @@ def is_expected(error: BaseException) -> bool:
 def behind(error: BaseException) -> BaseException:
     """Return the signal that caused an error, if any; otherwise the error."""
     cause: BaseException | None = error
+    # Libraries catch everything, KeyboardInterrupt included, and raise errors of their own from it.
     while cause is not None:
         if isinstance(cause, _SIGNALS):
             return cause
@@ -80,6 +82,7 @@ def report_error(
     """Write an error to standard error, as a line of JSON if all lines are; `options` are those of the command."""
     if isinstance(error, BrokenPipeError):
         # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
+        # Python's own advice for SIGPIPE. Without it the interpreter prints a second error when it ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return
     text = exit_of(error).meaning if isinstance(error, _SIGNALS) else for_command(worded(error), options)
@@ -90,6 +93,7 @@ def report_error(
 def worded(error: BaseException) -> str:
     if isinstance(error, OSError):
         reason, name = error.strerror or str(error), str(error.filename)
+        # "No such file" is misleading for an output whose folder is missing.
         if reason == os.strerror(errno.ENOENT) and "://" not in name:
             folder = os.path.dirname(name)
             reason = f"the folder {folder} does not exist" if folder and not os.path.isdir(folder) else reason

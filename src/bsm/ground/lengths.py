@@ -12,6 +12,8 @@ from bsm.codec.geometry.mesh import TriangleMesh
 NUMBER = r"((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)"
 LENGTH = re.compile(NUMBER + r" *(%|[a-zA-Zµμ]*)")
 """A number and its unit: % of the diagonal, or the mesh's unit; without a unit, a fraction of the diagonal."""
+# One table for readers, writers, options and the plug-ins. A unit that one place did not know was once taken for the
+# mesh's own, and a bound of 0.05 mm became 2 mm.
 UNITS = {
     "nm nanometers nanometer nanometre": 1e-9,
     "um micrometers micrometer micrometre micron µm": 1e-6,
@@ -43,6 +45,7 @@ def parse_length(name: str, value: Any) -> Length:
     if isinstance(value, Length):
         return value
     number, unit = _parts(name, value)
+    # Only a mesh tells how long a millimeter is in its own unit. Here none is at hand.
     if unit not in ("", "%"):
         raise UnitError(f"{name} is in {unit}, which needs a mesh with a unit: {value!r}")
     return Length(number / 100.0 if unit else number, False)
@@ -56,6 +59,7 @@ BYTES = re.compile(NUMBER + r" *(?:([kMG])(i?))?B?")
 def parse_bytes(name: str, value: Any) -> float:
     if isinstance(value, Real) and not isinstance(value, bool):
         return float(value)
+    # Kilobytes are written with either letter; there is no other meaning of K here.
     found = BYTES.fullmatch(value.strip().replace("K", "k")) if isinstance(value, str) else None
     if found is None:
         raise ArgumentError(f"{name} must be a number of bytes, such as 20000 or 20kB, not {value!r}")
@@ -66,6 +70,8 @@ class UnitError(OptionError):
     """A unit is needed and not given, or not known."""
 
 
+# Hardly anyone wants vertices off by 2 % of a mesh. A user who writes 0.5 means half a millimeter, and would get a
+# ruin.
 DOUBTFUL = 0.02  # of the diagonal: a bare number from here on may be meant as a length
 
 
@@ -77,6 +83,7 @@ def in_own_unit(
     if value is None or isinstance(value, Length):
         return dict(options)
     number, unit = _parts("max_error", value)
+    # Refused rather than guessed: both meanings are legal, and they differ by orders of magnitude.
     if unit == "" and number >= DOUBTFUL:
         here = f", {number * mesh.diagonal:.3g} {own}".rstrip() + " here" if mesh else ""
         raise OptionError(
@@ -87,6 +94,8 @@ def in_own_unit(
         return {**options, "max_error": parse_length("max_error", value)}
     asked = known_unit(unit, "max_error")
     if not own:
+        # The question offers two units that make the size of the mesh plausible or absurd, so that the user sees which
+        # is right.
         other = "mm" if asked == 1.0 else "m"
         long = float((mesh.positions.max(axis=0) - mesh.positions.min(axis=0)).max()) if mesh else 0.0
         which = f"is it {long:.3g} {other} or {long:.3g} {unit} long?" if long else "which is it?"
@@ -96,6 +105,7 @@ def in_own_unit(
             "such as 0.1%"
         )
     size = known_unit(own, "the mesh")
+    # Equal units need no arithmetic. Else twelve digits, so that 1 inch in a mesh of inches is exactly 1.
     return {**options, "max_error": Length(number if asked == size else float(f"{number * asked / size:.12g}"), True)}
 
 
@@ -139,6 +149,7 @@ def _parts(name: str, value: Any) -> tuple[float, str]:
 
 def metres(unit: str) -> float | None:
     """Return the meters of a unit, such as mm, or of a number of units, such as 0.5 m; None: it is unknown."""
+    # Unicode has two letters for micro, and keyboards give either.
     found = _MANY.fullmatch(unit.strip().lower().replace("μ", "µ"))  # mu, and the sign for a millionth
     name = found[2] if found else ""
     size = IN_METRES.get(name, IN_METRES.get(name.removesuffix("s")))
@@ -147,6 +158,7 @@ def metres(unit: str) -> float | None:
 
 def unit_named(size: float) -> str:
     """Return the name of a unit of so many meters, as in metadata."""
+    # Sizes in files are often single precision: 0.0254 comes as 0.025400000065.
     names = next((names.split()[1] for names, meters in UNITS.items() if abs(meters - size) < 1e-7 * meters), "")
     return names or f"{size:.9g} meters"
 

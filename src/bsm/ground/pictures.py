@@ -14,6 +14,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.look.pictures import SAMPLES, Canvas
 
+# Blue to red by way of a light yellow: people with red-green blindness tell its ends apart.
 SCALE = np.array([(49, 54, 149), (116, 173, 209), (255, 255, 191), (244, 109, 67), (165, 0, 38)], np.float64)
 """Colors from 0 to 1, evenly: after ColorBrewer's RdYlBu."""
 Image = npt.NDArray[np.float64]
@@ -23,6 +24,7 @@ def png(picture: npt.NDArray[Any]) -> bytes:
     """A file of a picture from 0 to 1, of shades, shape (height, width), or of colors, (height, width, 3)."""
     height, width = picture.shape[:2]
     shades = np.rint(255 * picture.clip(0.0, 1.0)).astype(np.uint8).reshape(height, -1)
+    # Filters of PNG help photographs. Flat shading has long equal runs, which zlib finds anyway.
     rows = np.pad(shades, ((0, 0), (1, 0)))  # zero before each row: it is predicted from nothing
     head = struct.pack(">IIBBBBB", width, height, 8, 2 if picture.ndim == 3 else 0, 0, 0, 0)
     chunks = ((b"IHDR", head), (b"IDAT", zlib.compress(rows.tobytes(), 9)), (b"IEND", b""))
@@ -43,6 +45,7 @@ def with_titles(
     pictures: Sequence[Image], titles: Sequence[str], bar: Bar | None = None, figures: Mapping[str, str] | None = None
 ) -> bytes:
     """A PNG file of pictures under titles, with a bar under the last one, and text; by matplotlib."""
+    # Asked for before anything is drawn, so that a missing one is an error about packages and not one of matplotlib.
     for name in ("matplotlib", "matplotlib.figure", "PIL.Image"):  # by the last of which matplotlib writes
         imported(name, "titles need matplotlib", "eval")
     from matplotlib.cm import ScalarMappable
@@ -60,6 +63,7 @@ def with_titles(
         scale, ends = ScalarMappable(Normalize(0.0, bar.top), colors), "max" if bar.largest > bar.top else "neither"
         figure.colorbar(scale, ax=places[-1], location="bottom", shrink=0.8, label=bar.label, extend=ends)
     with io.BytesIO() as file:
+        # Without the version of matplotlib in it, the same picture has the same bytes.
         figure.savefig(file, format="png", metadata={"Software": None, **(figures or {})})
         return file.getvalue()
 
@@ -102,10 +106,13 @@ def render(
     fine = size * _SUPERSAMPLING
     placed = (positions - center) @ view.T / radius
     pixels = (placed * (1.0, -1.0, 1.0) + (1.0, 1.0, 0.0)) * (fine / 2, fine / 2, 1.0)
+    # Absolute, since faces of a broken mesh may be turned over, and should not be black.
     shade = 0.25 + 0.75 * np.abs(face_normals(placed, faces) @ _LIGHT)
+    # One face for each pixel and then a look-up of its color: the rasterizer need not know about colors.
     owner = nearest_faces(pixels, faces, fine)
     table = np.vstack([shade[:, None] * (_BASE if colors is None else colors), np.ones(3)])
     image = table[owner]
+    # Four samples for each pixel smooth the edges, without a filter.
     blocks = image.reshape(size, _SUPERSAMPLING, size, _SUPERSAMPLING, 3)
     return np.asarray(blocks.mean(axis=(1, 3)).clip(0.0, 1.0))
 
@@ -113,6 +120,8 @@ def render(
 def nearest_faces(pixels: Positions, faces: Faces, size: int) -> npt.NDArray[np.int32]:
     """The face nearest to the camera at each pixel, or -1; vertices have a column, a row and a nearness."""
     low, high = pixels[:, 2].min(), pixels[:, 2].max()
+    # The rasterizer compares depths in single precision, which has 24 bits. Spread over all of them, near faces stay
+    # apart.
     depths = (pixels[:, 2] - (low + high) / 2) * (_DEPTHS / ((high - low) or 1.0))
     canvas, plain = Canvas(size + -size % SAMPLES), np.zeros((len(faces), 9), np.float32)
     camera = np.append(np.eye(3, 4), (0.0, 0.0, 1.0))  # which leaves columns, rows and depths as they are

@@ -31,7 +31,9 @@ from bsm.ground.console import Console, Progress, finite
 from bsm.jobs.run import Batch, run_many
 from bsm.jobs.task import Facts, Job, Task, came_to
 
+# Only for the bar: reading takes a few percent of encoding.
 READ = 0.08  # of the time of a mesh
+# A GLB with animations is a mesh at rest unless something asks for its motion.
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
 """Options that only sequences have; with them a GLB is read as a sequence."""
 
@@ -58,6 +60,7 @@ class EncodeJob(Task):
 
     @property
     def wishes(self) -> Wishes:
+        # A tree that is decoded with --format same gets the names of its sources back.
         origin = {"source_name": Path(self.input).name} if self.recursive else {}
         return Wishes(
             keywords={**self.options, "threads": self.threads},
@@ -72,6 +75,7 @@ def shared_images(run: Batch, asked: EncodeJob, console: Console, jobs: Sequence
     """Return the digests of the images that several meshes have in files beside them; reads these meshes first."""
     kinds = [asked.format or Path(job.input).suffix[1:].lower() for job in jobs]
     naming = [Job(job.input) for job, kind in zip(jobs, kinds) if kind in WITH_IMAGES_BESIDE]
+    # Images of a batch are compared by their digests in a first pass. Held in memory until the end, they would not fit.
     with console.progress("finding images of several meshes"):
         done = run_many(replace(run, report=None, resume=False), asked, console, _digests_one, naming)
     users = Counter(digest for facts in done for digest in facts.get("images", ()))
@@ -89,6 +93,8 @@ def _read(job: EncodeJob) -> MeshFile:
 
 def encode_one(job: EncodeJob, console: Console) -> Facts:
     wishes = job.wishes
+    # Wrong options are said before missing inputs, and these before outputs that exist: the order in which a user wants
+    # to hear of them.
     wishes.check()
     for name in job.members or (job.input,):
         require_there(name)
@@ -97,6 +103,7 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     plain = all(choice is None for choice in asked)
     limits, apart = (Limits.service(), True) if job.untrusted else (DEFAULT_LIMITS, None)
     wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
+    # Several meshes in one stream: the user has said that they are frames.
     if job.members:
         members = open_frames(job.members, job.format, limits, wanted, isolated=apart)
         return _encode_sequence(job, wishes, console, members)
@@ -112,6 +119,7 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
 def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
     with console.progress("reading", until=READ):
         source = _read(job)
+    # Lossless is a promise about the file, and what no stream holds breaks it.
     if source.dropped and job.options.get("preset") == "lossless" and not job.force:
         lost = ", ".join(source.dropped)
         raise HarmError(f"lossless would lose contents that no stream holds: {lost}; --force leaves them out")
@@ -119,6 +127,7 @@ def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
 
     def images(metadata: Metadata) -> Metadata:
         found, files = _images_of(job, metadata)
+        # Files of linked images are written only with the stream, or a failed run would leave them behind.
         linked.update(files)
         return found
 
@@ -132,12 +141,15 @@ def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
         if job.permutation:  # before the stream has its name, so that no stream stands beside another's
             write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
         for name, data in {} if job.dry_run else linked.items():
+            # Linked images are the same for several streams, so a file that exists is replaced by equal bytes.
             Path(name).parent.mkdir(exist_ok=True)
             write_output(name, data, overwrite=True, follow=str(Path(name).parents[1]))
     seconds = time.perf_counter() - begin
+    # Fewer triangles have other corners, at which attributes cannot be compared.
     attributes = {} if found.apart is not None else lost_attributes(source.mesh, b"".join(result.frames))
     notes = [*source.notes, *given.losses, *found.notes, *(_measured(note, attributes) for note in encoder.notes)]
     notes += given.notes[len(given.losses) :]
+    # Images that stay as they are need no second look, and Pillow takes long to load.
     written = job.images not in (None, "keep", "none", "link")  # Pillow reads no others
     anew = compare_images(source.mesh.metadata, given.mesh.metadata) if written else []
     notes += changed(anew)
@@ -153,7 +165,9 @@ def _result(
     """Return notes on images and the look of a stream, its sizes and errors in words, and as facts."""
     encoder, size, promise = found.encoder, found.attempt.size, given.options.promise
     images = sum(len(value) for value in given.mesh.metadata.values() if isinstance(value, bytes))
+    # Advice only where images are most of the file.
     smaller = "" if job.images or 2 * images < size else "; --images webp:85 makes them smaller"
+    # Grids say by themselves what they keep. All others without a promise get a measured figure instead.
     unseen = not given.options.is_grid and (promise is None or promise.look == math.inf)
     notes = ["left out: images"] if job.images == "none" else []
     notes += [f"{images} bytes are {'' if job.images else 'unchanged '}images{smaller}"] if images else []
@@ -164,6 +178,7 @@ def _result(
     beside = {name: len(data) for name, data in linked.items()}
     written = size + sum(beside.values())
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
+    # The bound that decides is worth a word where it is not the usual one: loosening it makes the file smaller.
     other = encoder.binding not in ("", "look") and found.apart is None
     binds = f"the {encoder.binding} binds, " if other else ""
     summary = f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, written)}, {bpv:.2f} bits per vertex"
@@ -181,9 +196,11 @@ def _measured(note: str, attributes: Mapping[str, Errors | None]) -> str:
 
 def _images_of(job: EncodeJob, metadata: Metadata) -> tuple[Metadata, dict[str, bytes]]:
     """Return metadata with images as the job wants them, and linked images by their files."""
+    # Links of the input lead from another folder.
     metadata = {name: value for name, value in metadata.items() if not is_link(name)}
     if job.images == "link" or job.shared:
         folder = Path(job.output).parent
+        # Streams of a tree share one folder of images at its top, so links lead upwards.
         root = Path(job.follow) if isinstance(job.follow, str) else folder
         way = "".join(f"{part}/" for part in Path(os.path.relpath(root, folder)).parts)
         metadata, files = with_links(metadata, way, job.shared)
@@ -198,6 +215,8 @@ def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[s
     """Return the errors in words, and as numbers; if there are fewer triangles, the distance between the surfaces."""
     apart, error = found.apart, found.attempt.comparison
     relative, value = error.max_error_relative, error.max_error * per_own
+    # Without matching vertices there is no error of a vertex; the distance of the surfaces takes its place in words and
+    # facts.
     if apart is not None:
         relative, value = apart / (found.original.diagonal or 1.0), apart * per_own
     words = _length(value, relative, unit)
@@ -226,11 +245,13 @@ def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: F
     if job.permutation and job.options.get("runs"):
         raise OptionError("--permutation is the order of one mesh; with --runs the faces change")
     given, numbers, size = given_frames(source, wishes), count(), 0
+    # Frames are counted as they pass, because some sources do not know their number.
     given = replace(given, frames=(frame for frame, _ in zip(given.frames, numbers)))
     encoder, chosen = given.encoder, given.encoder.options
     with _written(job, console) as (file, progress):
         for chunk in given.chunks(progress):
             size += file.write(chunk)
+            # A reader may follow the file while it grows, as `bsm view --follow` does.
             file.flush()
         if job.permutation:  # before the stream has its name, so that no stream stands beside another's
             write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
@@ -240,6 +261,7 @@ def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: F
     attributes: dict[str, Errors | None] = {name: {"max_error": e} for name, e in encoder.attribute_errors.items()}
     notes = [_measured(note, attributes) for note in notes]
     look, seen = math.inf if chosen.promise is None else chosen.promise.look, encoder.worst_look
+    # Nothing was promised, but the figure was measured on the way, and costs nothing.
     if look == math.inf and seen is not None:
         where = "in the frame with the largest normal error"
         notes.append(f"no look is promised; measured: look {seen:.2g} {where} (the default keeps 1)")

@@ -22,6 +22,7 @@ def plan(
     output = own_name(output) if output else None
     folder = output is not None and (output.endswith("/") or (not pipes.is_url(output) and Path(output).is_dir()))
     if len(names) > 1:
+        # Meshes have no end mark on a pipe: two of them could not be told apart.
         if "-" in names or output == "-":
             raise OptionError("a pipe holds one mesh; name files, or give only one input")
         if output and not folder:
@@ -32,9 +33,11 @@ def plan(
         jobs = [Job(name, output_inside(output, name, suffix(name))) for name in names]
     else:
         jobs = [Job(name, output, follow=True) for name in names]
+    # Two inputs that differ only in their suffix would write one file.
     jobs = apart(jobs, suffix)
     refuse_collisions(names, [job.output for job in jobs])
     if output and folder and not pipes.is_url(output):
+        # After all refusals, so that a wrong command leaves no empty folders.
         Path(output).mkdir(parents=True, exist_ok=True)
     return jobs
 
@@ -47,6 +50,7 @@ def files_in(folders: Sequence[str], read: Sequence[str] = MESH_SUFFIXES) -> lis
     for folder in folders:
         if pipes.is_url(folder) or not Path(folder).is_dir():
             raise OptionError(f"{folder}: not a local folder; --recursive searches local folders")
+    # Sorted, because file systems list folders in any order.
     every = ((folder, path) for folder in folders for path in sorted(Path(folder).rglob("*")))
     found = [(folder, path) for folder, path in every if path.suffix.lower() in read and path.is_file()]
     if not found:
@@ -88,6 +92,7 @@ def input_names(inputs: Sequence[str]) -> list[str]:
     for given in inputs:
         name = own_name(given)
         local = name != given and glob.has_magic(name)  # of a file:// URL, which no shell expands
+        # A shell expands patterns of local files only.
         found = pipes.expanded(name) if pipes.is_url(name) else sorted(glob.glob(name)) if local else [name]
         if not found:
             raise FileNotFoundError(errno.ENOENT, "no such file", given)

@@ -18,10 +18,12 @@ from bsm.files.output import write_output
 from bsm.ground.console import Console
 from bsm.jobs.task import Facts, Job, Task, Work
 
+# None of these changes the bytes of an output, so a run with others may still be resumed.
 _OF_ONE_RUN = {"quiet", "force", "threads", "input", "output", "replaceable", "doubtful", "fresh", "before"}
 _EVERY = 1.0  # seconds between two versions of a report, at least
 _WAYS = ("input", "output")
 _SHOWN = 20  # rows of a table, if fewer failed
+# A report of a hundred thousand files takes seconds to write. Its pace follows that.
 _SHARE = 0.02  # largest share of the time for writing reports
 
 
@@ -29,6 +31,7 @@ def options_of(task: Task) -> Facts:
     """Return the options on which outputs depend."""
     given = {name: value for name, value in asdict(task).items() if name not in _OF_ONE_RUN}
     text = json.dumps({"version": __version__, **given}, default=str, sort_keys=True)
+    # There and back, so that they are equal to those that are read from a report: tuples become lists there.
     options: Facts = json.loads(text, parse_constant=str)  # JSON has no infinity
     return options
 
@@ -57,6 +60,7 @@ class Report:
         begin = time.perf_counter()
         state = {"complete": not self._open, "seconds": begin - self._begin, "totals": totals(self._files)}
         text = json.dumps({**self._head, **state, "files": self._files}, indent=1, allow_nan=False)
+        # As a whole and by renaming: a run that is killed while it writes leaves the report before.
         write_output(self._path, text.encode() + b"\n", overwrite=True)
         end = time.perf_counter()
         self._next = end + max(_EVERY, (end - begin) / _SHARE)
@@ -77,15 +81,19 @@ def read_report(path: str, command: str, options: Facts) -> Earlier:
         report = json.loads(pipes.as_input(path).read_all())
         files = {entry["output"]: entry for entry in map(_entry, report["files"])}
         same = (report["command"], report["options"]) == (command, options)
+        # Totals of hostile numbers, or infinities, would raise an error at the end of the new run. Better at its
+        # beginning.
         json.dumps({**report, "totals": totals(list(files.values()))}, allow_nan=False)
     except FileNotFoundError:
         return NOTHING
     except (ValueError, KeyError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
         raise FormatError(f"{path}: this is not a report of bsm; name another with --report") from error
+    # With other options the results do not count, but the files are still known as those of a run.
     return Earlier({name: entry.get("output_sha256") for name, entry in files.items()}, files if same else {})
 
 
 _MOST_BYTES = 1 << 63
+# A report is a file, which anybody can edit. Fields that are computed with are checked by type and range.
 _FIELDS: Mapping[str, Callable[[Any], bool]] = {
     **dict.fromkeys(("input_bytes", "output_bytes"), lambda value: type(value) is int and 0 <= value < _MOST_BYTES),
     **dict.fromkeys(("seconds", "max_error_relative", "max_error", "kg"), lambda value: type(value) in (int, float)),
@@ -109,8 +117,10 @@ def _entry(given: Any) -> Facts:
 
 def recorded(work: Work, task: Task, console: Console) -> Facts:
     """Do a task and record the state of input and output; skip it if both are as in `task.before`."""
+    # The state before the work: an input that changes meanwhile is then done again by the next run.
     state, before = pipes.state_of(task.input), task.before
     as_before = before is not None and state is not None and before.get("input_state") == state
+    # Dates tell whether an input changed, since inputs may be large; outputs are small enough for their digests.
     if before and as_before and before.get("output_sha256") == pipes.digest_of(before["output"]):
         return {**before, "resumed": True}
     apart = replace(console, kept=[])
@@ -121,6 +131,8 @@ def recorded(work: Work, task: Task, console: Console) -> Facts:
 def _compared(work: Work, task: Task, console: Console) -> Facts:
     """The output exists: recompute and compare, in case a killed run wrote it."""
     path = Path(task.output)
+    # The run may have been killed after the output got its name, and before the report had it. Encoding gives the same
+    # bytes each time, so doing it again tells whether the file is ours.
     refuse = FileExistsError(errno.EEXIST, "the output differs from the report; -f overwrites it", task.output)
     if not path.is_file() or path.is_symlink():
         raise refuse
@@ -161,6 +173,7 @@ def largest_error(files: Sequence[Facts]) -> str:
     for facts in files:
         if facts.get("max_error_relative") is not None:
             kind = ", surfaces apart" if facts.get("error_of") == "surfaces" else ""
+            # Distances of surfaces and errors of vertices are two measures, and have each a worst file.
             worst[kind] = max(worst.get(kind, facts), facts, key=lambda one: float(one[name]))
     whole = "" if unit else " of the diagonal"
     return " and ".join(f"{_length(facts, unit)}{whole} ({facts['input']}{kind})" for kind, facts in worst.items())
@@ -169,6 +182,7 @@ def largest_error(files: Sequence[Facts]) -> str:
 def _unit(files: Sequence[Facts]) -> str:
     """The unit that the errors of all files have; where they differ, errors are relative."""
     found = {facts.get("unit", "") for facts in files if facts.get("max_error_relative") is not None}
+    # Millimeters and inches have no common largest error.
     return found.pop() if len(found) == 1 else ""
 
 
@@ -178,6 +192,7 @@ def _length(facts: Facts, unit: str) -> str:
 
 def table(files: Sequence[Facts]) -> Iterator[str]:
     """Bytes, ratio, error and time of files, failures first, then the largest errors; lines of text."""
+    # Failures and large errors first: a table of a thousand files is read from its top.
     rows = sorted(files, key=lambda facts: ("error" not in facts, -(facts.get("max_error_relative") or 0.0)))
     rows = rows[: max(_SHOWN, sum("error" in facts for facts in rows))]
     users = Counter(part for facts in files for way in _WAYS for part in facts.get(f"{way}_parts") or ())
@@ -187,6 +202,7 @@ def table(files: Sequence[Facts]) -> Iterator[str]:
     yield f"{'input':{width}} {'bytes':>12} {'to':>12} {'ratio':>7} {'error':>10} {'seconds':>8}"
     for facts in rows:
         yield f"{facts['input']:{width}} {_cells(_alone(facts, shared), unit)}"
+    # Bytes of a shared image would count in each row, and the rows would add up to more than the sum.
     if shared:
         sizes = (
             sum({p: s for f in files for p, s in (f.get(f"{w}_parts") or {}).items() if p in shared}.values())

@@ -19,6 +19,7 @@ from bsm.ground.lengths import UnitError
 from bsm.jobs.report import NOTHING, Earlier, Report, options_of, read_report, recorded, table, totals
 from bsm.jobs.task import Facts, Job, Outcome, Outcomes, Task, Tasks, Work, anywhere, came_to, outcome_of
 
+# A batch of small files takes as long as its number, and not as its bytes.
 LEAST = 1 << 16  # bytes that an input counts as, for the work that does not depend on its size
 Show = Callable[[Facts], str]  # the result for an input, as it is printed
 Ended = Callable[[Job, Outcome], None]
@@ -43,6 +44,7 @@ def run_jobs(
     run: Batch, asked: Task, console: Console, work: Work, jobs: Sequence[Job], show: Show | None = None
 ) -> int:
     """Do all jobs of a command and print their results; return the exit code."""
+    # A single job needs neither processes nor a table. Its errors are raised as they are, and end the command.
     if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:
         with pipes.about(jobs[0].input), console.progress():
             facts = work(task_of(asked, jobs[0]), console)
@@ -58,6 +60,7 @@ def run_jobs(
         for line in outcome.notes:
             console.note(line)
         asked_once += isinstance(outcome.error, UnitError)
+        # A folder of a thousand meshes without a unit would ask the same question a thousand times.
         if isinstance(outcome.error, UnitError) and asked_once > 1:
             return  # the same question for each file
         if outcome.error is not None:
@@ -78,6 +81,7 @@ def run_jobs(
     console.note(f"{len(good)} of {counted(files=len(done))}{sizes}, {time.perf_counter() - begin:.2f} s")
     if console.json:
         print_json({"files": done})
+    # One code for the whole run. That of the first failure is the same each time, in whatever order jobs end.
     return next((facts["exit"] for facts in done if "error" in facts), 0)
 
 
@@ -88,8 +92,10 @@ def run_many(
     jobs = jobs if run.dask is None else _on_all_machines(jobs)
     work, earlier, report = _reported(run, asked, work, jobs)
     done: list[Facts] = [{} for _ in jobs]
+    # The size of a remote file costs a request each, and it would only serve a bar.
     local = [None if job.input == "-" or pipes.is_url(job.input) else pipes.size_of(job.input) for job in jobs]
     sizes, finished = [max(size or 0, LEAST) for size in local], 0  # work is reported in proportion to these
+    # The library's sorter gives out jobs as soon as those before them have ended, in any order.
     order = TopologicalSorter({number: job.after for number, job in enumerate(jobs)})
     order.prepare()
 
@@ -103,6 +109,7 @@ def run_many(
             done[number] = _facts_of(jobs[number], outcome)
             finished += sizes[number]
             progress(finished, sum(sizes))
+            # A failed job is never done, so the jobs that need it never start. The others do not notice.
             if outcome.error is None:
                 order.done(number)
             if report:
@@ -111,9 +118,11 @@ def run_many(
 
     tasks = _tasks(order, task)
     try:
+        # Closed however the loop ends: processes would go on working for nobody otherwise.
         with console.progress() as progress, closing(_outcomes(run, console, work, tasks, sizes)) as outcomes:
             for number, outcome in _in_order(taken(outcomes, progress)):
                 ended(jobs[number], outcome)
+    # An interrupted run has a report as well, from which --resume goes on.
     finally:
         if report:
             report.write()
@@ -124,6 +133,7 @@ def run_many(
 
 def _on_all_machines(jobs: Sequence[Job]) -> list[Job]:
     """Return jobs by paths that are valid in all processes of a cluster."""
+    # A pipe belongs to one process on one machine.
     if any("-" in (job.input, job.output) for job in jobs):
         raise OptionError("a cluster cannot read a pipe; name files")
     return [replace(job, input=anywhere(job.input), output=anywhere(job.output)) for job in jobs]
@@ -134,6 +144,7 @@ def _tasks(order: TopologicalSorter[int], task: Callable[[int], Task]) -> Tasks:
     ready: list[int] = []
     while True:
         for number in order.get_ready():
+            # The sorter gives ready jobs in any order. By their numbers, they start in the order that the user gave.
             heappush(ready, number)
         if ready:
             number = heappop(ready)
@@ -148,6 +159,7 @@ def _reported(run: Batch, asked: Task, work: Work, jobs: Sequence[Job]) -> tuple
         if run.resume:
             raise OptionError("--resume needs --report FILE.json")
         return work, NOTHING, None
+    # A report with the name of an input would replace it.
     refuse_collisions([job.input for job in jobs], [*(job.output for job in jobs), run.report])
     refuse_to_overwrite(run.report, asked.force or run.resume)
     command, options = work.__name__, options_of(asked)
@@ -167,6 +179,7 @@ def _in_order(outcomes: Outcomes) -> Outcomes:
     waiting, following = dict[int, Outcome](), 0
     for number, outcome in outcomes:
         waiting[number] = outcome
+        # Results are shown in the order of the inputs, whatever ends first, so that two runs print the same.
         while following in waiting:
             yield following, waiting.pop(following)
             following += 1
@@ -177,10 +190,12 @@ def _in_order(outcomes: Outcomes) -> Outcomes:
 def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
     before = earlier.files.get(job.output)
     replaceable = {job.output, *([before["output"]] if before else [])} - {"", "-"}
+    # Asked before the work begins. What is made later is the run's own, and may be replaced when a job is repeated.
     there = {
         n for n in replaceable if (pipes.state_of_remote(n) is not None if pipes.is_url(n) else os.path.lexists(n))
     }
     named = replaceable & earlier.outputs.keys()
+    # A file that an earlier run wrote may be replaced as long as nobody else has changed it. Its digest tells that.
     mine = frozenset(name for name in named if name not in there or earlier.outputs[name] == pipes.digest_of(name))
     return replace(
         asked,
@@ -207,6 +222,7 @@ def _outcomes(run: Batch, console: Console, work: Work, tasks: Tasks, sizes: Seq
         else:
             yield from on_cluster(work, tasks, run.dask, run.dask_wait, console)
         return
+    # With one process, tasks never wait for each other, so None means that all are done.
     for number, task in iter(partial(next, tasks), None):
         finished += sizes[number]
         with console.progress(f"{number + 1} of {count}" if count > 1 else "", finished / sum(sizes)):

@@ -22,6 +22,7 @@ class Job:
     follow: bool | str = False  # the user gave the name of the output, or a folder: see `open_output`
 
 
+# Frozen and plain, since tasks are pickled for other processes and machines.
 @dataclass(frozen=True, kw_only=True)
 class Task:
     """The options of a job; each command adds its own fields."""
@@ -68,11 +69,13 @@ def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
     try:
         with pipes.about(task.input):
             return Outcome(work(task, console), notes=tuple(console.kept or ()))
+    # A fault of one file is an outcome like any other. Signals and closed pipes concern the whole run, and pass.
     except Exception as error:
         if behind(error) is not error or isinstance(error, BrokenPipeError) or console.stopped_by(error):
             raise
         failure = error
         if not is_expected(error):
+            # The traceback as text: exceptions of libraries often cannot be pickled, and the process would die of that.
             text = "".join(traceback.format_exception(error)).rstrip()
             failure = UnexpectedError(f"{task.input}: unexpected error, please report it: {text}")
         return Outcome({}, failure, tuple(console.kept or ()))

@@ -23,7 +23,9 @@ from bsm.ground.console import Console
 from bsm.ground.exits import Terminated, exit_of
 from bsm.jobs.task import Outcome, Outcomes, Task, Tasks, Work, outcome_of
 
+# One more than each process needs, so that it never waits for this one; no more, since tasks are made when needed.
 AHEAD = 2  # jobs handed out for each process, and for each thread of a cluster
+# Long enough to remove unfinished files, and short enough for someone who waits for the prompt.
 GRACE = 3.0  # seconds that a process has to clear away, once its parent is gone, and once it was asked to end
 _OFTEN, _SILENT = 1.0, 5.0  # seconds from one look at a cluster to the next, and until a wait for workers is reported
 
@@ -51,9 +53,12 @@ def on_cluster(work: Work, tasks: Tasks, address: str, patience: float, console:
 
 def _outlived(work: Work, tasks: Tasks, pools: Pools) -> Outcomes:
     """Do jobs; repeat those that have not ended, each of them alone."""
+    # One of the jobs that were running has killed its process, by its memory perhaps. Repeated one by one, only that
+    # one dies again, and the others get their results.
     while suspects := (yield from _until_one_dies(work, tasks, pools)):
         for number, task in suspects.items():
             if (yield from _until_one_dies(work, iter([(number, task.repeated())]), pools)):
+                # A process dies without a word. Memory is by far the most common cause, so the message names it.
                 yield number, Outcome({}, MemoryError(f"{task.input}: its process died twice"))
 
 
@@ -69,17 +74,24 @@ def _until_one_dies(work: Work, tasks: Tasks, pools: Pools) -> Generator[tuple[i
                 while whole and len(futures) < most and (given := next(tasks, None)):
                     number, task = given
                     handed[number] = task
+                    # Ctrl-C goes to all processes of a terminal. Those that start here ignore it, and this one ends
+                    # them in order.
                     with handled((signal.SIGINT,), signal.SIG_IGN):  # by processes that start here
                         futures[pool.submit(_task, work, task)] = number
+            # The pool of the standard library refuses everything after one process has died, even jobs that others
+            # could do.
             except BrokenProcessPool:
                 whole = False
             if not futures:
                 return handed
+            # With a time limit, since a cluster may get or lose workers while nothing ends.
             for future in wait(futures, _OFTEN, FIRST_COMPLETED).done:
                 number = futures.pop(future)
                 if isinstance(error := future.exception(), died):
                     whole = False
                     continue
+                # A worker without this package fails by an ImportError deep inside of a library. The user needs to know
+                # where to install it.
                 if missing := [it for it in (error, error and error.__cause__) if isinstance(it, ImportError)]:
                     needed = f"scheduler and workers need this package: pip install bsm-codec ({missing[0]})"
                     raise DependencyError(needed) from error
@@ -94,6 +106,7 @@ def _processes(count: int) -> Iterator[Pool]:
     try:
         yield pool, lambda: count, BrokenProcessPool
     except BaseException:
+        # The list is private, but shutdown() would wait for jobs that run, for minutes perhaps.
         alive = list((pool._processes or {}).values())
         pool.shutdown(wait=False, cancel_futures=True)
         for process in alive:
@@ -150,6 +163,7 @@ def _end_with_parent() -> None:
     parent = multiprocessing.parent_process()
     if parent is None:
         return
+    # The parent may be killed, and can then end nobody. Its handle tells the system's own view of it.
     sentinel = parent.sentinel
 
     def watch() -> None:
@@ -167,4 +181,5 @@ def _task(work: Work, task: Task) -> Outcome:
     try:
         return outcome_of(work, task, Console(task.quiet, kept=[]))
     except Terminated:  # unfinished files are removed; do not start another job
+        # Not sys.exit, which the pool would catch as the error of a job, and go on.
         os._exit(exit_of(Terminated()).code)

@@ -60,7 +60,7 @@ def is_unfinished(folder: str) -> bool | None:
 
 def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *, overwrite: bool) -> tuple[Facts, int]:
     """Write tiles in their order, and the manifest when all else is there; return it, and all bytes."""
-    # Reversed, because `pop` takes from the end, and the coarsest tiles come first.
+    # Reversed, because `pop` takes from the end.
     shards, tiles, waiting = list[Facts](), list[Tile](), list(reversed(done))
     while waiting:
         shard, held = _write_shard(folder, f"{len(shards):05}.tiles", waiting, overwrite)
