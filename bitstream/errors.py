@@ -38,6 +38,7 @@ class BsmError(Exception):
 
     def located(self, *, offset: int | None = None, frame: int | None = None, block: int | None = None) -> BsmError:
         """Add the places that are still unknown, and return the error."""
+        # The place that was known where the error arose is closer than that of a caller.
         self.offset = offset if self.offset is None else self.offset
         self.frame = frame if self.frame is None else self.frame
         self.block = block if self.block is None else self.block
@@ -231,6 +232,7 @@ class BsmWarning(UserWarning):
     """
 
 
+# Set on the class, so that pickles name it, too: a pickle made today is read by releases that have moved the module.
 for _error in (BsmError, BsmWarning, *BsmError.__subclasses__()):
     _error.__module__ = __name__.partition(".")[0]  # tracebacks show them by the name that users catch them by
 del _error
@@ -257,6 +259,7 @@ def imported(module: str, why: str, extra: str) -> Any:
     try:
         return importlib.import_module(module)
     except ImportError as error:
+        # The first error stays visible: a package may be there, and fail while it loads.
         raise DependencyError(f"{why}; run: {how_to_install(extra)}") from error
 
 

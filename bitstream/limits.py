@@ -78,6 +78,8 @@ class Limits:
     gop_frames: int = 1024
     frame_bytes: int = 1 << 28
     metadata_bytes: int = 1 << 23
+    # A constant, because an empty mesh costs something, too; then in proportion to what has arrived. A short stream
+    # cannot claim much, and a long one has paid for it.
     work: float = 8e8
     work_per_vertex: float = 3.2e4
     work_per_byte: float = 1.6e4
@@ -92,6 +94,7 @@ class Limits:
     attribute_values: int = 1 << 28
 
     def __repr__(self) -> str:
+        # Twenty numbers would hide the one that differs.
         own = [(f.name, getattr(self, f.name)) for f in fields(self) if getattr(self, f.name) != f.default]
         return f"Limits({', '.join(f'{name}={value!r}' for name, value in own)})"
 
@@ -99,8 +102,10 @@ class Limits:
         """Raises `ArgumentError` for values that are not numbers, `OptionError` for negative ones and NaN."""
         for name in (field.name for field in fields(self)):
             value = getattr(self, name)
+            # A bool is an int in Python, and Limits(faces=True) would refuse every mesh but a triangle.
             if isinstance(value, bool) or not isinstance(value, (int, float)):
                 raise ArgumentError(f"the limit {name} must be a number, not {value!r}")
+            # Not `value < 0`, which NaN passes: every comparison with it is false, and nothing would be limited.
             if not value >= 0:
                 raise OptionError(f"the limit {name} must be 0 or above, not {value}")
 
@@ -139,6 +144,7 @@ class Limits:
 
     def work_for(self, vertices: int, received: int) -> float:
         """Return the nanoseconds of work that a stream of these vertices and received bytes may take."""
+        # A service needs a bound that no stream can raise by being long.
         return min(self.work + self.work_per_vertex * vertices + self.work_per_byte * received, self.most_work)
 
     def check_memory(self, value: float, vertices: int, received: int = 0) -> None:
@@ -167,6 +173,7 @@ def as_limits(limits: Limits) -> Limits:
 
 def _cure(name: str, enough: Callable[[Limits], bool]) -> str:
     """What allows more, on the command line and in Python."""
+    # Advice must help: only sets of limits that would really let this stream pass are named.
     named = next((word for word, make in NAMED_LIMITS.items() if enough(make())), None)
     if named is None:
         return f"if you trust the source, decode it in Python with a higher Limits.{name}"
@@ -193,9 +200,11 @@ def decoder_error(
     status: int, message: str, offset: int, frame: int, block: int, limit: str, value: float, limits: Limits, state: Any
 ) -> Exception:
     """The error that the decoder in C reports, as an exception; places of -1 and an empty `limit` are not known."""
+    # Everything else that C reports is memory that the system did not give.
     if status not in _REFUSALS:
         return MemoryError(message)
     error = _REFUSALS[status](message)
+    # A tolerant decoder reports the same as damage, and damage is not cured by limits.
     if limit and isinstance(error, LimitError):  # or damage, to those who tolerate it
         error = LimitError(f"{message}; {_cure_of(limit, value, state)}")
     places = {"offset": offset, "frame": frame, "block": block}

@@ -25,5 +25,7 @@ class cached_property(Generic[Value]):
         if instance is None:
             return self
         value = self._work(instance)
+        # A descriptor without __set__ gives way to the attribute: after the first access no call is left. Two threads
+        # may both compute the value; it is the same.
         instance.__dict__[self._name] = value
         return value

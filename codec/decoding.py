@@ -52,6 +52,7 @@ def _in_turn(method: Callable[Concatenate[Self, Given], Result]) -> Callable[Con
 
     @wraps(method)
     def guarded(self: Self, /, *args: Given.args, **kwargs: Given.kwargs) -> Result:
+        # Event and arrays are two calls into C. Another thread between them would take the arrays of this one.
         with self._turn:
             return method(self, *args, **kwargs)
 
@@ -74,6 +75,7 @@ class StreamDecoder:
         self._finished = False
         self._error: BsmError | None = None
         self._entries = self._received = 0
+        # Figures such as the work stay known after `close`, which gives the memory back.
         self._last = self._engine.state()
         self.metadata: Mapping[str, MetadataValue] = {}
         """Metadata of the mesh, as far as it has arrived."""
@@ -117,6 +119,7 @@ class StreamDecoder:
         with view:
             if view.nbytes:
                 self._received += view.nbytes
+                # Without a copy where the bytes lie in order already, as they nearly always do.
                 plain = view if view.c_contiguous and view.nbytes == len(view) else view.tobytes()
                 self._open.push(np.frombuffer(plain, np.uint8))
 
@@ -144,6 +147,7 @@ class StreamDecoder:
             while (event := self._event(*self._next(self._wanted))) is None:
                 pass
         except BsmError as error:
+            # An error ends the stream. Asked again, the decoder gives the same answer and not another one.
             self._error = error
             raise
         return event
@@ -186,12 +190,15 @@ class StreamDecoder:
             raise self._error
         while True:
             event = self._open.next(wanted | mask_of(HEADER, METADATA))
+            # Metadata are no events of their own in Python: they are there when the next event is.
             if event[0] == METADATA:
                 entries = [self._open.metadata(index) for index in range(self._entries, event[1])]
                 self.metadata, self._entries = {**self.metadata, **dict(entries)}, event[1]
                 continue
             if event[0] == HEADER:
                 self._header = Header(**values_of(Header, self._open.header()))
+                # Said at the header, before anything is decoded, and with the name of the function that takes such
+                # streams.
                 if bool(self._header.gop_frames) != self._of_sequences:
                     kind, text = self._misfit
                     self._error = kind(text, offset=PREAMBLE_BYTES, frame=0)
@@ -271,6 +278,7 @@ class Decoder(StreamDecoder):
             Also `TruncatedError`, if bytes are missing.
         """
         self.receive_eof()
+        # Fewer events are fewer calls from C to Python, and that is the time of small meshes.
         wanted = mask_of(END) if progress is None else mask_of(END, BLOCK, REFINEMENT, ATTRIBUTE, VALUES)
         while (event := self._next(wanted))[0] != OVER:
             if event[0] == END:
@@ -356,6 +364,7 @@ class SequenceDecoder(StreamDecoder):
         event = super()._event(kind, index, count, vertices, faces)
         if isinstance(event, events.ConnectivityEvent):
             self._faces = event.faces
+            # A run may have the mesh of an earlier one, and then no attribute arrives again.
             for number in range(self._open.attribute_count()):  # those of an earlier run of this mesh
                 self._know(number)
         return event
@@ -368,6 +377,7 @@ class SequenceDecoder(StreamDecoder):
     def _in_frame(self) -> Iterator[Attribute]:
         """The attributes of the present frame."""
         for index, (attribute, moves) in self._known.items():
+            # Attributes that stand still are handed out as the same arrays, which callers may compare by identity.
             found = self._attribute(index) if moves else None
             yield attribute if found is None else found[0]
 

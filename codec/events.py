@@ -59,6 +59,7 @@ class HeaderEvent:
         return f"HeaderEvent({counted(vertices=header.vertices, faces=header.faces, **frames)})"
 
 
+# Three arrays and not a list of vertices: an event of a large mesh has thousands.
 @dataclass(frozen=True, eq=False)
 class Changes:
     """Changed vertices, their positions in the mesh's unit, and which of them are final."""
@@ -263,6 +264,7 @@ class LossEvent:
 
     def __post_init__(self) -> None:
         # Who keeps losses shall not keep what there was where they came to light.
+        # A traceback holds the frames of all callers, and their arrays.
         self.error.__traceback__ = self.error.__context__ = self.error.__cause__ = None
 
 

@@ -13,6 +13,8 @@ from bsm._core.bitstream import constant
 from bsm.bitstream.container.wire import write_varint
 from bsm.bitstream.errors import OptionError
 
+# Motion that is captured or keyed often stands still, or swings back. Such frames cost nothing when they are shown
+# again.
 WAYS = (1, 0, -1)  # from frame to frame of a stretch: as they were sent, standing still, backwards
 
 
@@ -24,10 +26,12 @@ def write_stretches(shown: npt.NDArray[np.int64] | None) -> bytes:
     at, due = 0, 0
     while at < len(shown):
         changes = np.diff(shown[at:])
+        # A jump is no way. The stretch then has one frame, and the next begins after the jump.
         way = int(changes[0]) if len(changes) and changes[0] in WAYS else WAYS[0]
         others = np.flatnonzero(changes != way)
         count = int(others[0]) + 1 if len(others) else len(shown) - at
         beyond = int(shown[at]) - due
+        # Signed to unsigned by turns (0, -1, 1, -2, ...), so that small numbers of both signs take one byte.
         parts += [3 * (2 * beyond if beyond >= 0 else -2 * beyond - 1) + WAYS.index(way), count]
         at += count
         due = int(shown[at - 1]) + 1
@@ -103,6 +107,8 @@ def write_gop_body(body: GopBody, run: int = 0, numbers: Sequence[int] = ()) -> 
     if not positions:
         raise OptionError("a GOP needs positions")
     moved = [(number, data) for number, data in zip(numbers, attributes, strict=True) if data]
+    # The number of the run, in one byte with the method: a decoder that lost a header sees that this GOP is of another
+    # mesh.
     first = body.method + (WITH_ATTRIBUTES if moved else 0) + METHODS * (run % RUNS)
     parts = [bytes([first]), write_varint(body.frames)]
     if body.method.has_basis:
@@ -117,11 +123,13 @@ def write_gop_body(body: GopBody, run: int = 0, numbers: Sequence[int] = ()) -> 
 def _write_field(field: GopField, method: GopMethod) -> bytes:
     if field.step == 0.0:
         return b""
+    # The step travels in single precision. Encoder and decoder must multiply by the same number.
     if not (0 < field.step < math.inf and float(np.float32(field.step)) == field.step):
         raise OptionError(f"a GOP cannot have the step {field.step}")
     parts = [struct.pack("<f", field.step)]
     if method.has_basis:
         parts.append(write_varint(field.components))
+        # Exponents of neighboring components are alike, so their differences take a byte each.
         differences = np.diff(field.exponents, prepend=0).tolist()
         parts += [write_varint(2 * d if d >= 0 else -2 * d - 1) for d in differences]
         parts += [write_varint(len(field.basis)), field.basis]

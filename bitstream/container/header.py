@@ -12,6 +12,7 @@ from bsm._core.bitstream import fields as table_of
 Kind: TypeAlias = type[Any]
 MOST_GRID = 2**20 - 1
 MOST_ATTRIBUTES = 255
+# The table itself is in C, for the decoder is the judge of what a header may hold. Python reads it and has no copy.
 _KINDS: tuple[tuple[Kind, Kind], ...] = (int, int), (int, int), (float, float), (tuple, int), (tuple, float), (str, str)
 """Types of a field, and of items of a list, by the numbers of the decoder."""
 
@@ -33,6 +34,7 @@ class Field:
         """`value` as a plain int, float, text or tuple of these."""
         if self.type is tuple:
             return tuple(map(self.item, value))
+        # numpy's integers pass, and floats do not: int() would cut 2.5 to 2 without a word.
         return operator.index(value) if self.type is int else self.type(value)
 
 
@@ -76,6 +78,7 @@ class Constants:
 
     def entry(self, law: Constants) -> tuple[float, ...]:
         """The stored numbers; empty: the values of the specification."""
+        # Numbers of the law take no bytes: nearly all streams have them.
         return () if self == law else tuple(float(getattr(self, name)) for name in PAPER)
 
 
@@ -143,6 +146,7 @@ class Header:
         if not self.paper:
             return self.law
         numbers = zip(PAPER.items(), self.paper, strict=True)
+        # All travel as floats in one list. The defaults tell which are integers.
         return Constants(**{name: type(default)(number) for (name, default), number in numbers})
 
     @property
@@ -195,6 +199,8 @@ EXACT = 2  # `light`: floats in the cells of a grid follow its values
 def entries_of(record: Any) -> list[tuple[int, Any]]:
     """(key, value) of every field that is not at its default, keys ascending."""
     values = ((item, item.normalize(getattr(record, name))) for name, item in fields_of(type(record)).items())
+    # Fields at their defaults are left out, and decoders refuse streams that store them: each header has one spelling
+    # only.
     return sorted((item.key, value) for item, value in values if value != item.default)
 
 

@@ -30,8 +30,10 @@ class Metadata:
         for name, value in plain.items():
             if type(name) is not str or type(value) not in (str, int, float, bytes):
                 raise OptionError(f"metadata {name!r}: {value!r} must map a str to a str, int, float or bytes")
+        # The law wants the keys of a map in ascending order, and so the same metadata always make the same bytes.
         object.__setattr__(self, "entries", dict(sorted(plain.items())))
 
+    # msgpack holds larger integers, and Python reads them. C has no type for them, and C strings end at a NUL.
     def require_readable(self) -> None:
         """Raise `OptionError` for values that a stream can hold, but bsmdec does not return."""
         for name, value in self.entries.items():
@@ -141,10 +143,15 @@ BRIEF, BRIEF_TURNED, BRIEF_METADATA, MOST_BRIEF = 23, 25, 26, 60_000
 def write_brief(header: Header, body: Sequence[Packet]) -> bytes | None:
     """Return the payload of the only frame of a brief stream (F 11); None: these packets cannot be in one."""
     turn = header.turn if any(header.turn) else ()
+    # Without the byte that tells the type: all of them must be in single precision, and their length tells whether they
+    # are.
     floats = b"".join(wire.pack(value)[1:] for value in (header.scale, *header.center, *turn))
     entries = {name: value for packet in body if isinstance(packet, Metadata) for name, value in packet.entries.items()}
+    # A brief stream exists for small meshes on grids. All others have packets that one frame cannot hold, and stay as
+    # they are.
     match [packet for packet in body if not isinstance(packet, Metadata)]:
         case [Connectivity(faces), Grid(0, header.vertices, values)] if len(floats) == 16 + 4 * len(turn):
+            # Only these fields: a brief header has no keys, so everything else must be at its default.
             whole = (header.vertices, header.faces, *header.grid, header.congruence, len(faces))
             *fields, length = map(write_varint, whole)
             data = b"".join(fields) + floats + length + faces + values
@@ -172,6 +179,7 @@ def write_metadata(metadata: Metadata) -> bytes:
 
 def write_plain(packet: Any) -> bytes:
     """Varints, as many as the packet has numbers, then its data."""
+    # The fields of a packet are declared in the order of their bytes, so most packets need no writer of their own.
     *numbers, data = vars(packet).values()
     return bytes(b"".join(map(write_varint, numbers)) + data)
 
@@ -220,10 +228,12 @@ class SectionWriter:
     def write(self, packet: Packet) -> bytes:
         """Return the frame of one packet."""
         frame_type, write = WRITERS[type(packet)]
+        # Checked here, since no decoder with default limits would take the stream.
         payload = write(packet)
         DEFAULT_LIMITS.check("frame_bytes", len(payload))
         frame = write_frame(frame_type, payload)
         self._frames += 1
+        # The sum of all bytes before END grows with each frame, so nothing need be kept for it.
         self._crc = zlib.crc32(frame, self._crc)
         return frame
 

@@ -18,6 +18,7 @@ VERSION = 16 * MAJOR  # of minor version 0
 PREAMBLE_BYTES = len(MAGIC) + 1
 MAX_VARINT_BYTES = 5
 MAX_VARINT = (1 << 7 * MAX_VARINT_BYTES) - 1
+# Types that later minor versions may use for frames that older decoders pass over.
 SKIPPABLE_TYPES = range(8, 12)
 SHORT = constant("SHORT_PAYLOAD")  # a payload of fewer bytes has a short checksum
 
@@ -45,6 +46,7 @@ def write_preamble(minor: int = 0) -> bytes:
 
 def write_varint(value: int) -> bytes:
     """Unsigned LEB128 in its shortest form, at most five bytes."""
+    # Five bytes hold 35 bits. Longer ones would let a hostile stream ask for more.
     if not 0 <= value <= MAX_VARINT:
         raise OptionError(f"{value} does not fit a varint (0..{MAX_VARINT})")
     out = bytearray()
@@ -62,6 +64,8 @@ def with_lengths(payloads: list[bytes]) -> bytes:
 
 def checksum_size(frame_type: int, length: int) -> int:
     """Bytes of checksum after a frame of this payload: two for blocks and short ones, four for everything else."""
+    # Blocks are small and many: four bytes in each would be felt. A long payload is where two bytes are likely to miss
+    # damage.
     return 2 if frame_type == FrameType.BLOCK or length < SHORT else 4
 
 
@@ -84,6 +88,7 @@ _FLOAT32_MAX = struct.unpack(">f", b"\x7f\x7f\xff\xff")[0]
 def write_map(entries: Iterable[tuple[Any, Any]]) -> bytes:
     """A msgpack map of (key, value) pairs in the order given; every value in its shortest exact form."""
     pairs = list(entries)
+    # Not msgpack.packb of a dict: it writes doubles always, and the law wants the shortest exact form.
     packed = b"".join(pack(key) + pack(value) for key, value in pairs)
     return bytes(msgpack.Packer().pack_map_header(len(pairs))) + packed
 
@@ -92,6 +97,7 @@ def pack(value: Any) -> bytes:
     if isinstance(value, float):
         # Single precision where that is exact, double otherwise.
         if abs(value) <= _FLOAT32_MAX:
+            # Values beyond single precision raise OverflowError in pack, so they are sorted out before.
             single = struct.pack(">f", value)
             if struct.unpack(">f", single)[0] == value:
                 return b"\xca" + single

@@ -75,6 +75,7 @@ class Attribute:
         what = f"the attribute {self.name!r}"
         if not all(isinstance(text, str) for text in (self.name, self.domain, self.semantic)):
             raise ArgumentError(f"{what}: name, domain and meaning must be texts")
+        # Lone surrogates come from file names that are not text. They cannot be written as UTF-8.
         encoded = self.name.encode(errors="ignore")
         if encoded.decode() != self.name or b"\0" in encoded:
             raise MeshError(f"the name of an attribute must not contain NUL or lone surrogates: {self.name!r}")
@@ -90,6 +91,7 @@ class Attribute:
             indices = as_array(numbers, f"the indices of {what}")
             if indices.ndim != 2 or indices.shape[1] != 3 or indices.dtype.kind not in "iu":
                 raise MeshError(f"the indices of {what} must be integers of shape (m, 3)")
+            # Kernels and viewers index with these.
             if indices.size and not (indices.min() >= 0 and indices.max() < len(values)):
                 raise MeshError(f"an index of {what} is outside 0..{len(values) - 1}")
             indices = indices.astype(np.int32)
@@ -120,11 +122,13 @@ class Attribute:
         """
         if self.indices is None:
             return replace(self, values=self.values[vertices if self.domain == "vertex" else faces])
+        # Values that no remaining corner uses would still be sent.
         used, where = np.unique(self.indices[faces], return_inverse=True)
         return replace(self, values=self.values[used], indices=where.reshape(-1, 3).astype(np.int32))
 
 
 def _stored(values: npt.NDArray[Any], what: str) -> npt.NDArray[Any]:
+    # Arrays of files may have the other order of bytes, which kernels in C would read as other numbers.
     values = values.astype(values.dtype.newbyteorder("="), copy=False)
     if values.ndim == 1:
         values = values[:, None]
@@ -135,6 +139,7 @@ def _stored(values: npt.NDArray[Any], what: str) -> npt.NDArray[Any]:
     elif values.dtype == np.float16:
         values = values.astype(np.float32)
     elif values.dtype in (np.int64, np.uint64):
+        # numpy makes 64 bits of every Python integer, and hardly any attribute needs them.
         narrow = np.int32 if values.size == 0 or values.max() < 1 << 31 else np.uint32
         if values.size and not np.iinfo(narrow).min <= values.min() <= values.max() <= np.iinfo(narrow).max:
             raise MeshError(f"the values of {what} do not fit into 32 bits")

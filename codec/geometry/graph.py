@@ -28,8 +28,11 @@ class Graph:
 def graph_of_faces(faces: Indices, size: int) -> Graph:
     """Graph on `size` vertices of the triangles `faces`, shape (m, 3); degenerate corners make no edges."""
     offsets, filled = np.empty(size + 1, np.int32), np.empty(size, np.int32)
+    # Two directions for each of three sides is the most that there can be. Memory comes from here, since kernels take
+    # none.
     ends, second = np.empty(6 * len(faces), np.int32), np.empty(6 * len(faces), np.int32)
     kept = _kernels.collect_edges(np.ascontiguousarray(faces, np.int32), offsets, filled, ends, second)
+    # Copied, or a view would keep the whole buffer alive.
     return Graph(offsets, ends[:kept].copy())
 
 
@@ -71,6 +74,7 @@ def mesh_edges(faces: Faces, n: int) -> Indices:
 def edges_of(faces: Integers) -> tuple[Order, Order, Order]:
     """The edge from each corner of faces on: its ends, ascending, shape (3 m, 2); its number, and in how many corners
     it begins, shape (3 m,)."""
+    # One number for each edge: sorting numbers is much faster than sorting rows.
     ends = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)).astype(np.int64)
     _, edge, counts = np.unique(ends @ [1 << 32, 1], return_inverse=True, return_counts=True)
     return ends, edge, counts[edge]
@@ -83,6 +87,7 @@ def canonical(faces: Integers) -> Integers:
 
 
 def canonical_order(faces: Integers) -> tuple[Order, Order]:
+    # Rotated and never sorted: the order of corners is the side that a face shows.
     corners = (np.argmin(faces, axis=1)[:, None] + np.arange(3)) % 3
     turned = np.take_along_axis(faces, corners, axis=1)
     return np.lexsort(turned.T[::-1]), corners

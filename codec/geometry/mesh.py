@@ -63,6 +63,7 @@ class TriangleMesh:
             raise ArgumentError("the attributes of a mesh must be a list of Attribute")
         if not isinstance(self.metadata, Mapping):
             raise ArgumentError(f"metadata must be a mapping from names, not {type(self.metadata).__name__}")
+        # Copies that cannot be written to: a caller who changes an array later would change a mesh that was checked.
         positions = as_array(self.positions, "positions", np.float64)
         faces = as_array(self.faces, "faces")
         if positions.ndim != 2 or positions.shape[1] != 3:
@@ -70,6 +71,7 @@ class TriangleMesh:
         if not np.isfinite(positions).all():
             row = int(np.argmin(np.isfinite(positions).all(axis=1)))
             raise MeshError(f"vertex {row} has a coordinate that is not finite; remove or repair it")
+        # Before the shape: an empty list has the wrong shape, but what is wrong is that there are no faces.
         if faces.size == 0:
             raise NoFacesError("the mesh has no faces; point clouds are not supported")
         if faces.ndim != 2 or faces.shape[1] != 3:
@@ -86,6 +88,7 @@ class TriangleMesh:
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "faces", faces)
         object.__setattr__(self, "attributes", tuple(self.attributes))
+        # numpy's scalars are not JSON, and not msgpack.
         plain = {k: value.item() if isinstance(value, np.generic) else value for k, value in self.metadata.items()}
         object.__setattr__(self, "metadata", MappingProxyType(plain))
         names = [attribute.name for attribute in self.attributes]
@@ -99,6 +102,7 @@ class TriangleMesh:
         return f"TriangleMesh({len(self.positions)} vertices, {len(self.faces)} faces{names})"
 
     def __reduce__(self) -> tuple[Any, ...]:
+        # A MappingProxyType cannot be pickled.
         return type(self), (self.positions, self.faces, self.attributes, dict(self.metadata))
 
     @property
@@ -112,6 +116,7 @@ class TriangleMesh:
 
     def moved(self, positions: Positions) -> tuple[TriangleMesh, tuple[str, ...]]:
         """Return the mesh with new positions, shape (n, 3), and the names of its normals, which are dropped."""
+        # Normals describe the old surface. Colors and textures do not depend on where a vertex is.
         normals = tuple(attribute.name for attribute in self.attributes if attribute.semantic == "normal")
         kept = tuple(attribute for attribute in self.attributes if attribute.semantic != "normal")
         return replace(self, positions=positions, attributes=kept), normals
@@ -123,6 +128,7 @@ class TriangleMesh:
 
     def without_isolated_vertices(self) -> tuple[TriangleMesh, Order]:
         """Return the mesh without vertices in no face, and the indices of the kept vertices, shape (k,), ascending."""
+        # Vertices in no face change the diagonal, by which all errors are measured, though no viewer draws them.
         kept = np.flatnonzero(np.bincount(self.faces.ravel()))
         if len(kept) == len(self.positions):
             return self, kept
@@ -141,6 +147,7 @@ def require_sizes(
 ) -> None:
     """Raise `MeshError` unless positions, shape (n, 3), are within these sizes; `done` says what for."""
     farthest = float(np.abs(positions).max(initial=0.0))
+    # The extent of coordinates near the largest double is infinite, which is larger than allowed, as it should be.
     with np.errstate(over="ignore"):
         extent = float(extent_of(positions).max()) if len(positions) else 0.0
     if farthest > largest or 0.0 < extent < smallest:

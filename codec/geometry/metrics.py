@@ -64,8 +64,10 @@ class Comparison:
     max_error_relative: float
 
 
+# Areas are products of two lengths, and their squares of four: 1e70 to the fourth is still a double.
 SIZES = 1e-70, 1e70
 """Smallest extent and largest coordinate of meshes that are compared: squares of areas are numbers."""
+# Any smaller angle would let an encoder collapse faces to escape a large error.
 LOST = math.pi  # angle of a face without area; no rounding of its vertices can give it a normal that is farther off
 
 
@@ -81,6 +83,7 @@ class Original:
 
     def alike(self) -> "Original":
         """Return the same original, with weights that count all faces alike."""
+        # The normals are the same arrays; only the weights differ.
         other = copy(self)
         other.weights = _shares(self._whole.astype(np.float64))
         return other
@@ -96,8 +99,10 @@ class Reference:
 
     def __init__(self, positions: Positions, faces: Faces) -> None:
         self.positions: Positions = np.ascontiguousarray(positions, dtype=np.float64)
+        # Errors of huge or tiny meshes would come out as infinity or zero, and a promise as kept.
         require_sizes(self.positions, *SIZES, "compared")
         self.faces = np.ascontiguousarray(faces, dtype=np.int32)
+        # All relative errors are over the diagonal. A mesh of one point has none, and its errors stay as they are.
         self.scale = float(np.linalg.norm(extent_of(self.positions))) or 1.0
         self.by_area = Original(self.positions, self.faces)
         self.alike = self.by_area.alike()
@@ -114,6 +119,8 @@ class Reference:
         """The paper's error (section 8; norms not squared) over `scale`, the diagonal; times `scale`: its number."""
         decoded = self._checked(decoded)
         detail = _length(self._laplacian - geometric_laplacian(decoded, self._neighbors))
+        # As the paper defines it, with the norm of the whole matrix and n outside of it: the number falls with more
+        # vertices at the same error. Kept for comparison with the paper's figures only.
         return (_length(self.positions - decoded) + detail) / (2 * len(decoded) * self.scale)
 
     def theta(self, decoded: Positions) -> float:
@@ -129,6 +136,7 @@ class Reference:
         own = self.alike.normals
         normals, counted = face_normals(self._checked(decoded), self.faces), own.any(axis=1)
         lengths = np.sqrt(squares_of(own - normals))
+        # A face that lost its area has no direction. A right angle is what a random one has on average.
         lengths[~normals.any(axis=1)] = math.sqrt(2.0)
         return float(lengths[counted].mean()) if counted.any() else 0.0
 
@@ -166,6 +174,7 @@ def rms_over_edge(original: Positions, decoded: Positions, faces: Faces) -> floa
 
 def mean_edge_length(positions: Positions, faces: Faces) -> float:
     """Mean length of the edges of `faces`, shape (m, 3), each counted once; 1 where that is zero."""
+    # Each edge once. Edges of two faces would count double, and those of borders not.
     a, b = mesh_edges(faces, len(positions)).T
     length = float(np.linalg.norm(positions[a] - positions[b], axis=1).mean()) if len(a) else 0.0
     return length or 1.0
@@ -205,14 +214,18 @@ def folded_edges(positions: Positions, faces: Faces) -> int:
     normals = face_normals(positions, faces)
     _, edge, uses = edges_of(faces)
     paired = np.flatnonzero(uses == 2)
+    # Sorted by their edge, corners of the same edge stand side by side.
     first, second = paired[np.argsort(edge[paired], kind="stable")].reshape(-1, 2).T
     turned = np.einsum("ed,ed->e", normals[first // 3], normals[second // 3])
+    # Two faces run along a common edge in opposite directions, unless one of them is turned over. Its normal then
+    # counts with the other sign.
     same_way = faces.ravel()[first] == faces.ravel()[second]  # faces of two orientations
     return int(np.count_nonzero(np.where(same_way, -turned, turned) < 0.0))
 
 
 def geometric_laplacian(positions: Positions, neighbors: Lists) -> Floats:
     """Each vertex minus the mean of its neighbors, weighted by inverse distance; shape (n, 3)."""
+    # In C, since the weights change with every candidate that a search measures.
     given, laplacian = np.ascontiguousarray(positions, np.float64), np.empty((len(positions), 3))
     _kernels.geometric_laplacian(given, neighbors, laplacian)
     return laplacian
@@ -247,6 +260,7 @@ def surface_distance(
 def sample_surface(positions: Positions, faces: Faces, samples: int, seed: int) -> Floats:
     """Points spread evenly over the area, shape (samples, 3); without points if the area is 0."""
     corners = positions[faces]
+    # Not `face_geometry`, whose areas are zero below rounding: a thin face has a share of the samples, too.
     areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     if not areas.sum() > 0.0:
         return np.empty((0, 3))
@@ -260,6 +274,7 @@ def sample_surface(positions: Positions, faces: Faces, samples: int, seed: int) 
 
 def distances_to_surface(points: Floats, positions: Positions, faces: Faces, enough: Floats | float = 0.0) -> Floats:
     """Distance of each point to the nearest triangle, shape (k,): exact where it is above `enough`."""
+    # The kernel leaves a search as soon as the point is known to be near enough, which is most of the time it takes.
     distances = np.zeros(len(points)) + enough
     _nearest(points, positions, faces, distances)
     return distances
@@ -273,6 +288,8 @@ def nearest_points(points: Floats, positions: Positions, faces: Faces) -> tuple[
     along = (away * sides).sum(axis=2) / np.maximum(np.square(sides).sum(axis=2), 1e-300)
     inside = np.roll((np.cross(sides, away) * np.cross(sides[:, :1], sides[:, 1:2])).sum(axis=2), -1, axis=1)
     inside /= np.maximum(inside.sum(axis=1, keepdims=True), 1e-300)
+    # Four candidates: the nearest point of each side, and the foot in the plane. The nearest of those that are in the
+    # triangle is the answer, and no case analysis is needed.
     to, axes = along.clip(0.0, 1.0)[:, :, None], np.eye(3)
     weights = np.append((1.0 - to) * axes + to * axes[[1, 2, 0]], inside[:, None], axis=1)
     far = np.square(weights @ corners - points[:, None]).sum(axis=2)
@@ -287,6 +304,7 @@ def farthest_from_surface(points: Floats, positions: Positions, faces: Faces) ->
 
 def _nearest(points: Floats, positions: Positions, faces: Faces, distances: Floats) -> tuple[float, Order]:
     """The largest distance, all of them if there is room, and the nearest triangles, by a tree of boxes."""
+    # A tree of boxes and not a k-d tree of points: the nearest vertex need not be of the nearest triangle.
     corners, m = np.ascontiguousarray(positions[faces], dtype=np.float64), len(faces)
     order, first, count = (np.empty(size, np.int64) for size in (m, 2 * m + 1, 2 * m + 1))
     low, high = np.empty((2 * m + 1, 3)), np.empty((2 * m + 1, 3))

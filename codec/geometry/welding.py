@@ -13,6 +13,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 
 def weld(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:
     """Give the vertices of exactly equal positions one number."""
+    # Exactly equal ones only: a tolerance would join vertices that an author has kept apart.
     index = group_rows(np.asarray(positions, np.float64))
     first = first_of(index)
     return (positions if len(first) == len(index) else positions[first]), index[faces], index
@@ -27,8 +28,11 @@ def degenerate(faces: npt.NDArray[Any]) -> Mask:
 def group_rows(values: npt.NDArray[Any]) -> Indices:
     """The number, shape (n,), of what each row of `values`, shape (n, k), is equal to, in order of first appearance."""
     if values.dtype == np.float64:
+        # Both zeros are one place, but their bits differ.
         values = values + 0.0  # -0.0 + 0.0 is 0.0
-    # No two rows can be equal where one number made of each is not: one sort, where all of them need one each.
+    # No two rows can be equal where one number made of each is not: one sort, where all of them need one each. A hash
+    # of each row, sorted. Most meshes have no copies at all, and this finds that out much sooner than sorting rows
+    # does.
     bits = values.view(np.uint64)
     mixed = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15)
     for axis in range(1, values.shape[1]):
@@ -39,6 +43,7 @@ def group_rows(values: npt.NDArray[Any]) -> Indices:
     numbers = row_numbers(values)
     first = np.empty(numbers.max() + 1, np.int64)
     first[numbers[::-1]] = np.arange(len(numbers))[::-1]  # the last one that is written is the first
+    # In order of first appearance, so that a mesh without copies keeps its numbers.
     return np.argsort(np.argsort(first)).astype(np.int32)[numbers]
 
 
@@ -52,6 +57,7 @@ def row_numbers(rows: npt.NDArray[Any]) -> Indices:
     values = rows + 0 if rows.dtype.kind == "f" else rows
     if not len(values):
         return np.zeros(0, np.int32)
+    # np.unique(axis=0) sorts rows as one opaque type, which takes several times as long.
     order = np.lexsort(values.T[::-1])
     ordered = values[order]
     numbers = np.empty(len(values), np.int32)
@@ -73,6 +79,8 @@ def split_with_origin(mesh: TriangleMesh) -> tuple[TriangleMesh, Indices]:
     rows = [np.concatenate([mesh.faces.ravel(), np.arange(size, dtype=np.int32)])]
     for attribute in of_corners:
         assert attribute.indices is not None
+        # By value and not by index: files often repeat equal values under several indices, and splitting there would
+        # tear the surface.
         numbers = row_numbers(attribute.values)[attribute.indices.ravel()]
         rows.append(np.concatenate([numbers, np.full(size, -1, np.int32)]))
     is_loose = np.bincount(mesh.faces.ravel(), minlength=size) == 0

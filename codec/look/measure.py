@@ -103,7 +103,9 @@ class LookMetric:
     def __init__(self, mesh: TriangleMesh, *, threads: int | None = None, most_pixels: int = MOST_PIXELS) -> None:
         self._mesh, self._crew = mesh, Crew(threads)
         # Encoders leave out faces with two corners at one position, so that these may not count here, either.
+        # The original has such faces and the decoded mesh has not. Its size and its frames must be the same for both.
         faces = mesh.faces[~degenerate(group_rows(mesh.positions)[mesh.faces])]
+        # A stray vertex in no face would make the object small in its own pictures.
         used = mesh.positions[np.bincount(faces.ravel(), minlength=len(mesh.positions)) > 0]
         if not len(used):
             raise MeshError("the mesh cannot be looked at: its faces have no area")
@@ -114,7 +116,10 @@ class LookMetric:
             raise MeshError("the mesh cannot be looked at: all vertices are at one place")
         if not self._diagonal < _LARGEST:
             raise MeshError("the mesh cannot be looked at: its coordinates are too large to compute with; scale it")
+        # Not (low + high) / 2, whose sum may overflow.
         self._middle = low + (high - low) / 2
+        # Files hold single precision. Where that is exact enough, the original is drawn as files have it, or rounding
+        # alone would count as a difference.
         self._kept = np.dtype(np.float32 if lost <= 1e-6 * self._diagonal else np.float64)  # as files have them
         positions = self._placed(mesh.positions)
         self._shape = Shape.of(positions, mesh.faces)
@@ -124,6 +129,8 @@ class LookMetric:
         self._sides = range(len(self._cameras))
         self._idle = [Canvas(self.pixels)]
         self._pictures = Gallery(self._cameras, positions, self._shape.faces, self._shape.normals(positions))
+        # A mesh with area may still be invisible, if all of it is seen edge-on. Any number would then be a false
+        # promise.
         seen = ((self._pictures.picture(self._idle[-1], side) < BACKGROUND).any() for side in self._sides)
         if self._size.largest < LEAST_AREA or not any(seen):
             raise MeshError(f"the mesh cannot be looked at: its faces have no area{_outlier(used)}")
@@ -134,6 +141,7 @@ class LookMetric:
 
     def against(self, mesh: TriangleMesh) -> LookMetric:
         """Return a metric of versions of another mesh, which shows the pictures of this original."""
+        # The pictures are the expensive part. They are shared, and only what depends on the other mesh is made anew.
         other = copy(self)
         other._mesh, other._shape = mesh, Shape.of(self._placed(mesh.positions), mesh.faces)
         own = own_normals(mesh)
@@ -149,6 +157,7 @@ class LookMetric:
         if not np.isfinite(positions).all():
             raise MeshError("a position is not finite")
         bare = self.bare(positions)
+        # Viewers may shade by normals of the file or by their own. The promise holds for both.
         return bare if self._own is None else max(bare, self._dressed(positions), key=lambda look: look.distance)
 
     def distance(self, positions: Positions) -> float:
@@ -160,6 +169,7 @@ class LookMetric:
         bare = self.bare(positions).distance
         return bare if self._own is None else max(bare, self._dressed(positions).distance / (1.0 - ROOM))
 
+    # Two of six sides take a third of the time. Searches ask this first, and measure all sides only near the end.
     def glance(self, positions: Positions) -> float:
         """About the distance of positions, shape (n, 3), as two sides show it."""
         placed, sides = self._placed(positions), self._sides[:: len(self._sides) // 2]
@@ -171,6 +181,7 @@ class LookMetric:
         def seen() -> Look:
             placed, known = self._placed(positions), self._shape
             # Vertices that have come to one place are one.
+            # Rounding can make vertices meet. Viewers then shade across, and so must these pictures.
             return self._seen(self._pictures, placed, known.faces, Shape.of(placed, known.faces, known).normals(placed))
 
         return self._once(seen, positions)
@@ -197,9 +208,11 @@ class LookMetric:
             return difference(original, picture), float(turned[shown].mean()) if len(shown) else 0.0
 
         # From the chord: two normals of no length are equal.
+        # Dot products of nearly equal vectors lose half of their digits; chords do not.
         cosines = (1.0 - np.square((normals - own).reshape(-1, 3).astype(np.float64)).sum(axis=1) / 2.0).clip(-1.0, 1.0)
         turned, placed = np.degrees(np.arccos(cosines)).reshape(-1, 3).mean(axis=1), self._placed(positions)
         key = key_of(positions, normals)
+        # By the bytes of the arrays: a search comes back to the same candidate by several ways.
         if key not in self._turned:
             sums, angles = zip(*self._each(seen, self._sides), strict=True)
             self._turned[key] = summed(np.array(sums)).distance, max(angles) / TURNED
@@ -220,6 +233,7 @@ class LookMetric:
         first, second, third = (positions[corner] for corner in faces.T)
         sums = np.cross(second - first, third - first)
         own = self._own[1].reshape(-1, 3, 3)
+        # Such normals shade a surface from inside. Normals computed by a decoder would change the picture completely.
         facing = np.einsum("fd,fcd->fc", sums, own) <= 0.0
         return bool(facing[np.sqrt(np.square(sums).sum(axis=1)) > LEAST_AREA].any())
 
@@ -228,6 +242,7 @@ class LookMetric:
         placed = self._placed(other.positions)
         shape = Shape.of(placed, other.faces)
         smooth = shape.normals(placed)
+        # Frames are those of the original, so that a mesh of another size is not scaled to fit.
         seen = self._seen(self._pictures, placed, shape.faces, smooth)
         if self._own is None:
             return seen
@@ -255,6 +270,7 @@ class LookMetric:
     def _placed(self, positions: Positions) -> Positions:
         with np.errstate(over="ignore"):
             placed = (positions.astype(self._kept) - self._middle) / self._diagonal
+        # A vertex that a damaged stream throws far away must still be a number that can be drawn.
         return np.ascontiguousarray(placed.clip(-LARGEST, LARGEST))
 
     def _each(self, work: Callable[[Canvas, int], Result], sides: Sequence[int]) -> list[Result]:
@@ -262,6 +278,7 @@ class LookMetric:
 
         def done(side: int) -> Result:
             try:
+                # A canvas takes up to tens of megabytes. Threads hand them on, and there are never more than threads.
                 canvas = self._idle.pop()
             except IndexError:
                 canvas = Canvas(self.pixels)
@@ -290,6 +307,7 @@ class AttributeLook:
     """Pictures of an original under a checker, or in colors of corners, shape (m, 3 c): `spec/look.md`, L 7, L 8."""
 
     def __init__(self, mesh: TriangleMesh, semantic: Semantic, values: Matrix, *, threads: int | None = None) -> None:
+        # Colors and checkers are smooth or coarse. Fewer pixels show their differences.
         self._metric = LookMetric(mesh.bare, threads=threads, most_pixels=LEAST_PIXELS)
         self._faces, self._semantic = self._metric._shape.faces, semantic
         self._paint = self._painting(values, mesh.positions, self._faces)
@@ -339,6 +357,7 @@ def look(original: TriangleMesh, other: TriangleMesh, *, threads: int | None = N
 
 def _outlier(used: Positions) -> str:
     """The vertex that is so far away that all others are one point, in words."""
+    # The median, since the mean would follow the stray vertex.
     far = np.abs(used - np.median(used, axis=0)).max(axis=1)
     farthest = int(far.argmax())
     if far[farthest] < FAR * np.median(far):
@@ -349,12 +368,14 @@ def _outlier(used: Positions) -> str:
 
 def key_of(*arrays: Matrix | Normals) -> bytes:
     """Return a number that other arrays do not have."""
+    # A digest rather than the arrays: a search keeps hundreds of results.
     return b"".join(blake2b(np.ascontiguousarray(array).data).digest() for array in arrays)
 
 
 def summed(sums: Matrix) -> Look:
     """The look of pairs of pictures, of which `difference` has these rows, shape (k, 2)."""
     unlike, gone = float(sums[:, 0].mean()), float(sums[:, 1].max())
+    # A mean over the picture forgives a missing small part. The largest blurred difference does not.
     return Look(max((unlike / UNLIKE) ** POWER, (gone / GONE) ** GONE_POWER), unlike, gone)
 
 
@@ -395,6 +416,7 @@ def has_look(attribute: Attribute) -> bool:
 def painted(semantic: Semantic, corners: npt.NDArray[Any]) -> Matrix:
     """Values of corners as `AttributeLook` takes them, shape (m, 3, c): of colors red, green, blue, from 0 to 1."""
     if semantic == "color":
+        # Gray becomes three equal channels, and opacity is left out: what shows through is not known here.
         whole = 1.0 if corners.dtype.kind == "f" else float(np.iinfo(corners.dtype).max)
         corners = (corners[..., :3] if corners.shape[2] > 2 else corners[..., [0, 0, 0]]) / whole
     return corners.astype(np.float64).reshape(len(corners), -1)

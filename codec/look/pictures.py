@@ -18,14 +18,19 @@ from bsm.codec.geometry.welding import degenerate, group_rows
 Picture = npt.NDArray[np.float32]  # shades, 0 (black) to 1 (white, the background); first row on top
 Normals = npt.NDArray[np.float32]  # of the corners of faces, shape (m, 9)
 
+# Normals across sharper edges would draw gradients on flat faces.
 CREASE = math.cos(math.radians(40.0))  # cosine of the angle between faces from which on shading is not smooth
 _HALF_CREASE = math.cos(math.radians(19.9))
+# The hub of a fan may have a million faces. Comparing each with each would take hours.
 MOST_AROUND = 128  # faces around a vertex, above which its corners are shaded as their faces are
 BACKGROUND = 1.0
+# Not along the axes, where CAD parts show single faces, edge-on. The two ends of each axis see what the other misses.
 TOWARDS = ((2, 2, 1), (-2, -2, -1), (-2, 1, 2), (2, -1, -2), (1, -2, 2), (-1, 2, -2))
 """Directions of the camera, from the middle of the mesh: both ends of three oblique axes at right angles."""
 SAMPLES = 4  # samples along each side of a pixel, which is their mean
 LIGHT = (0.35, 0.5, 0.79)  # where the light is: right, up, towards the camera
+# Without it, the last bit of a coordinate decides whether a sample on an edge is covered, and equal meshes look
+# different.
 ASIDE = (2.0**-12, 2.0**-11.5, 0.0)  # samples, by which edges of symmetric shapes miss the centers of samples
 AIR = 1.03  # the side of the picture over the longer side of what it shows
 LEAST_PIXELS, MOST_PIXELS = 512, 2048  # samples along the side of a picture
@@ -36,6 +41,7 @@ MOST_COVERED, COVERED_BY_FACE, ROW = 5 * LEAST_PIXELS**2, 16, 4
 """Samples that faces may cover in a picture, each as often as it is covered, and how many more for each face; and
 samples that take as long to cover as a row of a face takes."""
 CHECKS, DARK, TEXELS = 8, 0.35, 128  # of a checker: squares a side, how bright dark ones are, texels of their sides
+# Eyes see less where the surface is busy (masking): squared differences are divided by this plus the local variance.
 STEADY = 0.02  # variance of shades that hides half of a squared difference
 _GRID = 2.0**24
 _SPREAD, _REACH = 1.5, 5  # standard deviation of the blur, and its reach, in pixels
@@ -56,7 +62,9 @@ class Shape:
     def of(cls, positions: Positions, faces: Faces, known: Shape | None = None) -> Shape:
         """The shape of positions, shape (n, 3), within a box of diagonal 1: a known one of these faces if it is so."""
         index = group_rows(np.rint(positions * _GRID))
+        # Grouped on a grid of 2^-24 of the diagonal: finer distances are rounding.
         joined = index[faces]
+        # Nearly always the same: lists of faces around vertices take longer than the comparison.
         if known is not None and np.array_equal(joined, known.joined):
             return known
         counted, places = np.flatnonzero(~degenerate(joined)).astype(np.int32), int(index.max()) + 1
@@ -76,6 +84,7 @@ class Canvas:
     """Room for pictures, one after another: `samples` along each side, which make a quarter as many pixels."""
 
     def __init__(self, samples: int) -> None:
+        # Kept from picture to picture. Clearing only what was drawn is faster than memory from the system.
         self.samples, self._depth = (np.empty((samples, samples), np.float32) for _ in "12")
         self.owner, self._drawn = np.empty((0, samples), np.int32), np.array([0, samples, 0, samples], np.int32)
         self._tiles = np.empty((-(-samples // _TILE),) * 2, np.float32)
@@ -124,6 +133,8 @@ def axes(towards: tuple[int, int, int]) -> Matrix:
 def cameras(positions: Positions, pixels: int, sides: tuple[tuple[int, int, int], ...] = TOWARDS) -> list[Matrix]:
     """Return the arguments of `draw_shaded` for sides, shape (15,), so that positions, shape (n, 3), fill pictures."""
     found = []
+    # Written out instead of a matrix product, whose sums BLAS orders as it likes: pictures must be equal on all
+    # machines.
     across, deep, high_up = np.ascontiguousarray(positions.T)
     for towards in sides:
         rows = axes(towards)
@@ -152,11 +163,14 @@ class Size:
         lengths = np.sqrt([np.einsum("fd,fd->f", side, side) for side in sides])
         ends = np.array([box_around(corner) for corner in corners])
         extent = AIR * float((ends[:, 1].max(axis=0) - ends[:, 0].min(axis=0)).max())
+        # Detail as fine as the mesh must be seen, so dense meshes get larger pictures, as on a screen that is zoomed
+        # in.
         edge = float(lengths.sum()) / (3 * len(faces))
         if not edge > 0.0:
             return cls(LEAST_PIXELS, 0.0)
         # On average over all sides, a face covers half of its area, and has rows for half of its longest side.
         areas = face_geometry(positions, faces).areas
+        # Triangles that cover each other many times would make drawing arbitrarily slow. The pictures shrink instead.
         covered = float(areas.sum()) / (2.0 * extent**2)
         rows = ROW * float(lengths.max(axis=0).sum()) / (2.0 * extent)
         room = MOST_COVERED + COVERED_BY_FACE * len(faces)
@@ -171,6 +185,7 @@ class Size:
 def checker_steepness(places: Matrix, positions: Positions, faces: Faces) -> Matrix:
     """One over the part of a checker's square that its edges take on each face, shape (m,); 0: it is gray there."""
     first, second = places[:, 2:4] - places[:, :2], places[:, 4:] - places[:, :2]
+    # A checker finer than a pixel would flicker. It fades to gray where its squares get too small.
     texels = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) * (CHECKS * TEXELS) ** 2
     a, b, c = (positions[corner] for corner in faces.T)
     shown = np.sqrt(np.square(np.cross(b - a, c - a)).sum(axis=1)) * LEAST_PIXELS**2

@@ -68,12 +68,14 @@ class ChainRules:
 
     def chains(self, blocks: int) -> list[range]:
         """Indices of the blocks of each chain."""
+        # Eight blocks a chain by default: enough that the key block hardly counts, and enough chains for several cores.
         length = self.key_interval or blocks
         return [range(first, min(first + length, blocks)) for first in range(0, blocks, length)]
 
 
 def even_interval(interval: int, blocks: int) -> int:
     """The length of chains that are as many as with `interval`, and as equal as can be; 0: one chain."""
+    # 17 blocks in chains of 8 would leave one block alone; 6, 6 and 5 decode in parallel.
     return -(-blocks // -(-blocks // interval)) if interval else 0
 
 
@@ -83,12 +85,14 @@ class Chain(Steps):
     def __init__(self, rules: ChainRules, blocks: Blocks, width: int = 0) -> None:
         graph, self._own = blocks.graph, rules.overrides
         arrays = graph.offsets, graph.neighbors, blocks.cores, blocks.starts, blocks.edges, blocks.members
+        # Overrides are functions of Python, which the chain in C knows nothing of.
         given = {name: value for name, value in vars(rules).items() if name != "overrides"}
         super().__init__(*arrays, **given, width=width)
 
     def begin(self, index: int) -> tuple[Indices, Matrix, Matrix]:
         """Return the vertices of the next block, its prediction, shape (n_i, 3), and its weights in a blend."""
         vertices, prediction, weights = super().begin(index)
+        # The site costs copies of arrays, and only researchers ask for it.
         if self._own is not AS_SPECIFIED:
             self._site = Around(vertices, *self.site(), prediction)
             if self._own.predictor is not None:
@@ -100,10 +104,12 @@ class Chain(Steps):
         if self._own.dictionary is None:
             return super().dictionary(width)
         own = np.ascontiguousarray(self._own.dictionary(self._site, width, super().dictionary), np.float32)
+        # The next block starts from this dictionary, as a decoder with the same override would.
         self.give(own)
         return own
 
     def costs(self, width: int) -> tuple[float, float, float]:
         """Work of the dictionary and of the rest of the block, nanoseconds, and memory, by decoders' estimate."""
         dictionary, rest, memory = super().costs(width)
+        # The law cannot know what a user's function costs.
         return dictionary if self._own.dictionary is None else 0.0, rest, memory

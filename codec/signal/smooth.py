@@ -18,6 +18,7 @@ from bsm.codec.geometry.graph import Graph
 
 def smooth(graph: Graph, positions: Matrix, amount: float) -> Matrix:
     """Filter all positions, shape (n, 3); isolated vertices stay where they are."""
+    # Without smoothing, no second copy of the positions is needed.
     if amount == 0.0:
         return positions
     positions = np.ascontiguousarray(positions)
@@ -35,6 +36,7 @@ def local_frames(positions: Positions, faces: Faces) -> Matrix:
 
 def raised(positions: Positions, frames: Matrix, levels: Levels, step: float) -> Positions:
     """Positions moved along the normals of frames, shape (n, 3)."""
+    # A copy, since the kernel adds in place, and callers try several levels on the same positions.
     moved = np.array(positions, np.float64, order="C")
     _kernels.add_heights(moved, frames, np.ascontiguousarray(levels, np.int32), step)
     return moved

@@ -17,6 +17,7 @@ from bsm.codec.blocks.overlap import Blocks
 
 def project(subspace: Basis, values: Matrix, count: int) -> Matrix:
     """E = U^T V, shape (count, d) or (count,), for the first `count` columns U of `subspace`, shape (n, c)."""
+    # The kernel would read beyond the matrix.
     if len(values) != len(subspace) or count > subspace.shape[1]:
         raise ValueError(f"{count} of {subspace.shape} coefficients of {len(values)} values")
     flat = np.ascontiguousarray(values.reshape(len(values), math.prod(values.shape[1:])))
@@ -40,14 +41,18 @@ LARGEST_LEVEL = (1 << 23) - 1
 
 def smallest_step(block_size: int) -> float:
     """Finest step whose levels hold every coefficient, and every difference of two, of a block of n_d vertices."""
+    # Columns are orthonormal, so no coefficient of a block in units of its diagonal exceeds the root of its size.
     return float(np.sqrt(block_size) / LARGEST_LEVEL)
 
 
 def packed_range(first: float, others: float, bits: int) -> tuple[float, int]:
     """Step with which `bits` bits hold every coefficient, and how many bits coarser the first row is for that."""
     half = (1 << (bits - 1)) - 1
+    # The header has single precision. Rounded up, so that the largest coefficient still fits.
     step = float(np.nextafter(np.float32(max(others, first * 2.0**-20, 2.0**-20) / half), np.float32(np.inf)))
     coarser = 0
+    # The lowest frequency is the mean of the block, and far larger than all others. A step of its own saves bits of
+    # these.
     while first > half * step * 2**coarser:
         coarser += 1
     return step, coarser
@@ -62,6 +67,7 @@ class MeasuredSpectrum:
     """Root mean square coefficient at each frequency, measured from the lowest one as far as it is needed."""
 
     def __init__(self, blocks: Blocks, positions: Matrix, *, shift: float) -> None:
+        # Not the first and last block, which are often small remainders.
         numbers = np.unique(np.linspace(0, blocks.count - 1, SAMPLES + 2).astype(int)[1:-1])
         self._samples = [blocks.block(index) for index in numbers]
         self._positions = positions
@@ -84,12 +90,16 @@ class MeasuredSpectrum:
         """The lowest `width` frequencies, not rising; the first columns of a dictionary do not depend on later ones."""
         energy, count = np.zeros(width), np.zeros(width)
         for block in self._samples:
+            # As a key block is made, since a measured block must not depend on others.
             subspace = block.iterated(cosine_columns(block.size, min(width, block.size)), self._shift)
             coefficients = project(subspace, self._positions[block.vertices], subspace.shape[1])
             energy[: block.size] += np.square(coefficients).mean(axis=1)
             count[: block.size] += 1
         energy /= np.maximum(count, 1)
         sums, j = np.concatenate([[0.0], np.cumsum(energy)]), np.arange(width)
+        # A window in proportion to the frequency: spectra fall by powers, so single coefficients scatter and their
+        # trend is smooth.
         first, last = j - (j + 4) // 8, np.minimum(j + (j + 4) // 8 + 1, width)
         smooth = (sums[last] - sums[first]) / (last - first)
+        # Not rising, so that the number of worthwhile columns is well defined.
         return np.sqrt(np.maximum.accumulate(smooth[::-1])[::-1])
