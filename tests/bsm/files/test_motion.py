@@ -925,6 +925,9 @@ def test_what_we_write(tmp_path):
     [
         [f"times/{time}/wall.vtp" for time in ("0", "0.05", "0.1", "0.15", "1", "2", "10")],
         [f"w_{time}.obj" for time in ("9e-06", "1e-05", "1.1e-05")],
+        [f"w_{time}.obj" for time in ("-1.5e-3", "-9e-06", "-1e-06", "0", "1.5e3")],
+        [f"w_{time}.obj" for time in ("-1.5", "-0.5", "0.25", "0.5")],
+        [f"w_{time}/mesh2.obj" for time in ("-0.5", "-0.25", "1")],
         [f"scans/f{number}/mesh.obj" for number in range(8, 12)],
         [f"{number}/mesh_{number}.obj" for number in range(8, 12)],
     ],
@@ -933,11 +936,19 @@ def test_frames_are_ordered_by_what_differs_in_their_paths(names):
     for given in (names, names[::-1], sorted(names)):
         assert in_order(given) == names
     looks = names if names[0].startswith(("times", "w_")) else []
-    assert times_in(names) == [float(re.split("[/_]", name)[1].removesuffix(".obj")) for name in looks]
+    assert times_in(names) == [float(re.findall(r"-?[\d.]*\d(?:e-?\d+)?", name)[0]) for name in looks]
 
 
 @pytest.mark.parametrize(
-    "names", [["a/f1.obj", "a/f2.obj", "b/f1.obj"], ["0.1/a.vtp", "0.10/a.vtp", "0.2/a.vtp"], ["1/f2.obj", "2/f1.obj"]]
+    "names",
+    [
+        ["a/f1.obj", "a/f2.obj", "b/f1.obj"],
+        ["0.1/a.vtp", "0.10/a.vtp", "0.2/a.vtp"],
+        ["1/f2.obj", "2/f1.obj"],
+        ["w_1e0.obj", "w_2e0.obj", "w_1e1.obj"],
+        ["w_500us.obj", "w_1ms.obj"],
+        ["w_.5.obj", "w_1.5.obj"],
+    ],
 )
 def test_paths_without_one_order_are_refused(names):
     with pytest.raises(MeshError, match=r"is unclear|one time"):

@@ -29,8 +29,8 @@ from bsm.files.pipes import about, file_beside, is_pipe, is_url
 from bsm.files.table import FORMATS, MESH_SUFFIXES, START, STEP
 
 _NUMBERS = re.compile(r"((?:(?<![^\W_])-)?\d+)")  # a "-" that follows a letter or a digit is a hyphen
-_SIGNED, _DECIMALS = re.compile(r"-?\d+"), re.compile(r"((?:(?<![^\W_])-)?\d+(?:\.\d+)?)")
-_TIME = re.compile(r"((?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
+_SIGNED, _UNITS = re.compile(r"-?\d+"), re.compile(r"\d([fpnuµm]?s|min|h)(?![^\W_])")
+_DECIMALS = re.compile(r"((?:(?<![^\W_])-)?(?:\d+(?:\.\d+)?|(?<![^_])\.\d+)(?:[eE][-+]?\d+)?)")
 _PLACE = re.compile(r"%(0?)(\d*)d")
 
 
@@ -76,18 +76,25 @@ def _differing(names: Sequence[str]) -> list[str]:
     return [os.path.relpath(path, shared) for path in paths]
 
 
+def _stems(names: Sequence[str]) -> list[str]:
+    return [os.path.splitext(name)[0] for name in _differing(names)]
+
+
+def _varying(stems: Sequence[str]) -> tuple[str, list[str]]:
+    """The numbers that alone tell names apart, with what is around the first; none if there are no such."""
+    rows = [_DECIMALS.split(stem) for stem in stems]
+    places = [place for place, values in enumerate(zip(*rows)) if len(set(values)) > 1]
+    if len({*map(len, rows)}) != 1 or len(places) != 1 or places[0] % 2 == 0:
+        return "", []
+    (place,) = places
+    return f"{rows[0][place - 1][-1:]}#{rows[0][place + 1][:1]}", [row[place] for row in rows]
+
+
 def times_in(names: Sequence[str]) -> list[float]:
-    """Times in seconds that folders are called, or numbers with an exponent in names; or nothing."""
-    rows = [os.path.splitext(name)[0].split(os.sep) for name in _differing(names)]
-    varying = [place for place, values in enumerate(zip(*rows)) if len(set(values)) > 1]
-    if len({*map(len, rows)}) != 1 or len(varying) != 1:
-        return []
-    (place,), last = varying, varying[0] == len(rows[0]) - 1
-    words = [_TIME.split(row[place]) for row in rows]
-    if any(len(found) != 3 or found[::2] != words[0][::2] for found in words):
-        return []
-    looks = re.compile(r"e[-+]" if last or any(words[0][::2]) else r"[.]|e[-+]", re.I)
-    return [float(found[1]) for found in words] if any(looks.search(found[1]) for found in words) else []
+    """Times in seconds that folders are called, or numbers with an exponent or below zero in names; or nothing."""
+    around, words = _varying(_stems(names))
+    looks = re.compile(r"[.]|e[-+]" if around in (f"#{os.sep}", f"{os.sep}#{os.sep}") else r"^-.*[.]|e[-+]", re.I)
+    return [*map(float, words)] if any(map(looks.search, words)) else []
 
 
 def in_order(names: Sequence[str]) -> list[str]:
@@ -112,7 +119,7 @@ def in_order(names: Sequence[str]) -> list[str]:
 
 def _require_one_series(ordered: Sequence[str]) -> None:
     """Refuse two files for one frame, and two series of frames; names that are alike but for numbers are one."""
-    stems = [os.path.splitext(name)[0] for name in _differing(ordered)]
+    stems = _stems(ordered)
     counts = Counter(stems)
     if twice := [name for name, stem in zip(ordered, stems, strict=True) if counts[stem] > 1][:2]:
         raise MeshError(f"{twice[0]} and {twice[1]} are two files for one frame; name the files of one format")
@@ -132,13 +139,14 @@ def _require_clear(ordered: Sequence[str]) -> None:
     why = ""
     if len(set(shapes)) > len({_SIGNED.sub("#", base) for base in bases}):
         why = 'the "-" may be a sign or a hyphen; write _- before negative numbers'
-    parts = [_DECIMALS.split(base) for base in bases]
-    varying = [values for values in zip(*parts) if len(set(values)) > 1]
-    if len({len(of_one) for of_one in parts}) == len(varying) == 1 and _DECIMALS.fullmatch(varying[0][0]):
-        decimals = [float(number) for number in varying[0]]
-        falls = next((place for place in range(1, len(decimals)) if decimals[place] < decimals[place - 1]), 0)
-        if falls and len({number.partition(".")[0] for number in varying[0]}) > 1:
-            other, why = falls, "as decimal numbers they are the other way round"
+    _, words = _varying(stems := _stems(ordered))
+    decimals = [*map(float, words)]
+    falls = next((place for place in range(1, len(decimals)) if decimals[place] < decimals[place - 1]), 0)
+    if falls and len({number.partition(".")[0] for number in words}) > 1:
+        other, why = falls, "as decimal numbers they are the other way round"
+    units = [unit for stem in stems for unit in _UNITS.findall(stem)]
+    if falls := next((place for place, unit in enumerate(units) if unit != units[0]), 0):
+        other, why = falls, "their units differ"
     for keys in zip(*(map(_natural, base.split(os.sep)) for base in bases)):
         if falls := next((place for place in range(1, len(keys)) if keys[place] < keys[place - 1]), 0):
             other, why = falls, "folders and names both count"
