@@ -1,6 +1,7 @@
 """`functools.cached_property` without the lock that a class shares in Python 3.11, which threads and forks wait for."""
 
 from collections.abc import Callable
+from copy import copy
 from typing import Any, Generic, TypeVar, overload
 
 Value = TypeVar("Value")
@@ -29,3 +30,14 @@ class cached_property(Generic[Value]):
         # may both compute the value; it is the same.
         instance.__dict__[self._name] = value
         return value
+
+
+def with_results(instance: Self, **known: Any) -> Self:
+    """Return a copy with other fields and results of cached properties; all else that was computed stays."""
+    other = copy(instance)
+    for name, value in known.items():
+        if not hasattr(type(instance), name):
+            raise AttributeError(name)
+        # Not setattr, which a frozen class refuses: this copy is still ours alone.
+        object.__setattr__(other, name, value)
+    return other

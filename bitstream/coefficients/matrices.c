@@ -66,10 +66,10 @@ INLINE int32_t code_level(
 }
 
 /* Code rows, as many together as it takes to reach the last of `rows`. Of the first row `lead` columns are coded, of
- * each next one `stair` more; if row `turn` is coded, also how many columns, `few`, it and the following ones have (S
+ * each next one `stair` more; if row `bend` is coded, also how many columns, `few`, it and the following ones have (S
  * 4.2). The others are 0. `slow` is scratch, an entry a column. */
 void code_matrix(RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
-    int64_t stair, int64_t turn, int64_t few, Longs slow) {
+    int64_t stair, int64_t bend, int64_t few, Longs slow) {
     int64_t columns = levels.columns;
     for (int64_t i = 0; i < columns; i++) slow.data[i] = 0;
     int64_t behind = sum_of(reference.data, reference.rows, columns, 0, reference.rows), most = columns;
@@ -84,7 +84,7 @@ void code_matrix(RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInts2 r
             behind -= sum_of(reference.data, reference.rows, columns, j, j + TOGETHER);
             if (!more) break;
         }
-        if (j == turn) most = code_uniform(coder, few, columns + 1);
+        if (j == bend) most = code_uniform(coder, few, columns + 1);
         int64_t end = least(whole, most);
         for (int64_t i = 0; i < end; i++) {
             int64_t above = 2 * A(j - 1, i) + A(j - 2, i) + A(j - 3, i);

@@ -17,7 +17,7 @@ class EncodedConnectivity:
     vertex_order: Ints
     face_order: Ints
     faces: Ints
-    turns: npt.NDArray[np.uint8]  # the corner of its given face that is the first of each
+    first_corners: npt.NDArray[np.uint8]  # the corner of its given face that is the first of each
 
 
 def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConnectivity:

@@ -54,13 +54,17 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
     notes: tuple[str, ...] = ()
     if exact:
         mesh, notes = _single(mesh)
+    # Exact streams keep the sign of zero, so positions that differ only there stay two.
     found = joined(mesh, group_rows(mesh.positions.view(np.int64) if exact else mesh.positions), keep=keep)
     return replace(found, notes=(*notes, *found.notes))
 
 
 def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool = True) -> JoinedMesh:
+    # The object in C keeps what joining finds. Connectivity, order and attributes are coded from it without another
+    # pass.
     notes, splits, coder = [], None, GivenMesh(mesh.faces, index)
     index, first, kept, merged, loose = coder.join(keep, keep and keep_loose)
+    # A stream that keeps the order gives back the vertices as they were, copies included.
     if keep and (merged or (loose and keep_loose)):
         splits = np.flatnonzero((index >= 0) | keep_loose)
     if merged and not keep:
@@ -81,6 +85,7 @@ LOST_OF_DIAGONAL, LOST_OF_EDGE = 1e-6, 1e-3  # by rounding to single precision, 
 def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
     """Return the mesh in single precision, as doubles, and notes; `TargetError` if that moves it visibly."""
     with np.errstate(over="ignore"):
+        # Files hold single precision nearly always, and then nothing is lost here.
         single = mesh.positions.astype(np.float32).astype(np.float64)
     if not np.isfinite(single).all():
         raise MeshError("a coordinate is beyond the range of single precision, which lossless keeps; scale the mesh")
@@ -89,7 +94,10 @@ def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
         return mesh, ()
     edges = np.linalg.norm(mesh.positions[mesh.faces[:, 0]] - mesh.positions[mesh.faces[:, 1]], axis=1)
     diagonal, edge = mesh.diagonal, float(np.median(edges[edges > 0.0])) if edges.any() else math.inf
+    # Of the edge as well: a mesh far from the origin, or a long one with fine detail, loses its detail before its
+    # diagonal notices.
     if error > LOST_OF_DIAGONAL * diagonal or error > LOST_OF_EDGE * edge:
+        # Advice that can be typed in: a power of ten that is fine enough, and an origin of whole numbers.
         cell = 10.0 ** math.ceil(math.log10((float(np.ptp(mesh.positions, axis=0).max()) or error) / MOST_CELLS))
         origin = ",".join(f"{value:.12g}" for value in np.floor(mesh.positions.min(axis=0)).tolist())
         raise TargetError(
@@ -101,6 +109,7 @@ def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
     return replace(mesh, positions=single), (f"{changed} coordinates were rounded to single precision, by {error:.2g}",)
 
 
+# Below these, an encoder need not try blocks at all.
 FEW_VERTICES = 300  # meshes of fewer have no low frequencies worth speaking of
 SMALL_COMPONENT = 150  # vertices; a component of fewer has none either
 
@@ -119,10 +128,11 @@ class Prepared:
     vertex_order: Order
     face_order: Order
     coding_faces: Order
-    turns: Order
+    first_corners: Order
     joined_faces: Faces
     light: bool
     congruence: bool
+    # Results that do not change a mesh are kept in it. A search comes back to them for each candidate.
     motions: dict[float, Matrix] = field(default_factory=dict, init=False, repr=False)
     """Transforms between parts, shape (k, 13), by the step for which they were sought."""
     _spectra: dict[float, MeasuredSpectrum] = field(default_factory=dict, init=False, repr=False)
@@ -135,7 +145,8 @@ class Prepared:
 
     def of_coded(self, corners: Indices) -> Indices:
         """Return the values of corners of joined faces, shape (m, 3), in coding order."""
-        return np.take_along_axis(corners[self.coding_faces], (self.turns[:, None] + np.arange(3)) % 3, axis=1)
+        # The coder turns faces so that they begin with the vertex that it met first. Values of corners must follow.
+        return np.take_along_axis(corners[self.coding_faces], (self.first_corners[:, None] + np.arange(3)) % 3, axis=1)
 
     @cached_property
     def positions(self) -> Matrix:
@@ -153,6 +164,7 @@ class Prepared:
     @property
     def has_low_frequencies(self) -> bool:
         """Whether most vertices are in components that are large enough to have any."""
+        # A thousand screws have a million vertices, and none of them has low frequencies.
         sizes = np.bincount(self.components)
         return self.graph.size >= FEW_VERTICES and sizes[sizes >= SMALL_COMPONENT].sum() >= 0.9 * self.graph.size
 
@@ -165,6 +177,7 @@ class Prepared:
         """Vertices of the largest block, n_d."""
         parts, vertices = self.partition.parts, self.graph.size
         size = block_size(self.partition, self.parts.overlap)
+        # Decoders refuse more copies, so that a short stream cannot ask for much memory.
         if parts * size > constant("MOST_COPIES") * vertices + constant("FREE_COPIES"):
             raise OptionError(f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one")
         return size
@@ -186,6 +199,7 @@ class Prepared:
     @cached_property
     def linked(self) -> Field:
         """A field on the faces: others share what follows from them."""
+        # Linking the corners of faces takes a large part of the time of a small grid, and a search codes many.
         field = Field(self.mesh.faces, np.zeros((self.graph.size, 3), np.int32))
         field.grid(np.zeros(3, np.int32), 0, np.zeros(3), 1.0, None)
         return field
@@ -202,6 +216,7 @@ class Parts:
     @classmethod
     def of(cls, size: int, growth: float, rule: str) -> Parts:
         """Parts by a rule's name; without METIS those that decoders derive, so that nothing passes for METIS's."""
+        # A reader who reproduces the paper must be able to trust a stream that says METIS.
         return cls(size, growth, rule == "metis" and overlap.HAS_METIS)
 
     def count(self, vertices: int) -> int:
@@ -234,10 +249,11 @@ def prepare(
         connectivity=packets.Connectivity(connectivity.payload),
         order=order,
         coding_order=coding_order,
+        # A stream with an order is decoded in the given one, so for callers nothing has moved.
         vertex_order=np.arange(len(coding_order)) if keep_order else coding_order,
         face_order=np.arange(len(mesh.faces)) if keep_order else connectivity.face_order.astype(np.int64),
         coding_faces=connectivity.face_order.astype(np.int64),
-        turns=connectivity.turns.astype(np.int64),
+        first_corners=connectivity.first_corners.astype(np.int64),
         joined_faces=mesh.faces,
         light=light,
         congruence=congruence,
@@ -264,12 +280,16 @@ class Draft:
 
     def _write(self) -> Iterator[bytes]:
         writer, may_be_brief = SectionWriter(), self.may_be_brief and not self.header.light
+        # Framing takes about thirty bytes, a tenth of a stream of a small part.
         brief = write_brief(self.header, self.body) if may_be_brief else None
         later = brief is not None, self.header.congruence > 0, self.header.onorm > 0, any(self.header.turn)
+        # The lowest version that knows everything in the stream, so that the oldest decoders still read what they can.
         yield writer.start(minor=2 if self.header.base else int(any(later)))
         if brief is not None:
             yield write_frame(FrameType.HEADER, brief)
             return
         for packet in (self.header, *self.body):
             yield writer.write(packet)
+        # The sum of decoded positions tells a decoder that its arithmetic is that of the law: on a broken compiler it
+        # says so.
         yield writer.end(checksum_of(self.decoded))

@@ -6,14 +6,13 @@ import math
 from bisect import bisect_left
 from collections.abc import Sequence
 from contextlib import suppress
-from copy import copy
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from bsm.bitstream.errors import TargetError
-from bsm.bitstream.once import cached_property
+from bsm.bitstream.once import cached_property, with_results
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -43,9 +42,7 @@ class Sent:
 
     def but(self, **known: Any) -> Sent:
         """Return an input with other values of some fields and results, and all else that was computed."""
-        other = copy(self)
-        other.__dict__.update(known)
-        return other
+        return with_results(self, **known)
 
     @cached_property
     def joined(self) -> JoinedMesh:

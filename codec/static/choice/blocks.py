@@ -11,7 +11,7 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.signal.transform import smallest_step
-from bsm.codec.static.choice.bounds import COARSEST, LEAST, SPIKE, Bounds, Trial, turned
+from bsm.codec.static.choice.bounds import COARSEST, LEAST, SPIKE, Bounds, Trial, unfolded
 from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
@@ -111,7 +111,7 @@ class Refined:
         base = self._base(step)
         if self._settled:
             found = self._leveled(step, base, *self._nearer(base, *self._evened(step, base)))
-            return turned(found) or found
+            return unfolded(found) or found
         layer = Layer(single(step), RATIO)
         levels = self._shaped(base, layer)
         return self._leveled(step, base, layer, levels, base.known_steps(layer, levels))

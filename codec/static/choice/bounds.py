@@ -109,7 +109,7 @@ def trial_of(prepared: Prepared, draft: Draft) -> Trial:
     return Trial(0.0, prepared.units.into(draft.decoded), lambda: draft, 0, decoded=draft.decoded)
 
 
-def turned(candidate: Trial) -> Trial | None:
+def unfolded(candidate: Trial) -> Trial | None:
     """The candidate with fewer edges folded over, None if few are; of blocks, others may need it again."""
     found = last = candidate.unfold()
     for _ in range(3):

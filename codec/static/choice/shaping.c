@@ -19,7 +19,7 @@ enum { UNFOLDING = 8 };                   /* sweeps over what is turned over */
 typedef struct {
     int count, padded;
     double unit, frame[3][3][FAN], edge[3][FAN];
-    float normal[3][FAN], turn[3][3][FAN], weight[FAN];
+    float normal[3][FAN], slope[3][3][FAN], weight[FAN];
 } Fan;
 
 INLINE double size(double x) { return x < 0.0 ? -x : x; }
@@ -62,21 +62,21 @@ INLINE void gather(const Wanted *wanted, ConstDoubles2 moved, int32_t v, Fan *fa
         fan->edge[0][k] = u0 - w0, fan->edge[1][k] = u1 - w1, fan->edge[2][k] = u2 - w2;
         for (int i = 0; i < 3; i++) {
             for (int j = 0; j < 3; j++) fan->frame[i][j][k] = frame[i][j];
-            fan->turn[0][i][k] = 0.0f;
+            fan->slope[0][i][k] = 0.0f;
             fan->normal[i][k] = (float)(frame[i][0] * now[0] + frame[i][1] * now[1] + frame[i][2] * now[2]);
         }
     }
 }
 
 /* What a step in a direction adds. */
-INLINE void find_turn(Fan *fan, int a, const double *direction) {
+INLINE void find_slope(Fan *fan, int a, const double *direction) {
     double to[3] = {fan->unit * direction[0], fan->unit * direction[1], fan->unit * direction[2]};
     for (int k = 0; k < fan->padded; k++) {
         double e0 = fan->edge[0][k], e1 = fan->edge[1][k], e2 = fan->edge[2][k];
-        double turn[3] = {to[1] * e2 - to[2] * e1, to[2] * e0 - to[0] * e2, to[0] * e1 - to[1] * e0};
+        double across[3] = {to[1] * e2 - to[2] * e1, to[2] * e0 - to[0] * e2, to[0] * e1 - to[1] * e0};
         for (int i = 0; i < 3; i++)
-            fan->turn[a][i][k] =
-                (float)(fan->frame[i][0][k] * turn[0] + fan->frame[i][1][k] * turn[1] + fan->frame[i][2][k] * turn[2]);
+            fan->slope[a][i][k] = (float)(fan->frame[i][0][k] * across[0] + fan->frame[i][1][k] * across[1]
+                + fan->frame[i][2][k] * across[2]);
     }
 }
 
@@ -93,9 +93,9 @@ INLINE double bent_by(const Fan *fan, int a, float by) {
     float chords[FAN];
     double sum = 0.0;
     for (int k = 0; k < fan->padded; k++)
-        chords[k] = fan->weight[k] * chord(fan->normal[0][k] + by * fan->turn[a][0][k],
-                                           fan->normal[1][k] + by * fan->turn[a][1][k],
-                                           fan->normal[2][k] + by * fan->turn[a][2][k]);
+        chords[k] = fan->weight[k] * chord(fan->normal[0][k] + by * fan->slope[a][0][k],
+                                           fan->normal[1][k] + by * fan->slope[a][1][k],
+                                           fan->normal[2][k] + by * fan->slope[a][2][k]);
     for (int k = 0; k < fan->count; k++) sum += chords[k];
     return sum;
 }
@@ -145,7 +145,7 @@ KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels
                 mean = end > first ? pull * mean / (end - first) : 0.0;
                 int32_t *level = levels.data + v * axes + a;
                 double unit = aim.worth / scales.data[a], stay = unit * size(*level - mean);
-                find_turn(&fan, a, direction[a]);
+                find_slope(&fan, a, direction[a]);
                 for (int by = -1; by <= 1; by += 2) {
                     double there[3];
                     for (int j = 0; j < 3; j++) there[j] = at[j] + by * direction[a][j];
@@ -155,7 +155,7 @@ KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels
                     if (then >= most) continue;
                     for (int j = 0; j < 3; j++) at[j] = there[j];
                     for (int i = 0; i < 3; i++)
-                        for (int k = 0; k < fan.padded; k++) fan.normal[i][k] += (float)by * fan.turn[a][i][k];
+                        for (int k = 0; k < fan.padded; k++) fan.normal[i][k] += (float)by * fan.slope[a][i][k];
                     now = then, far = away, *level += by, any = true;
                     break;
                 }
@@ -199,7 +199,7 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
                     }
                 best = now + aim.worth * rate[1];
                 direction[a] = step;
-                find_turn(&fan, a, direction);
+                find_slope(&fan, a, direction);
                 int pick = 0;
                 for (int by = -1; by <= 1; by += 2) {
                     at[a] = stay + by * step;
@@ -212,7 +212,7 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
                 if (!pick) continue;
                 any = true, now = then, places.data[3 * (int64_t)v + a] += pick;
                 for (int i = 0; i < 3; i++)
-                    for (int k = 0; k < fan.padded; k++) fan.normal[i][k] += (float)pick * fan.turn[a][i][k];
+                    for (int k = 0; k < fan.padded; k++) fan.normal[i][k] += (float)pick * fan.slope[a][i][k];
                 for (int32_t i = starts.data[v]; i < starts.data[v + 1]; i++)
                     bends.data[3 * (int64_t)(members.data[i] >> 1) + a] += members.data[i] & 1 ? -pick : pick;
             }
@@ -236,8 +236,8 @@ INLINE double folded_by(const Fan *fan, const float *by, double over) {
     for (int k = 0; k < fan->count; k++) {
         float at[3];
         for (int i = 0; i < 3; i++)
-            at[i] = fan->normal[i][k] + by[0] * fan->turn[0][i][k] + by[1] * fan->turn[1][i][k]
-                + by[2] * fan->turn[2][i][k];
+            at[i] = fan->normal[i][k] + by[0] * fan->slope[0][i][k] + by[1] * fan->slope[1][i][k]
+                + by[2] * fan->slope[2][i][k];
         sum += fan->weight[k] * chord(at[0], at[1], at[2]) + (is_over(at[0], at[1], at[2]) ? over : 0.0);
     }
     return sum;
@@ -326,7 +326,7 @@ KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, 
             const double *direction = directions.data + (directions.rows == 1 ? 0 : 9 * (int64_t)v);
             const double *place = wanted.positions.data + 3 * (int64_t)v;
             double stay[3] = {at[0], at[1], at[2]}, far = apart(place, at), most_far = reach.data[v] * reach.data[v];
-            for (int a = 0; a < 3; a++) find_turn(&fan, a, direction + 3 * a);
+            for (int a = 0; a < 3; a++) find_slope(&fan, a, direction + 3 * a);
             double best = __builtin_inf();
             int pick[3] = {0};
             for (int wide = 0; wide <= 2 && (wide < 2 || folds); wide++)
