@@ -24,6 +24,7 @@ def named(kind: str, choices: Mapping[str, Choice], name: str) -> Choice:
 def suggestion(word: str, known: Iterable[str]) -> str:
     """Return a question that suggests a similar name, or ""."""
     names = list(known)
+    # The beginning of a single name is meant, even if another name is more alike by letters.
     begun = [name for name in names if name.startswith(word)]
     found = begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=0.6)
     return f"; did you mean {found[0]}?" if found else ""
@@ -33,6 +34,7 @@ def check_options(
     options: Any, choices: Mapping[str, tuple[str, ...]], ranges: Mapping[str, tuple[float, float]]
 ) -> None:
     """Give the fields of a dataclass their types, and check those with choices or a closed range; None is legal."""
+    # Types are checked at run time, since most callers have no type checker, and a kernel in C would take anything.
     hints = get_type_hints(type(options))  # fields may have their annotations as text
     for name in (item.name for item in fields(options)):
         value = checked(name, getattr(options, name), hints[name])
@@ -61,8 +63,10 @@ def _as(kind: Any, value: Any) -> Any:
     import numpy as np  # not for the errors of usage of the command line
 
     origin, parts = get_origin(kind), get_args(kind)
+    # numpy's numbers are registered as these. Fractions and Decimals count as numbers as well.
     usual = {float: Real, int: Integral, bool: (bool, np.bool_), tuple: (tuple, list)}
     expected: Any = usual.get(origin or kind, origin or kind)
+    # True would be taken for 1, which is never what is meant.
     if not isinstance(value, expected) or (kind in (float, int) and isinstance(value, bool)):
         raise TypeError
     if origin is not tuple:

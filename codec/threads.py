@@ -19,6 +19,7 @@ Result = TypeVar("Result")
 
 
 def available_threads() -> int:
+    # Containers and batch systems grant fewer cores than there are.
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
@@ -30,6 +31,7 @@ def threads_of(wanted: int | None) -> int:
 def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: int | None) -> Iterator[Result]:
     """`map(work, items)` on `threads` threads (None: one per core)."""
     count, rest = threads_of(threads), iter(items)
+    # A thread for a single item would only add its start.
     first = list(islice(rest, 2))
     items = chain(first, rest)
     if count == 1 or len(first) < 2:
@@ -42,11 +44,13 @@ def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: 
     try:
         for item in items:
             pending.append(pool.submit(work, item))
+            # Results wait for those before them. Without a bound, a slow first item would pile up all others in memory.
             if len(pending) > 2 * count:
                 yield pending.popleft().result()
         while pending:
             yield pending.popleft().result()
     finally:
+        # Also when the caller stops taking results: work that nobody wants must not go on.
         pool.shutdown(cancel_futures=True)
 
 
@@ -59,6 +63,8 @@ class Crew:
     def map(self, work: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
         """`list(map(work, items))`."""
         given, results = list(items), dict[int, Result]()
+        # One iterator for all threads: a free one takes the next item. `next` of a range is atomic under the
+        # interpreter's lock.
         rest = iter(range(len(given)))
 
         def help_out() -> None:
@@ -67,6 +73,7 @@ class Crew:
 
         helping: list[Future[None]] = []
         try:
+            # The caller's thread works, too, so that a crew of one starts no thread at all.
             helping.extend(self._pool.submit(help_out) for _ in range(min(self._helpers, len(given) - 1)))
             help_out()
         except KeyboardInterrupt:  # a thread whose start it interrupts would wait for work when the program ends
@@ -76,12 +83,14 @@ class Crew:
         finally:
             deque(rest, 0)  # after an error, nothing else begins
             for helper in helping:
+                # A helper that has not begun is cancelled; one that has is waited for, and its error raised.
                 if not helper.cancel():
                     helper.result()
         return [results[at] for at in range(len(given))]
 
     @cached_property
     def _pool(self) -> ThreadPoolExecutor:
+        # Loading this takes longer than decoding a small mesh.
         from concurrent.futures import ThreadPoolExecutor
 
         return ThreadPoolExecutor(self._helpers)

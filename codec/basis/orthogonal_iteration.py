@@ -33,15 +33,19 @@ class DynamicSize:
     @property
     def reach(self) -> int:
         """Columns to try first: more than the predecessor's, as most blocks take hardly more."""
+        # Trying more columns than needed costs time, and a second try costs all of it again. Most blocks need about as
+        # many as the one before.
         return self._size + self._size // 4 + 8
 
     def follow(self, left: float, coefficients: Matrix) -> int:
         """Return c_i by the predecessor's size, shape (c, 3) given, and the squared error left, or c, over eps_h."""
+        # Columns are orthonormal, so the error that any size leaves is the sum of the squares that it leaves out.
         norms = np.sqrt(left + np.append(np.cumsum(np.square(coefficients).sum(axis=1)[::-1])[::-1], 0.0))
         self.met = bool(norms[-1] <= self._highest)
         if not self.met:
             return len(coefficients)
         size = min(max(self._size, 1), len(coefficients))
+        # From the predecessor's size on, as the paper does: blocks in a chain are alike.
         while norms[size] > self._highest:
             size += 1
         while size > 1 and norms[size] < self._lowest and norms[size - 1] <= self._highest:

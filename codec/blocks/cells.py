@@ -26,8 +26,10 @@ class CellMesh:
 def cells_of(graph: Graph, faces: Faces, reach: int) -> CellMesh:
     """Cells of the vertices at most `reach` edges from their centers."""
     own, waiting = np.empty(graph.size, np.int32), np.empty(graph.size, np.int32)
+    # Distances are below 256, since the reach is a few edges. One byte each keeps them in the cache of the processor.
     far, ends = np.empty(graph.size, np.uint8), len(graph.neighbors) + 1
     count = _kernels.find_cells(graph.offsets, graph.neighbors, reach, far, waiting, own)
+    # A graph of cells has at most the edges of the mesh, so this memory is enough for it before its size is known.
     bounds, links, filled = (np.empty(size, np.int32) for size in (count + 1, count + 1, count))
     found, linked = np.empty(ends, np.int32), np.empty(ends, np.int32)
     given = graph.offsets, graph.neighbors, own, bounds, waiting, filled, found, links, linked
@@ -35,11 +37,14 @@ def cells_of(graph: Graph, faces: Faces, reach: int) -> CellMesh:
     triples, rows = np.empty((len(faces), 3), np.int32), np.empty((len(faces), 3), np.int32)
     order, room = np.empty(len(faces), np.int32), np.empty(len(faces), np.int32)
     last = _kernels.cell_faces(np.ascontiguousarray(faces, np.int32), own, bounds, triples, order, room, rows)
+    # Copies, so that the buffers of the size of the mesh go.
     return CellMesh(own, Graph(links, linked[:kept].copy()), rows[:last].copy())
 
 
 def prolonged(cells: CellMesh, graph: Graph, places: Matrix, rounds: int) -> Matrix:
     """Positions of the vertices, shape (n, 3), from those of their cells; the same for encoder and decoder."""
+    # Single precision in between: a decoder does this for every scan, and the final levels are measured from its
+    # result.
     positions, room = np.empty((graph.size, 3)), np.empty(8 * graph.size, np.float32)
     _kernels.prolong(graph.offsets, graph.neighbors, cells.own, np.ascontiguousarray(places), rounds, room, positions)
     return positions
@@ -51,6 +56,7 @@ STEPS = 10  # of conjugate gradients; forty come to the same bytes
 def fitted(cells: CellMesh, graph: Graph, positions: Matrix, rounds: int) -> Matrix:
     """Places of cells, shape (m, 3), that are prolonged to about the positions of the vertices, shape (n, 3)."""
     places, coarse = np.empty((cells.graph.size, 3)), cells.graph
+    # The matrix is never made: each step of conjugate gradients applies the smoothing, and its transpose, to vectors.
     room = np.empty(12 * graph.size + 28 * coarse.size, np.float32)
     given = graph.offsets, graph.neighbors, cells.own, coarse.offsets, coarse.neighbors
     _kernels.fit_cells(*given, np.ascontiguousarray(positions), rounds, STEPS, room, places)

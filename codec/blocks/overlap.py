@@ -24,6 +24,7 @@ from bsm.codec.arrays import Basis, Indices, Matrix, Order
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.welding import group_rows
 
+# Asked for without loading it: few streams use METIS, and every start would pay.
 HAS_METIS = importlib.util.find_spec("pymetis") is not None  # PyPI lacks it for Windows and for Linux on arm64
 
 
@@ -45,6 +46,7 @@ class Partition:
 
 def partition_of_labels(labels: Indices) -> Partition:
     """Partition whose parts are the distinct labels, shape (n,), numbered by the first vertex that has them."""
+    # Numbered by first vertices, so that any program that finds the same parts sends the same labels.
     return Partition(group_rows(labels.astype(np.int64)[:, None]))
 
 
@@ -55,6 +57,7 @@ def derive_partition(graph: Graph, parts: int) -> Partition:
 
 def metis_partition(graph: Graph, parts: int) -> Partition:
     """METIS k-way partition, or the derived one without METIS; labels differ, so a stream has to carry them."""
+    # Streams carry their labels in this mode, so any cut decodes. Only the rate differs.
     if parts == 1 or not HAS_METIS:
         return partition_of_labels(derive_partition(graph, parts).labels)
     metis = importlib.import_module("pymetis")
@@ -74,6 +77,7 @@ class Block:
     def size(self) -> int:
         return len(self.vertices)
 
+    # A vertex in the middle of a block counts more than one at its rim, where the dictionary knows little.
     @cached_property
     def degrees(self) -> Indices:
         """Neighbors of each row inside the block, shape (n_i,): the weights of the blend."""
@@ -112,6 +116,7 @@ class Blocks:
 def block_size(partition: Partition, overlap: float) -> int:
     """n_d: `overlap` times the largest part, rounded, at most the number of vertices."""
     largest = int(partition.sizes.max())
+    # One size for all blocks, since dictionaries start from those before: rows must match.
     return min(len(partition.labels), max(largest, round(overlap * largest)))
 
 
@@ -135,4 +140,5 @@ class Blend:
 
     def all_positions(self) -> Matrix:
         """Weighted averages of all vertices, all of them known, shape (n, 3)."""
+        # A weighted mean and not a choice of one copy, so that no step shows where blocks meet.
         return self.sums / self.weights[:, None]

@@ -26,6 +26,7 @@ class Packed:
         self, chain: Chain, prediction: Matrix, dictionary: Basis, coefficients: Matrix, sized: bool
     ) -> tuple[int, bytes, Matrix]:
         """c_i, the payload of coefficients, shape (c, 3), and the decoded positions of a chain's present block."""
+        # Offset by half the range, as the law has it: the packed integers then need no sign.
         levels, half = np.rint(coefficients / self._steps(len(coefficients))).astype(np.int64), 1 << (self.bits - 1)
         data = pack_coefficients(np.clip(levels + half, 0, 2 * half - 1), self.bits)
         return len(levels), data, self.positions(prediction, dictionary, levels)
@@ -38,6 +39,8 @@ class Packed:
 
     def _steps(self, count: int) -> Matrix:
         steps = np.full((count, 1), self.step)
+        # The first row is the mean of the block, far larger than all others. One step for all would waste bits of
+        # these.
         steps[0] *= 2**self.coarser
         return steps
 
@@ -56,6 +59,7 @@ class Adaptive:
         self, chain: Chain, prediction: Matrix, dictionary: Basis, coefficients: Matrix, sized: bool
     ) -> tuple[int, bytes, Matrix]:
         """As `Packed` does; but unless it has a size, a block ends with the last coefficient that is not 0."""
+        # In C, since levels are chosen by a trellis while they are coded, and the models of the chain learn from them.
         return chain.write(prediction, coefficients, self.step, sized)
 
 

@@ -47,6 +47,7 @@ class AsGiven:
         require(vertices == len(self.vertex_order), f"decoded {vertices} of {len(self.vertex_order)} vertices")
         ordered = self.prepared.of_coded(faces) if self.prepared.order else faces
         found = np.full(vertices, -1, np.int64)
+        # If two faces disagreed about a vertex, the second would win; the next line finds that.
         found[ordered] = coded
         require(bool((found[ordered] == coded).all()), "the decoded faces differ")
         self._require_order(faces)
@@ -62,6 +63,7 @@ class AsGiven:
         else:  # copies of a vertex lie at its place
             given = self.given.faces[self.joined.kept][self.prepared.face_order]
             wanted, found = self.given.positions[given], self.given.positions[self.vertex_order[faces]]
+        # Without a kept order, a face may begin with any of its corners, but never be turned over.
         for turn in range(1 if self.prepared.order else 3):
             other = (np.roll(found, turn, axis=1) != wanted).any(axis=tuple(range(1, found.ndim)))
             wanted, found = wanted[other], found[other]
@@ -79,12 +81,15 @@ def verify(
     """Decode a draft; `VerificationError` unless positions are equal bit for bit, and all else is as promised."""
     try:
         decoded = decode(b"".join(draft.frames), limits, threads)
+    # What the user granted is too little for it: a fact about limits, and no fault of the program.
     except LimitError:
         raise
     except BsmError as error:
         raise VerificationError(f"the decoder refuses the encoded stream: {error}") from error
     matched = original.matched(decoded.faces, len(decoded.positions))
+    # To the bit. The encoder has measured its promise on these positions, so equal ones keep it, and others may not.
     require_positions(decoded.positions, draft.decoded, matched, original.loose)
+    # All else must come back as well: a stream that loses a unit is as wrong as one that loses a vertex.
     require(decoded.metadata == dict(metadata), "the decoded metadata differ")
     require_attributes(decoded.attributes, carried, decoded.faces, original)
 
@@ -111,6 +116,7 @@ def require_attributes(
             same and found.values.shape[1:] == (declared.components,),
             f"{name} was decoded with a different name or type",
         )
+        # Decoders compute these in their own ways, so that their last bits are open.
         if declared.coding == RECOMPUTED:
             require(bool(np.isfinite(found.values).all()), f"{name} is not finite after decoding")
             continue
@@ -129,6 +135,7 @@ def _alike(found: npt.NDArray[Any], wanted: npt.NDArray[Any]) -> bool:
         return False
     if found.dtype.kind != "f":
         return bool((found == wanted).all())
+    # Floats of attributes come from dequantization in double precision, where one rounding may differ.
     return bool(np.allclose(found, wanted, rtol=ROUNDING, atol=ROUNDING * float(np.abs(wanted).max(initial=0.0))))
 
 

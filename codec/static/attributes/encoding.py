@@ -38,10 +38,12 @@ class Surface:
 def recomputed(surface: Surface, positions: Matrix) -> Matrix:
     """Normals of the values of a surface: those of the faces around, by area (A 7); shape (k, 3)."""
     a, b, c = positions[surface.vertices][surface.faces.T]
+    # The length of the cross product is the area, so large faces count more without a weight.
     across, count = np.cross(b - a, c - a), len(surface.vertices)
     sums = (np.array([np.bincount(corner, of_axis, count) for of_axis in across.T]) for corner in surface.faces.T)
     normals = sum(sums, np.zeros((3, count))).T
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    # Some direction for values of no face, the same everywhere; no viewer shows it.
     return np.where(lengths > 0.0, normals / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
 
 
@@ -65,6 +67,7 @@ class PreparedAttribute:
         corners = values[:, None].repeat(3, axis=1) if declaration.domain == FACE else values[self.surface.faces]
         return painted(SEMANTICS[declaration.semantic], corners)
 
+    # A promise of the look must hold with the normals that viewers will have, which depend on decoded positions.
     def normals(self, positions: Matrix) -> Normals:
         """What normals a decoder will have at corners, shape (m, 9), where it has these positions, shape (n, 3)."""
         recompute = self.declaration.coding == RECOMPUTED
@@ -100,6 +103,7 @@ def _carry(place: GivenMesh, faces: Faces, first: bool, attribute: Attribute, qu
     kind, semantic = KINDS.index(attribute.values.dtype.name), SEMANTICS.index(attribute.semantic)
     domain, way = DOMAINS.index(attribute.domain), WAYS.index(quality.way)
     values = np.ascontiguousarray(attribute.values)
+    # All in C, where the order of coding is: corners, seams and integers in one pass, as the C encoder has it, too.
     found = place.carry(first, attribute.name, values, kind, domain, semantic, attribute.indices, way, quality.amount)
     numbers, seams, pieces, decoded, own, at, leans, outcome = found
     declaration = Declaration(name=attribute.name, **values_of(Declaration, numbers))
@@ -122,8 +126,10 @@ def noted(error: float, step: float, bits: int, zeros: int, scaled: bool) -> str
 def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metadata: Metadata) -> Draft:
     """A draft that carries attributes and metadata, too; images and other bytes come last."""
     shape = packets.Connectivity | packets.Labels | packets.Order
+    # After the faces, which seams need, and before positions, so that a page knows what is coming.
     before = 1 + max(place for place, packet in enumerate(draft.body) if isinstance(packet, shape))
     head, body = draft.body[:before], draft.body[before:]
+    # Names and units come first, and images after everything: the shape can be shown while they arrive.
     entries = sorted(metadata.items(), key=lambda entry: isinstance(entry[1], bytes))
     texts = sum(not isinstance(value, bytes) for value in metadata.values())
     early_metadata, images = map(packets.metadata_of, (entries[:texts], entries[texts:]))
@@ -142,6 +148,7 @@ def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metada
 
 def cheaper(prepared: PreparedAttribute, places: Levels | None) -> tuple[Declaration, tuple[bytes, ...]]:
     """What an attribute declares, and its chunks."""
+    # Values may follow the positions on a grid, as painted-on coordinates do, or not. Both are tried; one bit tells.
     if places is not None and prepared.leans:
         chunks = prepared.chunks(places, CHUNK)
         if sum(map(len, chunks)) < sum(map(len, prepared.plain)):

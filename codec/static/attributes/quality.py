@@ -14,6 +14,7 @@ from bsm.codec.geometry.attributes import Attribute
 Way = Literal["exact", "bits", "bound", "share", "rms", "angle", "recompute", "none"]
 Grade = Literal["small", "balanced", "fine"]
 
+# The mantissa of single precision.
 MOST_BITS = 24  # of a float; who wants more wants it exact
 LEAST_NORMAL_BITS, MOST_NORMAL_BITS = 2, 16
 
@@ -25,6 +26,7 @@ _FORMS: tuple[tuple[str, Way], ...] = (
     (r"([\d.eE+-]+)", "bound"),
 )
 _PLAIN: tuple[Way, ...] = ("exact", "recompute", "none")
+# Without a look that decides. Ten bits on an octahedron are about a tenth of a degree.
 NORMAL_BITS: dict[Grade, int] = {"small": 8, "balanced": 10, "fine": 12}
 COLOR_BITS: dict[Grade, int] = {"small": 8, "balanced": 8, "fine": 16}
 TEXCOORD_BITS: dict[Grade, int] = {"small": 12, "balanced": 12, "fine": 14}
@@ -42,6 +44,7 @@ class Quality:
     amount: float = 0.0
 
     def __post_init__(self) -> None:
+        # Infinity and NaN pass float(), and would promise nothing.
         if self.way in ("bound", "share", "rms", "angle") and not 0.0 < self.amount < float("inf"):
             raise OptionError(f"the quality of an attribute must be above 0, not {self.amount:g}")
         if self.way == "bits" and not 1 <= self.amount <= 32:
@@ -73,6 +76,7 @@ def parse_quality(text: str) -> Quality:
 def checked_qualities(asked: Mapping[str, str] | tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
     """Return the qualities of attributes by name, as pairs; raise `OptionError` for unknown ones."""
     try:
+        # Sorted pairs can be compared and hashed, which a frozen class needs.
         pairs = tuple(sorted((str(name), str(quality)) for name, quality in dict(asked).items()))
     except (TypeError, ValueError):
         raise ArgumentError(f"attributes must be a mapping from names to qualities, not {asked!r}") from None
@@ -84,6 +88,7 @@ def checked_qualities(asked: Mapping[str, str] | tuple[tuple[str, str], ...]) ->
 def _are_few_and_whole(values: npt.NDArray[Any]) -> bool:
     """Whether floats are labels or ids: whole numbers, and few of them."""
     whole = values.dtype.kind == "f" and (np.abs(values) <= MOST_LABEL).all() and (values == np.rint(values)).all()
+    # Labels that are off by one are wrong, not near. Formats without integers store them as floats.
     return bool(whole) and len(np.unique(values)) <= MOST_LABELS
 
 
@@ -95,6 +100,7 @@ def qualities(
     moving: Collection[str] = (),
 ) -> list[tuple[Attribute, Quality]]:
     """Return attributes with their qualities, without omitted ones; `moving` change from frame to frame."""
+    # A misspelled name would otherwise leave an attribute at its default, without a word.
     unknown = sorted(set(asked) - {attribute.name for attribute in attributes} - {"*"})
     if unknown:
         there = ", ".join(attribute.name for attribute in attributes) or "none"
@@ -104,6 +110,7 @@ def qualities(
         if attribute.name in asked:
             return parse_quality(asked[attribute.name])
         floats = attribute.values.dtype.kind == "f" and attribute.components == 3
+        # Only floats of three components can be computed; others mean something else.
         if normals == "recompute" and attribute.semantic == "normal" and floats:
             return Quality("recompute")
         if "*" in asked:

@@ -21,6 +21,7 @@ from bsm.codec.static.coding import Scheme
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.threads import ordered_map
 
+# Needed where a search adds up what blocks would cost, without making their frames.
 FRAME = 5  # bytes of a block's frame besides its levels, at least
 Charge = Callable[[float], None]
 """Takes the work in nanoseconds before it is done, and may refuse it by raising `LimitError`."""
@@ -69,15 +70,19 @@ def offer(
     tried = most if sizes is None else min(most, sizes.reach)
     while True:
         if charge is not None:
+            # Before the work is done: a chain of wide blocks could take hours that end with a refusal.
             charge(chain.costs(tried)[0])
         dictionary = chain.dictionary(tried)
         coefficients = project(dictionary, residual, dictionary.shape[1])
         if sizes is None:
             return dictionary, coefficients
+        # What the tried columns leave is known exactly; the coefficients then tell it for every smaller number of them.
         left = float(np.square(residual - reconstruct(dictionary, coefficients)).mean())
         size = sizes.follow(3.0 * left, coefficients / len(residual) ** 0.5)
         if sizes.met or tried == most:
+            # The next block begins from these columns only, as it will in a decoder.
             return np.ascontiguousarray(dictionary[:, :size]), coefficients[:size]
+        # Doubling: at most twice the work of the right number, wherever that is.
         tried = min(2 * tried, most)
 
 
@@ -98,8 +103,10 @@ class ChainEncoder:
         sized = self._sizes is not None
         coded, payload, decoded = self._coding.write(chain, prediction, dictionary, coefficients, sized)
         *work, memory = chain.costs(coded)
+        # With decoded positions, never with the original ones: the next block is predicted from what decoders have.
         chain.commit(coded, decoded)
         packet = packets.Coefficients(index, coded, payload)
+        # A block may miss its error even with all columns. The stream is still good, and the caller may want to know.
         met = self._sizes is None or self._sizes.met
         return CodedBlock(packet, (vertices, decoded, weights), sum(work), memory, met)
 
@@ -120,6 +127,7 @@ def encode_blocks(
         return [chain.encode(index, positions) for index in indices]
 
     coded: list[CodedBlock] = []
+    # In order, so that the stream does not depend on which thread was faster.
     for chain in ordered_map(encode_chain, scheme.chains, threads):
         coded.extend(chain)
         if progress:
@@ -127,6 +135,7 @@ def encode_blocks(
     return coded
 
 
+# Encoders try wider dictionaries than they keep. Beyond this factor something is wrong with the options.
 PATIENCE = 8.0
 """How many times longer an encoder may take over dictionaries, of wider tries, than decoders over the whole stream."""
 
@@ -138,6 +147,7 @@ def patience(limits: str, vertices: int) -> Charge:
 
     def charge(work: float) -> None:
         nonlocal spent
+        # Chains are encoded side by side and share one account.
         with lock:
             spent += work
             most.check_work(spent, vertices)
@@ -153,6 +163,7 @@ def mesh_memory(vertices: int, faces: int) -> float:
 def admit(limits: str, prepared: Prepared, blocks: Sequence[CodedBlock]) -> None:
     """Raise `LimitError` for blocks that decoders would refuse, as far as that is known without decoding them."""
     granted, vertices, faces = NAMED_LIMITS[limits](), prepared.graph.size, len(prepared.mesh.faces)
+    # Blocks are decoded one after the other in a chain, so the largest counts, and not the sum.
     memory = mesh_memory(vertices, faces) + max(block.memory for block in blocks)
     granted.check_memory(memory, vertices, len(prepared.connectivity.data))
     work = sum(block.work for block in blocks)
@@ -166,6 +177,8 @@ def as_of_decoders(limits: str) -> Iterator[None]:
     try:
         yield
     except LimitError as error:
+        # An error of options: the user chose them, and can choose others. A plain LimitError would read as if the input
+        # were too large.
         raise OptionError(
             f"decoders with {limits} limits would refuse this stream: {error.message.partition(';')[0]}; take smaller "
             "blocks, fewer coefficients, iterations or attributes, or a grid, or, if all who decode take these, too, "

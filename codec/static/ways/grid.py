@@ -14,6 +14,7 @@ from bsm.bitstream.container.wire import with_lengths
 from bsm.codec.arrays import Indices, Levels, Matrix, Positions
 from bsm.codec.geometry.turns import UNTURNED, Turn, turned_by
 
+# A page can show the first frame while the rest arrives; each costs some bytes.
 FIRST, CHUNK, SAMPLE = 1 << 12, 1 << 13, 1 << 11
 """Vertices of the first frame, and of each that follows: large meshes are seen while they arrive, from early on.
 Vertices that tell that a mesh is on no grid, and about how large a grid is, before all are looked at."""
@@ -34,6 +35,7 @@ class Raster:
 
     def positions(self, coded: Levels) -> Positions:
         """Positions of coded values, shape (n, 3), in the mesh's unit."""
+        # Written as the law has it, operation by operation, since decoded positions must agree to the bit.
         return turned_by(coded * self.step + np.array(self.origin), self.turn)
 
     @property
@@ -60,6 +62,7 @@ def grid_field(
     faces: Any, largest: Sequence[int], coded: Levels, light: int = 0, grid: Raster | None = None, exact: Any = None
 ) -> Field:
     """The field of coded values, shape (n, 3), from 0 to `largest`, and of `exact` floats; a field can give faces."""
+    # One kernel codes all three axes of a vertex: each is predicted from the two before it as well.
     field, ends, grid = Field(faces, np.ascontiguousarray(coded, np.int32)), np.array(largest, np.int32), grid or UNIT
     field.grid(ends, light, np.array(grid.origin, np.float64), grid.step, exact, grid.transforms, grid.congruence)
     return field
@@ -76,17 +79,20 @@ def encode_going(
     """The packets and the values, where vertices have gone to images: `wanted`, shape (n, 4), says where each would be,
     in cells, and the square of how far from there it may come."""
     field = grid_field(faces, grid.largest, coded, grid.fields["light"], grid)
+    # The coder itself moves vertices, because which images a vertex could go to is known only while it codes.
     field.go(wanted)
     return tuple(_packets(field, len(coded))), field.coded
 
 
 def _packets(field: Field, size: int) -> Iterator[packets.Grid]:
+    # The first vertex is in a frame of its own, so that a decoder has somewhere to start from.
     for start, end in pairwise([*range(0, min(size, 1)), *range(FIRST, size, CHUNK), size]):
         yield packets.Grid(start, end - start, with_lengths(field.write(end - start)))
 
 
 def sampled_size(faces: Indices | Field, grid: Raster, coded: Levels, light: int = 0) -> int:
     """The bytes of the first coded values."""
+    # A part of the mesh is enough to tell which of two grids is better, in a fraction of the time.
     return sum(map(len, grid_field(faces, grid.largest, coded, light, grid).write(SAMPLE)))
 
 

@@ -25,6 +25,7 @@ from bsm.codec.static.ways.grid import encode_layer
 from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits
+# Each solution damps high frequencies further, until the last columns are rounding errors of the first.
 MOST_APART = 3
 """Solutions before an Onorm in the paper's mode: more leave little of late columns in single precision."""
 SMOOTHING_STEPS = tuple(2.0**k if k > -4 else 0.0 for k in range(-4, 7))
@@ -52,6 +53,8 @@ class RefinementBase:
 
     def expected_steps(self, layer: Layer) -> Matrix:
         """About what levels of a layer move each vertex, shape (n, 3), before any is chosen."""
+        # Steps along tangents depend on decoded heights, which are not chosen yet. The original's are near enough to
+        # begin with.
         aside = tangent_steps(self.prepared.positions, self.prepared.mesh.faces, layer.step, layer.ratio)
         return np.column_stack([np.full(len(aside), layer.step), aside, aside])
 
@@ -67,6 +70,7 @@ class RefinementBase:
             aside = tangent_steps(upright, self.prepared.mesh.faces, layer.step, layer.ratio)
             return np.column_stack([np.full(len(aside), layer.step), aside, aside])
 
+        # A search asks for the same heights several times in a row, and the array is as large as the mesh.
         return lru_cache(1)(known)
 
     def wanted(self, steps: Matrix) -> tuple[Levels, Matrix]:
@@ -77,6 +81,7 @@ class RefinementBase:
     def within(self, reaches: Matrix, layer: Layer, levels: Levels) -> tuple[Levels, Matrix]:
         """These levels, but the nearest ones where a vertex is farther off than it may be; and their known steps."""
         levels, known = levels.copy(), self.known_steps(layer, levels)
+        # It settles after two or three rounds. If ever it did not, the caller would measure what is left.
         for _ in range(9):  # heights that are mended change steps of others
             error = levels * known - self.offsets
             far = squares_of(error) > reaches**2
@@ -96,6 +101,7 @@ class RefinementBase:
         """The stream with a layer of levels, shape (n, 3), and where these bring the base."""
         header = replace(self.draft.header, refinement=(layer.step, layer.ratio))
         after = self.draft.header.base[0] if self.draft.header.base else 0
+        # After all blocks: a decoder may stop there, and show the base.
         body = (*self.draft.body, *encode_layer(self.prepared.mesh.faces, levels, after))
         return Draft(header, body, self.prepared.units.back(moved))
 
@@ -108,6 +114,7 @@ class InBlocks:
     ) -> None:
         self._prepared = prepared
         self._options = options
+        # Searches try fewer columns where most would be zero: wide dictionaries take most of the time.
         self._widest = max(1, int(widest * prepared.size))
         self.missed = 0  # blocks over eps_h
         self._overrides = overrides
@@ -118,6 +125,8 @@ class InBlocks:
             try:
                 return self._base(step, progress)
             except LimitError:
+                # Only where the error decides is the number of columns free. A number that the user fixed is not
+                # changed in silence.
                 if self._options.paper.doi is None or self._widest == 1:
                     raise
                 self._widest = 2 * self._widest // 3
@@ -144,6 +153,7 @@ class InBlocks:
             coefficients=max(block.packet.coefficients for block in blocks),
             center=prepared.units.center,
             scale=prepared.units.scale,
+            # The filter is chosen after coding, on what was decoded, since it is to undo what coding did.
             smoothing=self._smoothing(positions) if smoothing is None else single(smoothing),
             **scheme.fields(),
         )
@@ -157,6 +167,7 @@ class InBlocks:
         rules, bits, size = self._rules(), self._options.paper.bits, self._prepared.size
         if bits is not None:
             return Scheme(self._prepared.blocks, rules, self._packed(bits, rules, step))
+        # Finer levels would not fit into the integers of the law.
         if step < smallest_step(size):
             raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
         return Scheme(self._prepared.blocks, rules, Adaptive(self._width(step), single(step)))
@@ -164,6 +175,7 @@ class InBlocks:
     def _smoothing(self, blended: Matrix) -> float:
         """The amount of smoothing that lowers the error of the options most."""
         graph = self._prepared.graph
+        # Uphill and downhill from the middle, the same amounts may be met twice.
         badness = lru_cache(None)(lambda place: self._badness(smooth(graph, blended, SMOOTHING_STEPS[place])))
         place = len(SMOOTHING_STEPS) // 2
         for aside in (1, -1):
@@ -180,6 +192,7 @@ class InBlocks:
             iterations=paper.iterations,
             key_iterations=paper.key_iterations,
             shift=single(paper.shift),
+            # The paper's mode codes positions and not differences, so nothing is predicted there.
             springs=paper.predict and paper.bits is None,
             apart=min(paper.power, MOST_APART) if paper.bits is not None and paper.power > 1 else 0,
             overrides=self._overrides,
@@ -195,6 +208,8 @@ class InBlocks:
             return min(max(1, round(options.keep * size)), most)
         if options.paper.doi is not None:
             return most
+        # A fixed number of bits wastes them on small coefficients, so more columns do not pay as they do with entropy
+        # coding.
         if options.paper.bits is not None:
             return max(1, round(PAPER_FRACTION * size))
         return self._prepared.spectrum(options.paper.shift).worthwhile_size(step, self._widest)
@@ -232,6 +247,7 @@ class InBlocks:
             return found
 
         chains = rules.chains(blocks.count)
+        # The largest coefficients of all blocks decide the step, so all blocks are transformed twice.
         first, others = np.max(list(ordered_map(largest, chains, self._options.threads)), axis=0)
         return Packed(width, bits, *packed_range(first, others, bits))
 
@@ -242,4 +258,5 @@ class InBlocks:
             return reference.theta(decoded)
         if target is not None and target.kind == "nmsve_db":
             return reference.nmsve(decoded)
+        # Of both at once: theta alone would smooth away shape, and NMSVE alone would leave grain.
         return reference.theta(decoded) * reference.nmsve(decoded)

@@ -40,6 +40,7 @@ SPREADS = Spread(), Spread(3, 14, 4.0, 48.0), Spread(3, 14, 2.5, 24.0)
 """From fine levels of vertices to coarse ones, most of which are 0."""
 
 
+# A strip of triangles has cells without any face, which a mesh may not be. Nothing else of its checks is needed here.
 class _Places(TriangleMesh):
     """Places of cells, which may have no faces."""
 
@@ -47,6 +48,7 @@ class _Places(TriangleMesh):
         pass
 
 
+# Angles of normals mean nothing for cells, which are centers and no surface.
 class _Blocks(InBlocks):
     """Blocks of cells, of which nothing is seen: all that counts is how near levels begin."""
 
@@ -77,13 +79,16 @@ class InCells:
     def base(self, step: float, progress: Progress | None = None) -> RefinementBase:
         """The cells for levels of vertices at about a step, and their places prolonged."""
         prepared, coarse = self._prepared, self._coarse
+        # Steps of cells are powers of two, so that the header needs only their exponent.
         halvings = min(max(round(-math.log2(self._spread.levels * step)), 1), 40)
         rough = max(self._spread.coefficients * step, 1.01 * smallest_step(coarse.size))
         blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5), progress)
         farthest = float(np.abs(blocks.offsets).max(initial=0.0))
+        # Levels beyond would not fit. Such meshes have outliers, and a coarser step costs them little.
         while farthest > FARTHEST * 0.5**halvings:
             halvings -= 1
         places, levels = self._leveled(blocks, Layer(0.5**halvings, RATIO))
+        # By the decoder's own function: what it gives is what the levels of vertices start from.
         positions = prolonged(self.cells, prepared.graph, places, self._spread.rounds)
         base = coarse.graph.size, self._spread.reach, self._spread.rounds, halvings
         header = replace(blocks.draft.header, vertices=prepared.graph.size, faces=len(prepared.mesh.faces), base=base)

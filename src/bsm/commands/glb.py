@@ -40,7 +40,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if Path(args.output).suffix.lower() != ".glb":
         raise OptionError(f"{args.output}: the output must be a .glb")
     streamed = not Path(args.input).is_dir() and is_stream(args.input)
-    # A moving mesh is one stream. glTF has no compressed morph targets, so the scene only wraps it.
+    # A moving mesh is one stream already, which the scene only wraps.
     if streamed and (header := peek_header(read_chunks(args.input))[0]) and header.gop_frames:
         _wrap_sequence(args, console)
         return

@@ -28,11 +28,14 @@ from bsm.ground.console import Progress
 _TEXCOORD: tuple[Semantic, int] = ("texcoord", 2)
 _SEMANTICS = {"NORMAL": ("normal", 3), "TEXCOORD_0": _TEXCOORD, "TEXCOORD_1": _TEXCOORD}
 _GRID = 2.0**-15  # how far targets may move vertices wrongly, of the mesh's largest extent: as a grid of 14 bits
+# Normals and colors as gltf-transform quantizes them for Draco, so that results compare.
 _QUALITIES = {"NORMAL": "10bits", "TANGENT": "9bits", "COLOR_0": "8bits"}
 _TURN = "0.002"  # of what targets add to directions: a tenth of a degree
 _COARSEST, _FINEST = 12, 22  # bits of texture coordinates; with more, they are exact
 _TEXELS, _SIDE = 0.25, 2048  # how many texels they may be off, and pixels of the side of an image that is not known
+# Below, an accessor of its own type takes more JSON than it saves.
 _SHORT = 1 << 10  # indices from which on 16 bits of each are worth their words
+# Beyond this, an identifier that is stored as a float has already lost its last digit.
 WHOLE = 2**24  # up to which single precision has all whole numbers
 
 
@@ -53,6 +56,7 @@ def arrays_of(primitive: Tree) -> dict[str, int]:
     return dict(primitive["attributes"]) | added
 
 
+# One stream has one type for each attribute, so only primitives with equal types share one.
 def like(document: gltf.Document, primitive: Tree) -> str:
     """A key that is equal for primitives which one stream can hold."""
     accessors = [(name, document.item("accessors", index)) for name, index in sorted(arrays_of(primitive).items())]
@@ -65,9 +69,11 @@ def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> 
     if isinstance(joined := _joined(document, primitives), str):
         return joined
     arrays, corners, sizes = joined
+    # Encoders leave out faces without area. Where a skin or a target opens such a face, it must stay.
     opens = _opens(arrays, corners)
     positions = arrays.pop("POSITION")
     entries = {name: document.item("accessors", index) for name, index in arrays_of(primitives[0]).items()}
+    # Weights must sum to 1, or a skinned vertex drifts; rounding each by itself breaks that.
     if not exact:
         arrays |= _levels({name: array for name, array in arrays.items() if name.startswith("WEIGHTS_")})
     attributes, accessors, qualities = [], {"POSITION": (FLOAT, False)}, dict[str, str]()
@@ -84,6 +90,7 @@ def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> 
             qualities |= {name: of_name} if of_name else {}
     if len(primitives) > 1:
         numbers = np.repeat(np.arange(len(sizes)), sizes)
+        # One stream for many primitives: a head costs as much as a small mesh. The label tells where each begins.
         attributes.append(Attribute(PIECE, numbers.astype(np.uint16), "face"))
     mesh = TriangleMesh(positions.astype(np.float64), corners.astype(np.int32), tuple(attributes), {})
     return Carried(mesh, accessors, qualities, opens)
@@ -110,6 +117,7 @@ def _joined(
         if not len(triangles):
             return "no triangles"
         faces.append(triangles + begins[str(sorted(arrays_of(primitive).items()))])
+    # Vertices that no face uses are not drawn, and not sent.
     used, corners = np.unique(np.concatenate(faces), return_inverse=True)
     whole = {name: np.concatenate([part[name] for part in parts])[used] for name in parts[0]}
     return whole, corners.reshape(-1, 3), list(map(len, faces))
@@ -124,6 +132,8 @@ def _vertices(document: gltf.Document, indexes: Mapping[str, int]) -> dict[str, 
         narrow = normalized and (name.startswith("_") or array[0].nbytes % 4 > 0)
         if (geometry or narrow) and array.dtype.itemsize <= 2:
             values = array.astype(np.float32)
+            # Quantized geometry is coded as the floats that it means, or the grid of the stream would be laid over
+            # another grid.
             array = np.maximum(values / np.iinfo(array.dtype).max, -1, dtype=np.float32) if normalized else values
         arrays[name] = array
     positions = arrays.get("POSITION")
@@ -154,6 +164,8 @@ def _levels(weights: Mapping[str, Array]) -> dict[str, Array]:
     total = table.sum(axis=1, keepdims=True)
     exact = np.where(total > 0, table / np.maximum(total, 1e-30) * 255, 0)
     levels = np.floor(exact)
+    # The method of largest remainders, as parliaments are seated: the sum is exact, and no weight is off by a whole
+    # level.
     ranks = np.argsort(np.argsort(levels - exact, axis=1, kind="stable"), axis=1)
     levels += ranks < np.where(total > 0, 255, 0) - levels.sum(axis=1, keepdims=True)  # the largest remainders go up
     ends = np.cumsum([array.shape[1] for array in weights.values()])[:-1]
@@ -164,6 +176,7 @@ def _quality(name: str, array: Array, extent: float, texel: Callable[[str], floa
     """The quality of an attribute of floats; None: that which meshes have by default."""
     target, _, base = name.rpartition("/")
     if base.startswith("TEXCOORD_"):
+        # As many bits as a quarter of a texel of the largest image needs.
         bits = math.ceil(math.log2(max(float(np.ptp(array, axis=0).max()) / (2 * _TEXELS * texel(base)), 1.0)))
         return f"{max(bits, _COARSEST)}bits" if bits <= _FINEST else "exact"
     if name in _QUALITIES:
@@ -200,6 +213,7 @@ def _carried(name: str, array: Array, normalized: bool) -> tuple[Attribute, int,
         if (is_float and (array.min() < 0 or array.max() > 1)) or not (is_float or array.dtype.kind == "u"):
             return "COLOR_0 has numbers that are not between 0 and 1"
         return Attribute(name, array, "vertex", "color"), FLOAT, False
+    # Integers are coded without loss, and identifiers are wrong if they are off at all.
     if is_float and (array == np.rint(array)).all() and np.abs(array).max() <= WHOLE:  # identifiers, mostly
         return Attribute(name, array.astype(np.int32)), FLOAT, False
     if array[0].nbytes % 4:  # accessors keep their elements at multiples of four bytes; floats hold such integers
@@ -234,11 +248,13 @@ def code_bundle(found: Carried | str, pieces: int, options: Mapping[str, Any]) -
         coded = given_part(found.mesh, **given).encode(Progress(""))
         encoder, stream = coded.encoder, b"".join(coded.attempt.frames)
         decoded = decode(stream)
+    # One primitive that cannot be coded stays as it is; the scene does not fail for it.
     except BsmError as error:
         return f"no stream: {error}"
     shape = drawn(decoded)
     if len(shape.pieces) != pieces:
         return "no face has an area"
+    # Measured on what decoders give, so that the figure of the command is that of `bsm compare`.
     off = error_of(found.mesh.positions[encoder.vertex_order], decoded)
     accessors = {name: found.accessors[name] for name in shape.arrays}
     if len(shape.index) >= _SHORT and shape.index.max() < 65535:
@@ -261,6 +277,7 @@ def bundles_of(document: gltf.Document, tree: Tree, left: Counter[str]) -> list[
                 left[why] += 1
                 continue
             key = str((sorted(accessors_of(primitive).items()), primitive.get("mode")))
+            # Two primitives of the same accessors are one set of triangles with two materials, and are coded once.
             if key not in known:
                 known[key] = []
                 alike.setdefault(like(document, primitive), []).append(known[key])
@@ -288,6 +305,7 @@ def _why_left(document: gltf.Document, mesh: Tree, primitive: Tree) -> str | Non
     features = primitive.get("extensions", {}).get("EXT_mesh_features", {}).get("featureIds", [])
     named += ["EXT_mesh_features" for entry in features if not {"attribute", "texture"} & entry.keys()]
     if named:
+        # A stream orders vertices anew. An extension that counts on their old numbers would point to others.
         return f"{named[0]} may name vertices"
     views = (document.item("bufferViews", entry["bufferView"]) for entry in accessors if "bufferView" in entry)
     packed = [name for view in views for name in sorted(document.unread_in(view))]

@@ -50,6 +50,7 @@ def drawn(mesh: TriangleMesh) -> Drawn:
     """Draw as the extension defines: a vertex for each vertex and values of attributes that meet at a corner."""
     named = {a.name: a.values[:, 0] for a in mesh.attributes if a.name == PIECE and a.domain == "face"}
     labels = named.get(PIECE, np.zeros(len(mesh.faces), np.int64))
+    # Primitives are parts of the index list, so faces of one material must follow each other.
     order = np.argsort(labels, kind="stable")
     corners = mesh.faces[order].ravel()
     attributes = [a for a in mesh.attributes if a.name not in named]
@@ -58,6 +59,7 @@ def drawn(mesh: TriangleMesh) -> Drawn:
     rows: npt.NDArray[np.integer[Any]] = corners
     values = {a.name: a.values for a in attributes}
     if parting:
+        # glTF has one index for all attributes: a vertex is split wherever any of them differs.
         different, rows = np.unique(np.stack([corners, *parting.values()], axis=1), axis=0, return_inverse=True)
         vertices = different[:, 0]
         values |= {name: values[name][different[:, column]] for column, name in enumerate(parting, 1)}
@@ -84,6 +86,7 @@ def array_of(found: tuple[TriangleMesh, Drawn], name: str, component: int | None
     if held not in shape.arrays:
         raise FormatError(f"a stream of this glTF has no {name[:80]}")
     values = shape.arrays[held]
+    # In glTF, colors of vertices are linear; meshes have them in sRGB, as all other formats do.
     if name == "COLOR_0" != held:  # a stream of a mesh has colors in sRGB
         values = to_linear(shares_of(values))
     return stored(name, values, component or FLOAT)
@@ -93,6 +96,7 @@ def unpack_meshopt(data: bytes, how: Tree) -> bytes:
     """The bytes of a bufferView that meshoptimizer has compressed."""
     count, stride, mode, filtered = how["count"], how["byteStride"], how["mode"], how.get("filter", "NONE")
     try:
+        # Not an extra of the package: few files need it, and the message names it.
         library = imported("meshoptimizer", "", "")
     except DependencyError:
         raise DependencyError("the meshes are compressed with meshopt; run: pip install meshoptimizer") from None
@@ -108,6 +112,7 @@ def unpack_meshopt(data: bytes, how: Tree) -> bytes:
         found: Array = reader()
     if filtered != "NONE":
         found = getattr(library, f"decode_filter_{filters[filtered]}")(found, count, stride)
+    # The library gives four bytes for each index, and the bufferView may want two.
     return found.astype(f"<u{stride}").tobytes() if mode != "ATTRIBUTES" else found.tobytes()
 
 
@@ -116,6 +121,7 @@ def unpack_draco(data: bytes) -> dict[int, Array]:
     draco = imported("DracoPy", "the meshes are compressed with Draco, which DracoPy reads", "formats")
     with as_library_error("DracoPy", "a primitive of this glTF"):
         mesh = draco.decode(data)
+    # glTF refers to attributes of Draco by these numbers, and not by their order.
     found = {int(attribute["unique_id"]): np.atleast_2d(attribute["data"]) for attribute in mesh.attributes}
     return found | {-1: np.asarray(mesh.faces).reshape(-1, 1)}
 
@@ -125,6 +131,7 @@ def texture_of(info: Tree, sampler: Tree, image: int) -> Texture:
     moved = info.get("extensions", {}).get(TRANSFORM, {})
     (across, up), (right, down) = moved.get("scale", (1.0, 1.0)), moved.get("offset", (0.0, 0.0))
     turn, which = moved.get("rotation", 0.0), moved.get("texCoord", info.get("texCoord", 0))
+    # glTF turns about the upper left corner, with coordinates that count downwards; ours count upwards.
     offset = right + up * math.sin(turn), 1 - up * math.cos(turn) - down
     wrap = tuple(_WRAPS.get(sampler.get(name, 0), "repeat") for name in ("wrapS", "wrapT"))
     return Texture(image, (across, up), offset, turn, wrap, which)

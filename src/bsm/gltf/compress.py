@@ -49,6 +49,7 @@ def compress(
     one_grid: bool = False,
 ) -> Compressed:
     """Code each primitive of triangles where that makes the scene smaller; `options` are those of `bsm.encode`."""
+    # Its accessors have no bytes of their own: what a decoder fills would be coded again, with the errors of both.
     if EXTENSION in document.compressed:
         raise FormatError(f"its geometry is compressed already, by {EXTENSION}; start from the scene before that")
     scene = Rewritten(document, fallback)
@@ -57,11 +58,13 @@ def compress(
     users = users_of(bundles, scene.tree, scene.named)
     exact = options.get("preset") == "lossless"
     asked = {**({"*": "exact"} if exact else {}), **options.get("attributes", {})}
+    # Meshes that touch share borders. With grids of their own, rounding would open cracks between them.
     each = _one_grid(document, scene.tree, bundles, options) if one_grid else [options] * len(bundles)
     each = [{**own, "attributes": asked} for own in each]
     sizes, coded = [sum(map(len, bundle)) for bundle in bundles], list[BundleStream | str]()
     meshes = (as_mesh(document, bundle, exact=exact) for bundle in bundles)
     given = zip(meshes, map(len, bundles), each, strict=True)
+    # Threads suffice: the work is in C, which gives the interpreter's lock away.
     for found in ordered_map(lambda mesh: code_bundle(*mesh), given, jobs or None):
         if progress:
             progress(sum(sizes[: len(coded)]), sum(sizes))
@@ -74,6 +77,8 @@ def compress(
                 left[why] += sizes[number]
         freed = [index for index, theirs in users.items() if theirs <= streams.keys()]
         primitives = sum(sizes[number] for number in streams)
+        # Bundles that share accessors are put in together or not at all: half of them would leave the accessors in the
+        # file.
         if scene.would_shrink(list(streams.values()), freed):
             done += primitives
             for number, found in streams.items():
@@ -94,6 +99,7 @@ def restore(document: gltf.Document) -> bytes:
     """A .glb without compressed geometry."""
     for number, mesh in enumerate(document.items("meshes")):
         if EXTENSION in mesh.get("extensions", {}):
+            # Accessors are restored one by one. Frames become morph targets in another way, which the message names.
             raise UnsupportedError(f"mesh {number} moves, and plain glTF cannot hold it: decode its stream to .glb")
     return Rewritten(document, None).finished()
 
@@ -105,9 +111,11 @@ def _one_grid(
     matrices: dict[object, Array] = {}
     for node, matrix in places_of(document, parents_of(document)).items():
         entry = document.item("nodes", node)
+        # A skin places vertices by joints and ignores the matrix of the node.
         matrices.setdefault(entry.get("mesh"), np.eye(4) if "skin" in entry else matrix)
     meshes = {id(primitive): n for n, mesh in enumerate(tree["meshes"]) for primitive in mesh["primitives"]}
     placed = [matrices.get(meshes[id(bundle[0][0])], np.eye(4)) for bundle in bundles]
+    # Nine digits: writers compute the same rotation in different ways.
     keys = [np.round(matrix[:3, :3], 9).tobytes() for matrix in placed]
     cells: dict[bytes, float] = {}
     corners = [same[0]["attributes"]["POSITION"] for bundle in bundles for same in bundle]
@@ -118,6 +126,7 @@ def _one_grid(
         cells[key] = max(cells.get(key, 0.0), extent / (1 << 14))
     found = []
     for matrix, cell in zip(placed, map(cells.__getitem__, keys), strict=True):
+        # Not solve, since a node may scale an axis to zero.
         moved = np.linalg.lstsq(matrix[:3, :3], matrix[:3, 3], rcond=None)[0]
         origin = tuple((-moved % cell).tolist()) if cell else (0.0, 0.0, 0.0)
         grid = {"grid_cell": cell, "grid_origin": origin} if cell else {"grid": 14}

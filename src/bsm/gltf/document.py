@@ -35,7 +35,9 @@ _TYPES = {width: name for name, width in _WIDTHS.items()}  # vectors rather than
 _MOST_BYTES = (1 << 32) - 1
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
 WEBP = "EXT_texture_webp"
+# A number becomes a double, with a copy or two on the way through a mesh.
 PER_NUMBER = 48  # bytes that a number of an accessor takes while it is made into what a mesh has
+# An accessor without a buffer claims any number of zeros in twenty bytes of JSON.
 MOST_NUMBERS = 1 << 27
 """In one accessor, and in all morph targets: those without a buffer are zeros, for which no byte pays."""
 _ROWS = rows_of("gltf")
@@ -53,22 +55,28 @@ class Document:
 
     def __init__(self, data: bytes, folder: Path | None = None, limits: Limits = DEFAULT_LIMITS) -> None:
         self._folder, self._own, self.limits = folder, len(data), limits
+        # By the first bytes and not by the name: files are often called .gltf and are binary, or the other way round.
         text, self._binary = _chunks(data) if data.startswith(_MAGIC) else (data, b"")
         try:
             tree = json.loads(text)
+        # Python's parser ends with a RecursionError at brackets that are nested a thousand deep.
         except (ValueError, RecursionError) as error:
             raise FormatError(f"not a glTF: {in_words(error)}") from error
         if not isinstance(tree, dict) or not isinstance(tree.get("asset"), dict):
             raise FormatError("not a glTF: it has no asset")
         if not str(version := tree["asset"].get("version", "2.0")).startswith("2"):
             raise FormatError(f"this is glTF {str(version)[:20]}, and only glTF 2.0 is read; convert it first")
+        # Types are checked here, once and by a table, so that no reader below meets a list where it expects a number.
         self.unread = _TAKEN.left(_said(tree, "{}", "", "glTF"))
         self.tree: Tree = tree
         self._resources: dict[str, bytes] = {}
         self._sides: dict[object, int] = {}
+        # A stream holds many accessors and is decoded once. Its arrays are charged when they are made, not when they
+        # are named.
         self._unpacked: dict[object, Any] = {}  # contents of compressed bufferViews, streams and primitives of Draco
         self._taken = self._vertices = 0  # bytes of these, and vertices of streams and primitives
 
+    # Memory may grow with the bytes that were really sent, files beside the document included.
     @property
     def received(self) -> int:
         """Bytes of the document, and of the external files read so far."""
@@ -98,6 +106,7 @@ class Document:
 
     def item(self, name: str, index: object) -> Tree:
         found = self.items(name)
+        # Python takes -1 as the last item, which no glTF means.
         if not isinstance(index, int) or not 0 <= index < len(found):
             raise FormatError(f"this glTF refers to number {json.dumps(index)} of {len(found)} {name}")
         return found[index]
@@ -108,6 +117,7 @@ class Document:
 
     def buffer(self, index: object) -> bytes:
         buffer = self.item("buffers", index)
+        # Only the first buffer of a GLB is its binary chunk. Another one without a uri has no bytes.
         data = self._behind(str(buffer["uri"])) if "uri" in buffer else self._binary if index == 0 else b""
         if len(data) < _count(buffer, "byteLength"):
             claimed = buffer["byteLength"]
@@ -119,6 +129,8 @@ class Document:
 
     def _viewed(self, index: object) -> memoryview:
         view = self.item("bufferViews", index)
+        # An unknown extension that is not required may be passed over, as glTF says; a required one may have packed the
+        # bytes.
         if unread := self.unread_in(view) & {*self.tree.get("extensionsRequired", [])}:
             raise UnsupportedError(f"bufferView {index} of this glTF is packed by {min(unread)}, which is not read")
         if any(name in view.get("extensions", {}) for name in (EXTENSION, *MESHOPT)):
@@ -135,6 +147,7 @@ class Document:
             how = extensions[EXTENSION]
             source = self.item("bufferViews", how["stream"])
             stream = source.get("buffer"), source.get("byteOffset", 0), source.get("byteLength")
+            # By place and not by number: two bufferViews may name the same stream.
             key: object = (*stream, name := str(how["attribute"]), component := how.get("componentType"))
             if stream not in self._unpacked:
                 mesh = decode(bytes(self._plain(source, how["stream"])), limits=self.limits)
@@ -144,9 +157,11 @@ class Document:
                 self._unpacked[key] = found = coding.array_of(self._unpacked[stream], name, component).tobytes()
                 self._charge(len(found))
             return bytes(self._unpacked[key])
+        # The two names are one format: Khronos adopted it from the other.
         how = next(extensions[name] for name in MESHOPT if name in extensions)
         data = self._plain(how, "of meshopt")
         if (key := str(sorted(how.items()))) not in self._unpacked:
+            # Before it is unpacked, and for three copies, which the library makes.
             self._charge(3 * _count(how, "count") * _count(how, "byteStride"))
             self._unpacked[key] = coding.unpack_meshopt(bytes(data), how)
         return bytes(self._unpacked[key])
@@ -175,6 +190,7 @@ class Document:
             self._unpacked[key] = unpacked = coding.unpack_draco(self.view(how["bufferView"]))
             self._charge(sum(table.nbytes for table in unpacked.values()), max(map(len, unpacked.values())))
         found: Array = self._unpacked[key].get(number, np.zeros((0, 0)))
+        # Accessors repeat what Draco holds. Where they disagree, one of them is damaged.
         if found.shape != (count, width) and not (number < 0 and found.shape[1] == width):
             raise FormatError(f"Draco holds {found.shape} numbers for accessor {index} of {count} values")
         return found.astype(kind)
@@ -196,6 +212,8 @@ class Document:
             raise LimitError(f"accessor {index} of this glTF has {count} values; the limit is {MOST_NUMBERS} numbers")
         size = np.dtype(kind).itemsize
         # Columns of matrices begin at multiples of four bytes.
+        # Such matrices have gaps between their columns. No mesh needs them, so they are refused rather than read
+        # wrongly.
         rows = {"MAT2": 2, "MAT3": 3}.get(accessor["type"], 0) if size < 4 else 0
         if rows and rows * size % 4:
             raise UnsupportedError(f"accessor {index} of this glTF holds small matrices of small numbers")
@@ -208,6 +226,7 @@ class Document:
         if sparse := accessor.get("sparse"):
             self._replace(found, sparse, kind, width)
         if accessor.get("normalized") and not whole and found.dtype.kind in "iu":
+            # Signed integers have one more value below zero, which glTF clamps.
             return np.maximum(found / np.iinfo(found.dtype).max, -1.0)
         return found
 
@@ -261,13 +280,16 @@ class Document:
         data = self._viewed(where["bufferView"])
         offset, item = _count(where, "byteOffset"), np.dtype(kind).itemsize * width
         stride = _count(self.item("bufferViews", where["bufferView"]), "byteStride") or item
+        # Checked as numbers before numpy sees them: ndarray with strides reads wherever it is told to.
         if stride < item or (count and offset + stride * (count - 1) + item > len(data)):
             raise TruncatedError(f"{count} values of {item} bytes do not fit into {len(data)} bytes of their view")
+        # Copied, so that a few rows of a large buffer do not keep all of it.
         return np.array(np.ndarray((count, width), kind, data, offset, (stride, np.dtype(kind).itemsize)))
 
     def _replace(self, found: Array, sparse: Tree, kind: str, width: int) -> None:
         count, where = _count(sparse, "count"), sparse["indices"]
         places = self._strided(where, KINDS[where["componentType"]], count, 1)[:, 0]
+        # The law wants them ascending; nothing here depends on that.
         if len(places) and places.max() >= len(found):
             raise FormatError(f"a sparse accessor replaces value {places.max()} of {len(found)}")
         found[places] = self._strided(sparse["values"], kind, count, width)
@@ -280,6 +302,7 @@ class Document:
             head, _, body = uri.partition(",")
             data = unquote_to_bytes(body)
             try:
+                # Without validation Python skips what is not base64, and damage would go unnoticed.
                 data = base64.b64decode(data, validate=True) if head.endswith(";base64") else data
             except ValueError as error:
                 raise FormatError(f"a data URI of this glTF makes no sense: {error}") from error
@@ -304,6 +327,7 @@ class Document:
         """The regular file in the folder of the document, or below, that is meant."""
         if self._folder is None:
             raise FormatError("the mesh did not come from a file")
+        # A uri may be any path, ../../etc/passwd as well. Only files in the folder of the document are opened.
         return file_beside(self._folder, unquote(uri))
 
 
@@ -330,6 +354,8 @@ def _chunks(data: bytes) -> tuple[bytes, bytes]:
     _, version, length, size, kind = struct.unpack_from("<4sIIII", data)
     if version != 2 or kind != _JSON:
         raise FormatError(f"not a GLB of version 2 (version {version})")
+    # Some writers give a length that is too small, and it does no harm. One that is too large means that bytes are
+    # missing.
     if len(data) < max(length, 20 + size):
         raise TruncatedError(f"this GLB should have {max(length, 20 + size)} bytes, not {len(data)}")
     start = 20 + size
@@ -345,6 +371,7 @@ class Growing:
     def __init__(self, file: IO[bytes], tree: Tree | None = None) -> None:
         begun: Tree = {"asset": {"version": "2.0", "generator": "bsm"}, "scene": 0, "scenes": [{"nodes": []}]}
         self.tree: Tree = begun if tree is None else tree
+        # The buffer waits in a file, because the JSON before it can only be written when all offsets are known.
         self._file, self.size = file, 0
 
     def add(self, kind: str, entry: Tree) -> int:
@@ -360,6 +387,7 @@ class Growing:
     def append(self, data: bytes) -> int:
         """Append bytes to the buffer; return their offset."""
         start = self.size
+        # Accessors must begin at multiples of four bytes.
         self.size += len(data) + -len(data) % 4
         if self.size > _MOST_BYTES:
             raise LimitError("this takes more than the 4 GiB of a GLB; take fewer frames (--frames A:B), or write USD")
@@ -382,10 +410,12 @@ class Growing:
         if packed or size % 4 == 0:
             return self.view(values.tobytes())
         rows = np.ascontiguousarray(values).view(np.uint8).reshape(-1, size)
+        # Rows of three bytes, as colors have them, are padded: glTF wants each vertex at a multiple of four.
         return self.view(np.pad(rows, ((0, 0), (0, -size % 4))).tobytes(), byteStride=size + -size % 4)
 
     def write(self, file: IO[bytes]) -> None:
         tree = json.dumps(self.tree, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+        # Lone surrogates of file names cannot be written as UTF-8, and a question mark is better than no file.
         text = tree.encode(errors="replace")
         text += b" " * (-len(text) % 4)
         file.write(struct.pack("<4sIIII", _MAGIC, 2, 28 + len(text) + self.size, len(text), _JSON) + text)
@@ -428,6 +458,8 @@ def triangles_of(document: Document, primitive: Tree, count: int) -> npt.NDArray
     if mode == TRIANGLES:
         corners = corners[: len(corners) // 3 * 3].reshape(-1, 3)
     else:
+        # Every second triangle of a strip runs the other way round; its corners are exchanged, so that all show the
+        # same side.
         step = np.arange(max(len(corners) - 2, 0))
         odd = step % 2 if mode == STRIP else 0
         around = [step, step + 1 + odd, step + 2 - odd] if mode == STRIP else [step + 1, step + 2, 0 * step]

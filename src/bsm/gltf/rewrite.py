@@ -26,8 +26,10 @@ def users_of(bundles: list[Bundle], tree: Tree, named: set[int]) -> dict[int, se
     coded: dict[int, int] = {}
     for number, bundle in enumerate(bundles):
         for primitive in (primitive for same in bundle for primitive in same):
+            # By identity, as equal dictionaries stand in many places of a tree.
             holders = (primitive, primitive["attributes"], *primitive.get("targets", []))
             coded |= {id(holder): number for holder in holders}
+    # Everything that refers to an accessor is known here. An accessor may only go when nothing else does.
     for holder, key in references(tree, "accessors"):
         users.setdefault(holder[key], set()).add(coded.get(id(holder), -1))
     return users
@@ -62,6 +64,8 @@ def references(tree: Tree, kind: str) -> Iterator[tuple[Tree, str]]:
         yield from ((how, "stream") for name, how in view.get("extensions", {}).items() if name == EXTENSION)
 
 
+# An unknown extension may name accessors by any key, so every whole number in it counts as one. Keeping too much is
+# safe.
 def named_by_others(node: Any, *, inside: bool = False) -> set[int]:
     """Numbers in extensions that are not known: they may be those of accessors or bufferViews."""
     if isinstance(node, dict):
@@ -84,12 +88,14 @@ class Rewritten(gltf.Growing):
     """The tree of a document that is changed, and the bytes of its new buffer."""
 
     def __init__(self, document: gltf.Document, fallback: str | None) -> None:
+        # A copy: the document is still read, while its tree is changed here.
         super().__init__(io.BytesIO(), copy.deepcopy(document.tree))
         self._document, self._fallback = document, fallback
         unknown = set().union(*map(document.unread_in, document.items("buffers")))
         packed = set().union(*map(document.unread_in, document.items("bufferViews")))
         if unknown or (packed and len(document.items("buffers")) > 1):
             raise UnsupportedError(f"{min(unknown | packed)} may name bytes of buffers that would move")
+        # A reader that unpacks these bufferViews finds them by offsets in the old buffer, so nothing in it may move.
         self._whole = bool(packed)  # then all bytes stay where they are
         if self._whole:
             self.append(document.buffer(0))
@@ -116,6 +122,7 @@ class Rewritten(gltf.Growing):
         entries = {index: self._document.item("accessors", index) for index in freed}
         views = {entry["bufferView"] for entry in entries.values() if "bufferView" in entry} - self.named
         held = [n for n, e in entries.items() if e.get("bufferView") in views or n in self._document.of_draco]
+        # JSON counts as well: a small mesh may save fewer bytes than its stream needs words.
         before = _WORDS * (len(freed) + len(views)) + sum(self._document.array(index).nbytes for index in held)
         words = sum(3 + 2 * len(coded.shape.arrays) + len(coded.shape.pieces) for coded in found)
         return bool(found) and sum(len(coded.stream) for coded in found) + _WORDS * words < before
@@ -141,6 +148,7 @@ class Rewritten(gltf.Growing):
             indices = self.accessor(component, count, 1, view, **more)
             for primitive in same:
                 primitive["indices"] = indices
+                # Strips and fans were made triangles, which is the default.
                 primitive.pop("mode", None)
                 named = {name: places[name] for name in primitive["attributes"] if name in places}
                 primitive["attributes"] = named
@@ -156,6 +164,7 @@ class Rewritten(gltf.Growing):
             self.plain.append(array.tobytes() + b"\0" * (-array.nbytes % 4))
             self._virtual += array.nbytes + -array.nbytes % 4
         else:
+            # Decoders fill this buffer, and no file holds it. Views may overlap, as each is filled for itself.
             self._virtual = max(self._virtual, array.nbytes)
         return self.add("bufferViews", view)
 
@@ -163,6 +172,7 @@ class Rewritten(gltf.Growing):
         """Put images inside that lie elsewhere, and write all by a rule where that makes them smaller."""
         for number, image in enumerate(self.tree.get("images", [])):
             data = self._document.image(number)[1] if rule or "uri" in image else None
+            # An image that its rule makes larger stays as it is.
             found = smaller(data, rule) if data and rule else None
             name = self._document.image(number)[0] or f"image {number}"
             self.images += [compare_image(name, data, found or data)] if data and rule else []
@@ -185,6 +195,7 @@ class Rewritten(gltf.Growing):
         self._place_views()
         gone = {DRACO, *MESHOPT, *([] if self._virtual else [EXTENSION])}
         for key in ("extensionsUsed", "extensionsRequired"):
+            # Everything that these extensions held is plain now, or in a stream.
             tree[key] = [name for name in tree.get(key, []) if name not in gone]
         tree["buffers"] = [{"byteLength": self.size}] if self.size else []
         if self._virtual:
@@ -207,6 +218,7 @@ class Rewritten(gltf.Growing):
         gone = numbers.keys() - {id(entry) for entry in kept}
         shared = {entry["bufferView"] for entry in entries if id(entry) in gone and "bufferView" in entry} - self.named
         for entry in kept:
+            # Only the bytes that somebody still uses move to the new buffer.
             if entry.get("bufferView") in shared and "sparse" not in entry:
                 strided = "byteStride" in self._document.item("bufferViews", entry["bufferView"])
                 entry["bufferView"] = self.table(self._document.array(numbers[id(entry)]), packed=not strided)
@@ -238,6 +250,7 @@ class Rewritten(gltf.Growing):
             unread = number in self._before["bufferViews"] and not {number} & (used | self.named)
             if number in self._moved or unread or (self._whole and not packed):
                 continue
+            # Unpacked where it was compressed, since readers of the result need not know that extension.
             data = self._document.view(number)
             view |= {"buffer": 0, "byteOffset": self.append(data), **({"byteLength": len(data)} if packed else {})}
         self._renumber("bufferViews", {"buffer": 0, "byteLength": 1})
@@ -248,6 +261,7 @@ class Rewritten(gltf.Growing):
         every = set(range(len(entries)))
         stay = self.named & every
         kept = {holder[key] for holder, key in places} | (every - self._before[kind]) | stay
+        # Numbers that unknown extensions may name stay. All others close ranks, as validators want no unused entries.
         free = iter(sorted(every - stay))
         numbers = {old: old if old in stay else next(free) for old in sorted(kept)}
         for holder, key in places:
@@ -269,4 +283,5 @@ def _short(node: Any) -> Any:
         return [_short(value) for value in node]
     if not isinstance(node, float) or abs(node) > _MOST or np.float32(node) != node:
         return node
+    # Writers print doubles of single precision with up to 17 digits. Shorter ones mean the same number.
     return int(node) if node.is_integer() and abs(node) < WHOLE else float(str(np.float32(node)))

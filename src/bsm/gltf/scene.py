@@ -46,6 +46,7 @@ class Keyframes:
 
     def at(self, time: float) -> Doubles:
         """The value at a time, shape (c,); before the first key and after the last, that of the key."""
+        # Times are single precision in files and double here.
         late = 1e-5 if self.way == "STEP" else 0.0  # in single precision a key may lie a little behind its frame
         after = int(np.searchsorted(self.times, time + late, side="right"))
         before, after = max(after - 1, 0), min(after, len(self.times) - 1)
@@ -55,16 +56,19 @@ class Keyframes:
         later: Doubles = self.values[after]
         if self.way == "CUBICSPLINE":
             keys = self.values.reshape(len(self.times), 3, -1)
+            # The Hermite spline of the glTF specification, whose tangents are scaled by the time between keys.
             square, cube = part * part, part * part * part
             mixed: Doubles = (2 * cube - 3 * square + 1) * keys[before, 1] + (3 * square - 2 * cube) * keys[after, 1]
             mixed += span * ((cube - 2 * square + part) * keys[before, 2] + (cube - square) * keys[after, 0])
         elif self.way == "STEP" or part == 0.0:
             return earlier
+        # Nearly equal quaternions are mixed linearly: the arc between them divides by a sine that is almost zero.
         elif not self.turns or abs(cosine := float(earlier @ later)) > 1 - 1e-9:
             mixed = earlier + part * ((-later if self.turns and cosine < 0 else later) - earlier)
         else:  # between two quaternions, along the shorter arc
             angle = float(np.arccos(abs(cosine)))
             mixed = np.sin((1 - part) * angle) * earlier + np.sign(cosine) * np.sin(part * angle) * later
+        # Splines of quaternions leave the unit sphere.
         return mixed / (float(np.linalg.norm(mixed)) or 1.0) if self.turns else mixed
 
 
@@ -97,8 +101,10 @@ def parents_of(document: Document) -> dict[int, int]:
         roots = list(document.item("scenes", document.tree.get("scene", 0)).get("nodes", []))
     parents: dict[int, int] = {}
     waiting = [(int(root), -1) for root in reversed(roots)]
+    # A list and not recursion: a chain of ten thousand nodes is legal, and Python's stack is shorter.
     while waiting:
         node, parent = waiting.pop()
+        # Two parents, or a circle, which would go on for ever.
         if node in parents:
             raise FormatError(f"node {node} of this glTF stands in two places")
         parents[node] = parent
@@ -120,6 +126,7 @@ def places_of(
         moved = {name: curves[node, name].at(time) for name in _REST if (node, name) in curves}
         rest = {name: np.asarray(tree.get(name, usual), np.float64).reshape(-1) for name, usual in _REST.items()}
         local = matrix_of(**{**rest, **moved})
+        # glTF forbids to animate a node that has a matrix. Files that do it mean the properties.
         if "matrix" in tree and not moved:
             local = np.asarray(tree["matrix"], np.float64).reshape(4, 4).T
         places[node] = places[parent] @ local if parent >= 0 else local
@@ -135,6 +142,7 @@ def place_instances(document: Document, limits: Limits) -> None:
         if "mesh" not in node or "skin" in node or not named:
             continue
         count += max(map(document.count, named.values()))
+        # A few bytes of JSON can ask for a million instances, without bytes behind them.
         limits.check_memory(PER_INSTANCE * count, 0, document.received)
         tables = {name: document.numbers(index).astype(np.float64) for name, index in named.items()}
         rows = next(iter(tables.values()))
@@ -180,6 +188,7 @@ class Scene:
         self._parents = parents_of(document)
         targets = (target for primitive in document.primitives() for target in primitive.get("targets", []))
         self._painted = any("COLOR_0" in target for target in targets)
+        # Exporters often write one table for a whole model, of which each primitive uses a part. Those are cut out.
         self._tables = Counter(str(primitive["attributes"]) for primitive in document.primitives())
         self._check_sizes()
         self.notes: list[str] = []
@@ -188,6 +197,7 @@ class Scene:
         if not self.parts:
             raise FormatError("this glTF has no triangles in its scene")
 
+    # The same mesh may stand in a thousand places. What all uses take together is bounded before the first is made.
     def _check_sizes(self) -> None:
         """Bound what every use of every primitive takes before anything is allocated; zeros have no bytes."""
         document = self._document
@@ -201,6 +211,7 @@ class Scene:
                 sizes[used] = self._size(mesh)
             vertices, given, moved = sizes[used]
             seen += vertices
+            # A mesh is made once for each skin; the rest shares its arrays.
             numbers += given if (key := (used, tree.get("skin"))) in made else given + moved
             made.add(key)
         require_counts(self._limits, vertices=seen)
@@ -237,6 +248,7 @@ class Scene:
     @property
     def moves(self) -> bool:
         moved = {node for node, _ in self._curves}
+        # A node moves with its parent, and a skinned mesh with any of its joints.
         for node, parent in self._parents.items():  # parents come first
             if parent in moved:
                 moved.add(node)
@@ -245,7 +257,9 @@ class Scene:
 
     @property
     def keys(self) -> Doubles:
+        # One table of times often serves a hundred curves.
         times = {id(curve.times): curve.times for curve in self._curves.values()}  # samplers serve many channels
+        # Rounded to microseconds, because exporters compute equal times in different ways.
         return np.unique(np.round(np.concatenate([np.empty(0), *times.values()]), 6))
 
     def at(self, time: float) -> Doubles:
@@ -264,6 +278,7 @@ class Scene:
             points = self._shown(part, part.points, time)
             matrix = places[part.node]
             if part.skin is not None:
+                # The node of a skinned mesh does not move it; its joints do, as the specification has it.
                 bones = np.array([places[joint] for joint in part.skin.joints]) @ part.skin.inverse
                 matrix = np.zeros((len(points), 4, 4))
                 for joint, weight in zip(part.joints.T, part.weights.T, strict=True):
@@ -279,6 +294,7 @@ class Scene:
                 normals = self._shown(part, part.normals, time)
                 values = shapes.compact(shapes.turned_normals(normals, matrix[..., :3, :3]))
                 columns = (shapes.Column("normal", values, semantic="normal"), *columns)
+            # A mirrored node shows the other side of its faces, so their corners are exchanged.
             sides = np.broadcast_to(np.linalg.det(matrix[..., :3, :3]), part.points.shape[1])
             mirrored = np.median(sides[faces], axis=1) < 0
             turned = np.where(mirrored[:, None], np.arange(3)[::-1], np.arange(3)) + 3 * np.arange(len(faces))[:, None]
@@ -306,6 +322,7 @@ class Scene:
         given = node.get("weights", self._document.item("meshes", node["mesh"]).get("weights", [0.0] * len(targets)))
         curve = self._curves.get((part.node, "weights"))
         weights = np.asarray(given, np.float64).reshape(len(targets)) if curve is None else curve.at(time)
+        # Of hundreds of targets, a face uses a handful at a time.
         used = np.flatnonzero(weights)
         return found + np.asarray(np.tensordot(weights[used], targets[used], 1))
 
@@ -315,6 +332,7 @@ class Scene:
         tables: dict[int, tuple[Doubles, Doubles]] = {}
         for channel in animation.get("channels", []):
             node, path = channel["target"].get("node"), channel["target"]["path"]
+            # Extensions animate materials and visibility, which a mesh has not.
             if node is None or path not in (*_REST, "weights"):
                 self.notes.append(f"channels of {str(path)[:40]} were left out")
                 continue
@@ -352,6 +370,7 @@ class Scene:
             if mode not in TRIANGULAR or "POSITION" not in primitive["attributes"]:
                 self.notes.append(_NO_SURFACES)
                 continue
+            # A forest has a thousand trees of one mesh.
             made = self._made.get((tree["mesh"], number, bound))  # one that stands in several places is made once
             part = self._part(node, primitive, skin, name) if made is None else replace(made, node=node, name=name)
             self._made[tree["mesh"], number, bound] = part
@@ -398,6 +417,8 @@ class Scene:
         if not self._still:
             corners = faces.reshape(-1)
             columns = tuple(replace(column, domain="corner", indices=corners) for column in columns)
+            # For sequences, vertices that are equal in everything that moves them are one. At rest the encoder does
+            # that itself.
             origin = group_rows(np.column_stack([*points, joints, weights, *colors]))
             rows, faces = first_of(origin), origin[faces].astype(np.int64)
         elif "NORMAL" in given:
@@ -407,6 +428,7 @@ class Scene:
             columns = tuple(replace(column, values=column.values[rows]) for column in columns)
             faces = faces.reshape(-1, 3)
         number = int(primitive.get("material", -1))
+        # Our own files have this material where a mesh has none, since viewers draw glTF without one as black metal.
         number = number if document.items("materials")[number : number + 1] != [MATTE] else -1
         moved = points[:, rows], colors[:, rows], faces, skin, joints[rows], weights[rows], columns, normals[:, rows]
         return Primitive(node, *moved, number, name)
@@ -421,6 +443,7 @@ class Scene:
         if joints.size and joints.max() >= most:
             raise FormatError(f"a vertex of {what} depends on joint {joints.max()} of {most}")
         total = weights.sum(axis=1, keepdims=True)
+        # Weights of integers often sum to 254 or 256 of 255.
         return joints, np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
 
     def _of(self, index: object, count: int, width: int, what: str) -> Doubles:
@@ -444,6 +467,7 @@ class Scene:
 
     def _columns(self, given: Tree, count: int) -> tuple[shapes.Column, ...]:
         found: list[shapes.Column] = []
+        # In the order of the file, but sets of a kind by their numbers: TEXCOORD_1 may come before TEXCOORD_0.
         kinds = [name.partition("_")[0] for name in given]
         for name in sorted(given, key=lambda name: (kinds.index(kind := name.partition("_")[0]), name * bool(kind))):
             index, (kind, _, number) = given[name], name.partition("_")  # sets are counted by their order
@@ -467,6 +491,7 @@ class Scene:
 
 def _color(values: Array, name: str, notes: list[str]) -> shapes.Column:
     """Colors, which are linear in glTF, as sRGB; numbers above 1 stay as they are, as colors they mean nothing."""
+    # Such numbers are data under the name of a color. To clip them would lose them.
     if values.dtype.kind == "f" and values.size and not 0 <= values.min() <= values.max() <= 1:
         notes.append(f"parts whose {name} has values above 1, kept as linear numbers and not as a color")
         return shapes.Column(name, shapes.compact(values))
@@ -483,6 +508,7 @@ _NO_SURFACES = "points and lines were left out"
 def read_gltf_mesh(document: Document) -> shapes.MeshFile:
     """Read a scene at rest as one mesh: vertices and faces in the order of the file."""
     with as_format_error("glTF"), np.errstate(all="ignore"):  # a later check refuses infinite values
+        # At rest all vertices come back as they are; of an animation only those that move apart.
         scene = Scene(document, None, document.limits)
         document.limits.check_work(3 * scene.work, scene.vertices, document.received)
         found = _joined(scene, document, 0.0, document.limits)
@@ -523,10 +549,13 @@ def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fra
             f"animation {number} of this glTF moves nothing that is read"
             f"{''.join(f' ({note})' for note in dict.fromkeys(scene.notes))}; leave out --animation for the mesh"
         )
+    # The first key is the first frame: animations often begin late on the time line.
     keys = scene.keys
     rate = wanted.rate or _rate(keys)
+    # The little more keeps the last frame, whose time may be rounded down.
     count = int(np.floor((keys[-1] - keys[0]) * rate + 1e-3)) + 1
     require_counts(limits, frames=count)
+    # A short file can ask for a million frames of a large mesh.
     limits.check_work(scene.work * count, scene.vertices * count, document.received)
     times = keys[0] + np.arange(count) / rate
     still = _joined(scene, document, float(times[0]), limits).checked(limits)
@@ -572,6 +601,7 @@ def _chosen(document: Document, wish: str) -> tuple[int, Tree]:
 
 
 def _rate(keys: Doubles) -> float:
+    # Keys at even times tell the rate. Sparse ones do not, and then the usual rates are tried.
     rate = rate_of_times(keys)
     if 5 <= rate <= 240:
         return rate
@@ -602,11 +632,13 @@ def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> sh
     for name, value in _all_extras(document):
         if name and isinstance(value, str | int | float):
             metadata.setdefault(name, int(value) if isinstance(value, bool) else value)
+    # By the specification, always.
     metadata |= {"up": "y", "unit": "meters"}
     colors = scene.colors(time)
     columns = (*whole.columns, *([_color(colors, "color", [])] if len(colors) else []))
     shades = (conventions.shares_of(c.values[:, 3:]) for c in columns if c.semantic == "color")
     transparent = any(opacity.size and opacity.min() < 1 for opacity in shades)
+    # Only materials that are used come along: libraries of hundreds are common.
     if transparent or any(number >= 0 for number in used):
         words, images = _materials(document, used, transparent)
         metadata |= described(words) | images
@@ -659,6 +691,7 @@ def _materials(document: Document, used: list[int], transparent: bool) -> tuple[
                 found[name] = int(value) if isinstance(value, bool) else value
             elif isinstance(value, list) and all(isinstance(item, int | float) for item in value):
                 found[name] = " ".join(f"{item * (shine if name == 'emissiveFactor' else 1):.6g}" for item in value)
+        # The default of glTF is metal, which most other formats do not have. Said here, it survives.
         if index >= 0 and not appearance(found).said:  # others take a material that says nothing for matte
             found["metallicFactor"] = 1.0
     return words, images

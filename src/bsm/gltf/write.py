@@ -30,6 +30,7 @@ from bsm.gltf.document import WEBP, Growing, bounds_of, mime_of
 
 MOST_FRAMES = 2048
 """Viewers keep targets as the layers of one texture, of which graphics cards have 2,048, and some old ones 256."""
+# Single precision tells times of frames apart up to there, at any usual rate.
 _LATEST = 1 << 14  # number of a frame whose time is exact enough in single precision
 _SORTING = ("part", "material")  # attributes of faces that only sort these
 _HALF = 0.5**0.5
@@ -51,6 +52,8 @@ class _Scene(Growing):
         rows, width = values.shape
         return self.accessor(COMPONENTS[values.dtype.name], rows, width, self.table(values), **more)
 
+    # A weight of one at its own frame and zero elsewhere: a table of T x T numbers, nearly all of them zero. Sparse, it
+    # takes bytes in proportion to T.
     def ones(self, places: Ints, count: int) -> int:
         """An accessor of zeros, with ones at some places: the bytes grow with the places only."""
         views = self.view(places.astype(np.uint32).tobytes()), self.view(np.ones(len(places), np.float32).tobytes())
@@ -73,9 +76,11 @@ class _Scene(Growing):
             mesh = replace(mesh, positions=mesh.positions - origin)
         if not single_suffices(mesh.positions):
             raise MeshError(NO_DOUBLES.format("GLB"))
+        # glTF has one index for all attributes of a vertex.
         split, own = split_with_origin(mesh)
         material, part = formats.face_numbers(split, "material"), formats.face_numbers(split, "part")
         sorting = [np.zeros(len(split.faces), np.int64) if a is None else a.values for a in (part, material)]
+        # A primitive has one material and a node one name, so faces are sorted by both.
         kinds, of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
         arrays, held = _at_vertices(split)
         placed, expressed = placed_node(mesh.metadata, origin)
@@ -83,16 +88,19 @@ class _Scene(Growing):
         images, known = formats.images_in(mesh.metadata), formats.materials_in(mesh.metadata)
         self._sets = sum(name.startswith("TEXCOORD_") for name in arrays)
         materials = {n: self._material(n, words, images, written) for n, words in known.items()}
+        # The default material of glTF is white metal, which reflects a black room.
         bare = [n for n in kinds[:, 1].tolist() if materials.get(n) is None]  # which viewers draw as black metal
         materials |= dict.fromkeys(bare, self.add("materials", dict(MATTE))) if bare else {}
         opacity = next((a.values[:, 3:] for a in held if a.semantic == "color"), np.zeros((0, 1)))
         if opacity.size and conventions.shares_of(opacity).min() < 1:
             for which in {materials[n] for n in kinds[:, 1].tolist()}:  # shows the opacity of vertices
+                # Without it, viewers ignore the opacity of vertices.
                 self.tree["materials"][which].setdefault("alphaMode", "BLEND")
         self.primitives: list[tuple[Tree, Ints]] = []
         for place, (number, its_material) in enumerate(kinds.tolist()):
             used, corners = np.unique(split.faces[of_face.reshape(-1) == place], return_inverse=True)
             called = str(names.get(number) or (mesh.metadata.get("name") if len(kinds) == 1 else None) or stem)
+            # Blender and others rename nodes of equal names, each in its own way.
             called = next(n for n in (called, *(f"{called}_{i}" for i in range(1, len(kinds) + 1))) if n not in taken)
             taken.add(called)
             given = {
@@ -129,6 +137,7 @@ class _Scene(Growing):
                 used |= info.get("extensions", {}).keys()
                 value = {"index": texture, **info}
             elif name == "emissiveFactor" and (most := max(value)) > 1:
+                # Factors of glTF end at 1; brighter ones need this extension.
                 extensions[STRENGTH] = {"emissiveStrength": most}
                 value = [number / most for number in value]
             (surface if name.startswith(("baseColor", "metallic", "roughness")) else found)[name] = value
@@ -144,8 +153,10 @@ class _Scene(Growing):
 
     def _texture(self, name: str, data: bytes, sampler: Tree) -> int | None:
         kind = mime_of(data)
+        # glTF and its extension for WebP allow no others, and viewers would show nothing.
         if kind not in ("image/png", "image/jpeg", "image/webp"):
             return None
+        # Materials often share an image, and it should be in the file once.
         if data not in self._images:
             named = {"name": name} if name else {}
             self._images[data] = self.add("images", {"bufferView": self.view(data), "mimeType": kind, **named})
@@ -187,6 +198,7 @@ def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]
             values = unit_rows(values.astype(np.float64), _UP).astype(np.float32)
             name = name if name not in arrays else ""
         elif name == "TEXCOORD":  # glTF counts from the top, we from the bottom
+            # This turns the picture over; the image itself stays as it is.
             values = np.column_stack([values[:, 0], 1 - values[:, 1]]).astype(np.float32)
         elif name == "COLOR":
             values = conventions.linear_colors(values)
@@ -197,6 +209,8 @@ def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]
             name = f"{name}_{counts[name] - 1}"
         if not name:
             name, values = f"_{attribute.name}", attribute.values.astype(np.float32)
+            # Custom attributes may be floats of 32 bits only. One that would be rounded is left out, and a note names
+            # it.
             if not (values == attribute.values).all():
                 continue
         arrays[name] = values
@@ -219,6 +233,7 @@ def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> It
         moving = _Moving(spool)
 
         def write(frame: Positions, faces: Faces | None = None) -> None:
+            # The first frame is the mesh, and all others are differences from it.
             if not moving.frames:
                 moving.begin(shared.mesh(frame, first), Path(path).stem)
             elif faces is not None:
@@ -231,6 +246,7 @@ def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> It
         yield write
         shared.loses(moving.left_out)
         codes = np.array([shared.code(number) for number in range(moving.frames)])
+        # Time codes that are too large for single precision begin at zero instead.
         if not 0 <= codes[0] <= codes[-1] < _LATEST:
             codes -= codes[0]
             shared.loses(["the number of the first frame"])
@@ -276,6 +292,7 @@ class _Moving(_Scene):
 
     def add_frame(self, mesh: TriangleMesh) -> None:
         run, frame = self._runs[-1], mesh.positions
+        # Refused rather than written: most viewers would show nothing, or crash.
         if self.frames - run.begun == MOST_FRAMES:
             raise LimitError(
                 f"a GLB holds each frame as a morph target, of which viewers take {MOST_FRAMES}; "
@@ -284,6 +301,7 @@ class _Moving(_Scene):
         now = (frame, vertex_normals(frame, self.faces), *self._painted(mesh))
         with np.errstate(over="ignore"):
             deltas = [(values - first).astype(np.float32) for values, first in zip(now, run.first, strict=True)]
+        # JSON has no infinity, and the bounds of an accessor are JSON.
         if not all(np.isfinite(delta).all() for delta in deltas):
             raise MeshError(f"frame {self.frames} is beyond single precision, which GLB has")
         self.frames += 1
@@ -308,14 +326,18 @@ class _Moving(_Scene):
             count = end - run.begun - 1
             for primitive, rows in run.primitives:
                 if any("COLOR_0" in one for one in primitive["targets"]):  # then all have to; without bytes it is 0
+                    # All targets of a primitive must have the same attributes. An accessor without bytes is zero
+                    # everywhere.
                     zeros = self.accessor(FLOAT, len(rows), run.first[2].shape[1])
                     primitive["targets"] = [{"COLOR_0": zeros} | target for target in primitive["targets"]]
             if count:
                 weights = self.ones(count + np.arange(count) * (count + 1), (count + 1) * count)
                 move(run.nodes, "weights", np.arange(run.begun, end), weights, "LINEAR")
                 for node in run.nodes:
+                    # Viewers that play no animation show the first frame.
                     self.tree["meshes"][self.tree["nodes"][node]["mesh"]]["weights"] = [0.0] * count
             if len(self._runs) > 1:
+                # glTF cannot hide a node. A scale of zero does, and every viewer plays it.
                 times = np.array([0, run.begun, end][run.begun == 0 : 3 - (end == self.frames)])
                 seen = np.array([0, 1, 0][run.begun == 0 : 3 - (end == self.frames)])
                 sizes = np.tile(seen[:, None], 3) * np.array(self.tree["nodes"][run.nodes[0]].get("scale", [1.0] * 3))
@@ -338,6 +360,7 @@ def moving_scene(stream: bytes) -> bytes:
     """A .glb whose one mesh shows the frames of a stream, which is in it as it is (`spec/EXT_bsm_compression.md`)."""
     sequence = SequenceStream(iter([stream]))
     _, positions = next(sequence.changing_frames())
+    # Those that sort faces are lost in one primitive; others would be lost without a word, and are refused.
     attributes = tuple(a for a in sequence.attributes if a.domain != "face" or a.name not in _SORTING)
     for attribute in attributes:
         if attribute.domain == "face":
@@ -358,6 +381,7 @@ def moving_scene(stream: bytes) -> bytes:
         view: Tree = {"buffer": 1, "byteLength": size, "extensions": {EXTENSION: {"stream": source, "attribute": name}}}
         places[name] = scene.accessor(component, count, width, scene.add("bufferViews", view))
     scene.tree["accessors"][0] |= bounds_of(positions.astype(np.float32))
+    # Filled by decoders from the stream, frame after frame, so it is as large as the largest array only.
     scene.add("buffers", {"byteLength": largest, "extensions": {EXTENSION: {"fallback": True}}})
     metadata: Metadata = sequence.metadata
     node = {"name": str(metadata["name"])} if "name" in metadata else {}
