@@ -13,7 +13,7 @@ of one block a good start for the next.
 """
 
 import importlib.util
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -100,6 +100,8 @@ class Blocks:
     starts: Order
     edges: Order
     members: Indices
+    exact: dict[int, Basis] = field(default_factory=dict, init=False, repr=False)
+    """Exact bases of blocks, as wide as they were made (`codec/signal/chain.py`)."""
 
     @property
     def count(self) -> int:

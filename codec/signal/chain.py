@@ -20,7 +20,11 @@ import numpy as np
 
 from bsm._core import Chain as Steps
 from bsm.codec.arrays import Basis, Indices, Matrix
+from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blocks
+
+HELD = 1 << 26  # bytes of exact bases that are kept for other attempts at a mesh
+ROUGH_SHIFT = 1 / 32  # delta of a basis that only estimates
 
 
 class Around(NamedTuple):
@@ -84,6 +88,7 @@ class Chain(Steps):
 
     def __init__(self, rules: ChainRules, blocks: Blocks, width: int = 0) -> None:
         graph, self._own = blocks.graph, rules.overrides
+        self._blocks, self._keeps, self._rows = blocks, rules.exact and not rules.springs, 0
         arrays = graph.offsets, graph.neighbors, blocks.cores, blocks.starts, blocks.edges, blocks.members
         # Overrides are functions of Python, which the chain in C knows nothing of.
         given = {name: value for name, value in vars(rules).items() if name != "overrides"}
@@ -92,6 +97,7 @@ class Chain(Steps):
     def begin(self, index: int) -> tuple[Indices, Matrix, Matrix]:
         """Return the vertices of the next block, its prediction, shape (n_i, 3), and its weights in a blend."""
         vertices, prediction, weights = super().begin(index)
+        self._index, self.is_exact, self._rows = index, self._keeps and len(vertices) != self._rows, len(vertices)
         # The site costs copies of arrays, and only researchers ask for it.
         if self._own is not AS_SPECIFIED:
             self._site = Around(vertices, *self.site(), prediction)
@@ -102,11 +108,32 @@ class Chain(Steps):
     def dictionary(self, width: int) -> Basis:
         """U of the block, shape (n_i, width), a function of connectivity and earlier widths only."""
         if self._own.dictionary is None:
-            return super().dictionary(width)
+            return self._exact(width) if self.is_exact else super().dictionary(width)
         own = np.ascontiguousarray(self._own.dictionary(self._site, width, super().dictionary), np.float32)
         # The next block starts from this dictionary, as a decoder with the same override would.
         self.give(own)
         return own
+
+    def _exact(self, width: int) -> Basis:
+        """The exact basis of a block: it takes long, and depends on nothing but the block, so that it is kept."""
+        held = self._blocks.exact
+        if self.held >= width:
+            basis = np.ascontiguousarray(held[self._index][:, :width])
+            self.give(basis)
+            return basis
+        basis = super().dictionary(width)
+        if sum(other.nbytes for other in list(held.values())) + basis.nbytes <= HELD:
+            held[self._index] = basis
+        return basis
+
+    @property
+    def held(self) -> int:
+        """Columns of the exact basis that are kept."""
+        return self._blocks.exact[self._index].shape[1] if self._index in self._blocks.exact else 0
+
+    def rough(self, width: int) -> Basis:
+        """About the exact basis, by a few iterations from cosines."""
+        return self._blocks.block(self._index).iterated(cosine_columns(self._rows, width), ROUGH_SHIFT, 2, 4)
 
     def costs(self, width: int) -> tuple[float, float, float]:
         """Work of the dictionary and of the rest of the block, nanoseconds, and memory, by decoders' estimate."""

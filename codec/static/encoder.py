@@ -85,6 +85,8 @@ class Encoder:
     ----------
     look : float or None
         The look distance of the decoded mesh, once it has been checked; None if the options promise no look.
+    decoded : TriangleMesh or None
+        The decoded mesh, once it has been checked.
     binding : str
         The bound that keeps the stream from being smaller, once it has been checked: "look", "vertex error", "normal
         error" or "visual error"; "step" if wider steps that were tried break a bound. Empty without a promise.
@@ -106,6 +108,7 @@ class Encoder:
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._input = Sent(mesh, self.options)
         self.look: float | None = None
+        self.decoded: TriangleMesh | None = None
         self.binding = ""
         self.unseen = ""
         self._kept_exactly = False
@@ -317,7 +320,7 @@ class Encoder:
         original = AsGiven(self._input.given, self._input.joined, self._input.prepared)
         with as_of_decoders(self.options.limits):
             limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
-            verify(draft, original, self._input.carried, self._input.given.metadata, limits, threads)
+            self.decoded = verify(draft, original, self._input.carried, self._input.given.metadata, limits, threads)
         broken = ""
         if contract is not None:
             broken, self.look, self.binding = self._input.measured(draft, contract)

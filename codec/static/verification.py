@@ -77,7 +77,7 @@ def verify(
     metadata: Metadata,
     limits: Limits,
     threads: int | None,
-) -> None:
+) -> TriangleMesh:
     """Decode a draft; `VerificationError` unless positions are equal bit for bit, and all else is as promised."""
     try:
         decoded = decode(b"".join(draft.frames), limits, threads)
@@ -92,6 +92,7 @@ def verify(
     # All else must come back as well: a stream that loses a unit is as wrong as one that loses a vertex.
     require(decoded.metadata == dict(metadata), "the decoded metadata differ")
     require_attributes(decoded.attributes, carried, decoded.faces, original)
+    return decoded
 
 
 def require_positions(decoded: Positions, expected: Positions, matched: Order, loose: Positions) -> None:

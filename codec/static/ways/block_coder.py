@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from copy import copy
 from dataclasses import dataclass
 from threading import Lock
 from typing import TypeAlias
@@ -67,15 +68,30 @@ def offer(
 ) -> tuple[Basis, Matrix]:
     """U of a block with c_i columns, and its coefficients of a residual; no column depends on how many are tried."""
     most = min(most, len(residual))
-    tried = most if sizes is None else min(most, sizes.reach)
-    while True:
+
+    def made(width: int) -> Basis:
         if charge is not None:
             # Before the work is done: a chain of wide blocks could take hours that end with a refusal.
-            charge(chain.costs(tried)[0])
-        dictionary = chain.dictionary(tried)
-        coefficients = project(dictionary, residual, dictionary.shape[1])
-        if sizes is None:
-            return dictionary, coefficients
+            charge(chain.costs(width)[0])
+        return chain.dictionary(width)
+
+    if sizes is None:
+        dictionary = made(most)
+        return dictionary, project(dictionary, residual, most)
+    first = sizes.reach
+    if chain.is_exact:  # it is dear, so that a rough one tells how many columns to try
+        first = chain.held or len(_fitting(chain.rough, residual, most, copy(sizes), first)[1]) * 9 // 8 + 8
+    return _fitting(made, residual, most, sizes, first)
+
+
+def _fitting(
+    made: Callable[[int], Basis], residual: Matrix, most: int, sizes: DynamicSize, tried: int
+) -> tuple[Basis, Matrix]:
+    """As many columns of U, and coefficients, as the error asks for; `tried` at first."""
+    while True:
+        tried = min(tried, most)
+        dictionary = made(tried)
+        coefficients = project(dictionary, residual, tried)
         # What the tried columns leave is known exactly; the coefficients then tell it for every smaller number of them.
         left = float(np.square(residual - reconstruct(dictionary, coefficients)).mean())
         size = sizes.follow(3.0 * left, coefficients / len(residual) ** 0.5)
@@ -83,7 +99,7 @@ def offer(
             # The next block begins from these columns only, as it will in a decoder.
             return np.ascontiguousarray(dictionary[:, :size]), coefficients[:size]
         # Doubling: at most twice the work of the right number, wherever that is.
-        tried = min(2 * tried, most)
+        tried *= 2
 
 
 class ChainEncoder:

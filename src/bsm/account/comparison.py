@@ -12,9 +12,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import ArgumentError, FormatError, MeshError, public
-from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Faces, Mask, Order, Positions
-from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.graph import canonical, canonical_order
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
@@ -321,13 +319,13 @@ def errors_of(found: Mapping[str, AttributeComparison | None], original: Triangl
     return known
 
 
-def lost_attributes(original: TriangleMesh, stream: bytes) -> dict[str, Errors | None]:
-    """Return the errors of attributes after a stream, as `bsm compare` finds them; none where it cannot compare."""
+def lost_attributes(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, Errors | None]:
+    """Return the errors of attributes after decoding, as `bsm compare` finds them; none where it cannot compare."""
     found: dict[str, AttributeComparison | None] = {}
-    with suppress(MeshError):
-        decoded = decode(stream, Limits.wide()) if original.attributes else original
-        first, second = (mesh.without_isolated_vertices()[0] for mesh in (original, decoded))
-        found = compare_attributes(first, second, pair(first, second)) if original.attributes else {}
+    if original.attributes:
+        with suppress(MeshError):
+            first, second = (mesh.without_isolated_vertices()[0] for mesh in (original, decoded))
+            found = compare_attributes(first, second, pair(first, second))
     return errors_of(found, original) if found else {}
 
 

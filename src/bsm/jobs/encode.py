@@ -146,7 +146,8 @@ def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
             write_output(name, data, overwrite=True, follow=str(Path(name).parents[1]))
     seconds = time.perf_counter() - begin
     # Fewer triangles have other corners, at which attributes cannot be compared.
-    attributes = {} if found.apart is not None else lost_attributes(source.mesh, b"".join(result.frames))
+    checked = found.apart is None and encoder.decoded
+    attributes = lost_attributes(source.mesh, checked) if checked else {}
     notes = [*source.notes, *given.losses, *found.notes, *(_measured(note, attributes) for note in encoder.notes)]
     notes += given.notes[len(given.losses) :]
     # Images that stay as they are need no second look, and Pillow takes long to load.

@@ -13,6 +13,8 @@ from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.blocks import overlap
 from bsm.codec.geometry.metrics import mean_edge_length
+from bsm.codec.signal import chain
+from bsm.codec.signal.chain import Chain
 from bsm.codec.static.ways import block_coder
 from bsm.encoding.options import encode_options
 from bsm.evaluation.curve import paper_options
@@ -168,3 +170,29 @@ ODD = {
 @pytest.mark.parametrize("name", ODD)
 def test_every_mesh_gives_a_stream(name):
     assert bsm.compare(ODD[name], bsm.encode(ODD[name], preset="paper")).max_error_relative < 0.1
+
+
+def test_an_exact_basis_is_made_once_and_is_the_same_at_any_width(monkeypatch):
+    encoder = Encoder(MESH, EncodeOptions(preset="paper", **SMALL))
+    prepared, rules = encoder._input.prepared, encoder._spectral._rules()
+    fresh = Chain(rules, replace(prepared.blocks))
+    fresh.begin(0)
+    narrow = fresh.dictionary(20)
+    wide = fresh.dictionary(60)
+    assert fresh.is_exact and fresh.held == 60
+    assert np.array_equal(wide[:, :20], narrow)
+    again = Chain(rules, fresh._blocks)
+    vertices, *_ = again.begin(0)
+    assert again.held == 60
+    monkeypatch.setattr(Chain.__base__, "dictionary", None)  # what is held is not made
+    kept = again.dictionary(30)
+    assert np.array_equal(kept, wide[:, :30])
+    again.commit(30, np.ascontiguousarray(prepared.positions[vertices]))
+    again.begin(1)
+    assert not again.is_exact  # a block of the same size follows
+
+
+def test_bytes_do_not_depend_on_what_is_kept(monkeypatch):
+    wanted = bsm.encode(MESH, preset="paper", **SMALL)
+    monkeypatch.setattr(chain, "HELD", 0)
+    assert bsm.encode(MESH, preset="paper", **SMALL) == wanted
