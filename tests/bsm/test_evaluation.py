@@ -150,8 +150,8 @@ class TestPictures:
         """Two lines on each of two meshes."""
 
         def point(bpv, db, theta, settings):
-            numbers = {"bpv_total": bpv, "bpv_paper": bpv, "nmsve_db": db, "theta_deg": theta, "decode_seconds": bpv}
-            return {"settings": settings, **numbers}
+            numbers = {"bpv_total": bpv, "bpv_paper": bpv, "nmsve_db": db, "nmsve_paper_db": db, "theta_deg": theta}
+            return {"settings": settings, **numbers, "encode_seconds": bpv, "decode_seconds": bpv}
 
         asked = [{"target": {"kind": "theta_deg", "value": value}} for value in (9, 1)]
         lines = {
@@ -173,7 +173,10 @@ class TestPictures:
                 assert path.read_bytes().startswith(start)
         names = {f"{stem}.{suffix}" for stem in ("m.paper", "m.nmsve", "m.theta") for suffix in ("png", "svg", "pdf")}
         assert {path.name for path in tmp_path.iterdir()} == names
-        exact = [{**found, "points": [{**p, "nmsve_db": None} for p in found["points"]]} for found in results[:3]]
+        exact = [
+            {**found, "points": [{**p, "nmsve_db": None, "nmsve_paper_db": None} for p in found["points"]]}
+            for found in results[:3]
+        ]
         assert [picture.name for picture in draw_all(exact)] == ["m.theta"]
 
     def test_lines_of_the_paper_that_are_named_are_among_whole_files(self, results):
@@ -204,11 +207,12 @@ class TestPictures:
         seen = {}
         for picture in draw_all(results):
             picture.draw(drawn := figure.Figure())
+            assert all((axes.get_xscale() == "log") != ("paper" in picture.name) for axes in drawn.axes)
             seen[picture.name] = [{line.get_color() for line in axes.lines} for axes in drawn.axes]
             for legend in drawn.legends:
                 labels = [text.get_text() for text in legend.get_texts()]
                 asked = ["ours, asked for 9 to 1°"] if "theta" in picture.name else []
-                assert labels == (["svd"] if "paper" in picture.name else [*asked, "draco", "svd"])
+                assert labels == (["svd (4 s)"] if "paper" in picture.name else [*asked, "draco", "svd"])
         assert set(seen) == {"m.paper", "n.paper", "meshes.nmsve", "meshes.theta"}
         color = {name: STYLES[name][0] for name in ("ours", "draco", "svd")}
         assert seen["m.paper"] == seen["n.paper"] == [{color["svd"]}]

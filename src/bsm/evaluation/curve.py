@@ -286,7 +286,8 @@ def read_results(folder: Path) -> Iterator[Result]:
         yield {**result, "points": points}
 
 
-_POINT: Result = {"settings": {}, "bpv_total": 0.0, **dict.fromkeys(("nmsve_db", "theta_deg"))}
+PRINTED = "nmsve_paper_db"
+_POINT: Result = {"settings": {}, "bpv_total": 0.0, **dict.fromkeys(("nmsve_db", "theta_deg", PRINTED))}
 """The entries of every point; None: it was not measured, or is exact."""
 
 
@@ -508,7 +509,9 @@ def in_a_row(name: str, pictures: Sequence[Picture]) -> Picture:
     return Picture(name, draw, sum(p.width for p in pictures), max(p.height for p in pictures))
 
 
-def draw_rates(panels: Mapping[str, Mapping[str, Line]], rate: str, measure: str, name: str) -> Picture:
+def draw_rates(
+    panels: Mapping[str, Mapping[str, Line]], rate: str, measure: str, name: str, scale: str = "log"
+) -> Picture:
     """A panel for each title, with lines by their codecs; `rate` and `measure` label the axes."""
     across = min(len(panels), 3)
     down = -(-len(panels) // across)
@@ -524,19 +527,22 @@ def draw_rates(panels: Mapping[str, Mapping[str, Line]], rate: str, measure: str
                 color, marker = STYLES.get(codec) or next(others)
                 shown[label] = axes.plot(*zip(*sorted(points)), marker=marker, color=color)[0]
             rates = [x for _, points in lines.values() for x, _ in points]
-            axes.set(xscale="log", xlabel=rate, title=title)
-            axes.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
-            axes.minorticks_off()
+            axes.set(xscale=scale, xlabel=rate, title=title)
+            if scale == "log":
+                axes.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
+                axes.minorticks_off()
+                axes.set_xlim(min(rates) * 0.9, max(rates) * 1.1)
             if "dB" not in measure:
                 axes.set_yscale("log")
                 axes.yaxis.set_major_formatter("{x:g}")
-            axes.set_xlim(min(rates) * 0.9, max(rates) * 1.1)
             axes.grid(alpha=0.3)
         for row in grid:
             row[0].set_ylabel(measure)
-        figure.legend(shown.values(), shown, loc="outside lower center", ncols=min(len(shown), across + 1))
+        figure.legend(shown.values(), shown, loc="outside lower center", ncols=min(len(shown), abreast))
 
-    return Picture(name, draw, 3.2 * across if across > 1 else 4.2, 2.7 * down + 0.4)
+    labels = {line.label for lines in panels.values() for line in lines.values()}
+    abreast = across + (max(map(len, labels)) < 40)
+    return Picture(name, draw, 3.2 * across if across > 1 else 4.2, 2.7 * down + 0.13 * (len(labels) // abreast + 2))
 
 
 def frame_errors(frames: Sequence[Mapping[str, float]], title: str) -> bytes:
@@ -564,10 +570,15 @@ def draw_all(results: Iterable[Result], named: Iterable[str] = ()) -> Iterator[P
     for mesh, group in by_mesh.items():
         paper = [r for r in group if r["points"] and "bits" in r["points"][0]["settings"]]
         rest = [r for r in group if r not in paper]
-        usable = {r["codec"]: (r["label"], points_of(r["points"], "nmsve_db")) for r in paper}
-        pairs = {c: Line(label, [(p["bpv_paper"], p["nmsve_db"]) for p in each]) for c, (label, each) in usable.items()}
-        if lines := distinct({codec: line for codec, line in pairs.items() if line.points}):
-            yield draw_rates({title_of(group[0]): lines}, PAPER_RATE, MEASURES["nmsve_db"], f"{mesh}.paper")
+        usable = {r["codec"]: (r["label"], points_of(r["points"], PRINTED)) for r in paper}
+        pairs = {
+            codec: Line(label + seconds_of(each), [(p["bpv_paper"], p[PRINTED]) for p in each])
+            for codec, (label, each) in usable.items()
+            if each
+        }
+        if lines := distinct(pairs):  # as Figure 11 of the paper
+            axes = PAPER_RATE, "NMSVE as printed, dB"
+            yield draw_rates({title_of(group[0]): lines}, *axes, f"{mesh}.paper", "linear")
         if rest:  # SVD in the paper's mode represents the paper among whole files.
             shown[mesh] = [*rest, *(r for r in paper if r["codec"] in chosen)]
     stem = next(iter(shown)) if len(shown) == 1 else "meshes"
@@ -611,6 +622,12 @@ def points_of(points: Sequence[Result], measure: str) -> list[Result]:
     """The points of a line of one of `MEASURES`: not those that were chosen for another, nor lossless ones."""
     kinds = [point.get("settings", {}).get("target", {}).get("kind", measure) for point in points]
     return [p for p, kind in zip(points, kinds, strict=True) if kind == measure and p[measure] is not None]
+
+
+def seconds_of(points: Sequence[Result]) -> str:
+    """The times that encoding took, in words."""
+    times = sorted({f"{point['encode_seconds']:.2g}" for point in points if point.get("encode_seconds")}, key=float)
+    return f" ({' to '.join(times[:: max(1, len(times) - 1)])} s)" if times else ""
 
 
 def title_of(result: Result) -> str:
