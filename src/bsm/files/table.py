@@ -81,7 +81,7 @@ FORMATS: Mapping[str, Format] = {
     "dae": Format("read_dae", by_path=True, modules=("bsm.files.formats.dae", "collada", "lxml.etree")),
     **dict.fromkeys(USD_FORMATS, replace(_USD, times=_TIMED)),
     **{kind: _lines(name) for kind, name in _LINES.items()},
-    "msh": Format("read_gmsh", by_path=True, modules=("bsm.files.formats.gmsh", "meshio.gmsh")),
+    "msh": Format("read_gmsh_mesh", frames="r", by_path=True, modules=("bsm.files.formats.gmsh", "meshio.gmsh")),
     **{
         kind: Format(
             "read_vtk",

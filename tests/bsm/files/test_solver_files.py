@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm.files.motion.frames import Wanted
+from bsm.files.sequence import open_sequence
 
 SQUARE = ((1, 0, 0, 0), (2, 1, 0, 0), (3, 1, 1, 0), (4, 0, 1, 0))
 GRIDS = "".join(f"GRID,{n},,{x}.,{y}.,{z}.\n" for n, x, y, z in SQUARE)
@@ -178,9 +180,10 @@ def test_files_of_gmsh(version, binary, order, tmp_path, monkeypatch):
         of = dict(zip(tags.astype(int).tolist(), places[::3].tolist(), strict=True))
     finally:
         gmsh.finalize()
-    for step in range(2 * (not binary)):
+    for step in range(2 * (not binary)):  # Gmsh repeats the form before values
         rows = "".join(f"{number} {of[number] + step}\n" for number in sorted(of, reverse=True))
         with open(path, "a") as file:
+            file.write(f"$MeshFormat\n{version} 0 8\n$EndMeshFormat\n")
             file.write(f'$NodeData\n1\n"x"\n1\n{step}\n3\n{step}\n1\n{len(of)}\n{rows}$EndNodeData\n')
     mesh, _, dropped = vars(bsm.read_mesh(path)).values()
     values = next((a.values[:, 0] for a in mesh.attributes if a.name == "x"), mesh.positions[:, 0])
@@ -190,6 +193,36 @@ def test_files_of_gmsh(version, binary, order, tmp_path, monkeypatch):
     sides = mesh.positions[mesh.faces].mean(axis=1)[:, 0] > 4
     names = [mesh.metadata[f"group.{n}.name"] for n in range(2)]
     assert [names[number] for number in numbers] == ["plate" if side else "inside" for side in sides]
+
+    if not binary:
+        moving = open_sequence(path, wanted=Wanted())
+        assert moving.count == 2 and moving.frame_rate == 1 and "later steps" not in " ".join(moving.notes)
+        second = [*moving.meshes][1]
+        at = next(a.values[:, 0] for a in second.attributes if a.name == "x")
+        assert np.allclose(at, second.positions[:, 0] + 1)
+
+
+def test_elements_of_several_groups_are_there_once(tmp_path):
+    gmsh = pytest.importorskip("gmsh", reason="files are written with Gmsh: pip install gmsh")
+    path = tmp_path / "a.msh"
+    gmsh.initialize(interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addRectangle(0, 0, 0, 2, 1)
+        gmsh.model.occ.synchronize()
+        for name in ("one", "other"):
+            gmsh.model.addPhysicalGroup(2, [1], name=name)
+        gmsh.model.mesh.generate(2)
+        gmsh.option.setNumber("Mesh.MshFileVersion", 2.2)
+        gmsh.write(str(path))
+    finally:
+        gmsh.finalize()
+    found = bsm.read_mesh(path)
+    assert area_of(found.mesh) == pytest.approx(2)
+    assert (
+        "the group other" in found.dropped
+        and f"elements that are there again ({len(found.mesh.faces)})" in found.dropped
+    )
 
 
 def test_files_of_pynastran(tmp_path):
@@ -217,3 +250,9 @@ def test_files_of_pynastran(tmp_path):
         ours = np.linalg.norm(np.cross(*np.diff(mesh.positions[mesh.faces[shells]], axis=1).swapaxes(0, 1)), axis=1)
         assert ours == pytest.approx(np.linalg.norm(np.cross(b - a, c - a), axis=1), rel=1e-4)
         assert len(mesh.positions) == 19 and (~shells).sum() == 12
+
+
+def test_lines_of_no_stl_are_named(tmp_path):
+    facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+    found = read(tmp_path / "a.stl", f"solid a\ncolor 1 0 0\n{facet}endsolid a\n")
+    assert area_of(found.mesh) == pytest.approx(0.5) and found.dropped == ("lines that begin with color",)

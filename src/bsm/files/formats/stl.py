@@ -58,7 +58,7 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
     metadata: dict[str, str] = {}
     wrong = ""
     if is_text(data, len(data)):
-        soup, columns, metadata = _of_text(data)
+        soup, columns, metadata, wrong = _of_text(data)
     else:
         count, wrong = binary_triangles(data, len(data))
         require_counts(limits, faces=count)
@@ -77,8 +77,8 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
     return Polygons(soup[first], sizes, corners.astype(np.int64), (note,), dropped, tuple(columns), metadata)
 
 
-def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str]]:
-    """The corners of a text, and its solids as groups, of which several may have the same name."""
+def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str], str]:
+    """The corners of a text, its solids as groups, of which several may have the same name, and lines of no STL."""
     data = re.sub(rb"(?i)\bend[ \t]+(solid|facet|loop)\b", rb"end\1", re.sub(rb"\r\n?", b"\n", data))
     if re.search(rb"(?i)\b(outer[ \t]+loop[ \t]+vertex|endloop[ \t]+endfacet)\b", data):  # lines of several words
         data = re.sub(rb"(?i)(?<=[ \t])((?:end)?facet|outer|(?:end)?loop|vertex)(?=\s)", rb"\n\1", data)
@@ -98,7 +98,9 @@ def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str]]:
     used, of_facet = np.unique(np.array(facets, np.int64), return_inverse=True)
     called = [("", *names)[solid] for solid in used.tolist()]
     columns = [Column("group", of_facet.astype(np.int32), "face")] if len(used) > 1 else []
-    return Rows(lines, "corner").columns(0, 3), columns, named(called, "group") if any(called) else {}
+    others = re.findall(rb"(?im)^[ \t]*(?!(?:(?:end)?(?:solid|facet|loop)|outer|vertex)\b)(\S+)", data)
+    wrong = f"lines that begin with {', '.join(sorted({text_of(word) for word in others}))}"[:200] if others else ""
+    return Rows(lines, "corner").columns(0, 3), columns, named(called, "group") if any(called) else {}, wrong
 
 
 def write_stl(mesh: TriangleMesh, stem: str) -> Written:

@@ -81,7 +81,7 @@ def _stems(names: Sequence[str]) -> list[str]:
 
 
 def _varying(stems: Sequence[str]) -> tuple[str, list[str]]:
-    """The numbers that alone tell names apart, with what is around the first; none if there are no such."""
+    """The numbers that alone tell names apart, or none; and the letters around the first."""
     rows = [_DECIMALS.split(stem) for stem in stems]
     places = [place for place, values in enumerate(zip(*rows)) if len(set(values)) > 1]
     if len({*map(len, rows)}) != 1 or len(places) != 1 or places[0] % 2 == 0:
