@@ -61,7 +61,7 @@ _USD = Format("read_usd_mesh", frames="rw", unit="named", up="named", modules=_P
 _3MF = "bsm.files.formats.three_mf"
 _LINES = {"inp": "abaqus", "bdf": "nastran", "nas": "nastran"}
 _VTK = {
-    "vtkIOLegacy": "vtk", "vtkIOXML": "vtu pvtu vtm pvtp vts pvts vtr pvtr vti pvti", "vtkIOHDF": "vtkhdf",
+    "vtkIOLegacy": "vtk", "vtkIOXML": "vtu pvtu vtm vtpc pvtp vts pvts vtr pvtr vti pvti", "vtkIOHDF": "vtkhdf",
     "vtkIOEnSight": "case encas", "vtkIOExodus": "exo ex2 e", "vtkIOCGNSReader": "cgns", "vtkIOGeometry": "foam",
 }  # fmt: skip
 """Suffixes of what modules of VTK read."""

@@ -126,6 +126,23 @@ def test_skins_of_vtk_look_outwards_with_the_values_of_their_cells(kind, curved,
     assert (mesh.attributes[0].values[:, 0] == np.where(moved, 8, 3)).all()
 
 
+def test_cells_of_another_piece_close_the_skin_and_go(tmp_path):
+    save_grid(tmp_path / "a.vtu", POINTS, HEXAHEDRA, {}, {"vtkGhostType": np.array([0, 1], np.uint8)})
+    mesh = bsm.read_mesh(tmp_path / "a.vtu").mesh
+    assert len(mesh.faces) == 10 and mesh.positions[mesh.faces].max() == 1
+
+
+def test_a_collection_of_partitions_is_read(tmp_path):
+    model = pytest.importorskip("vtkmodules.vtkCommonDataModel").vtkPartitionedDataSetCollection()
+    model.SetPartition(0, 0, grid(POINTS, HEXAHEDRA[:1]))
+    model.SetPartition(1, 0, grid(POINTS, HEXAHEDRA[1:]))
+    writer = pytest.importorskip("vtkmodules.vtkIOParallelXML").vtkXMLPartitionedDataSetCollectionWriter()
+    writer.SetFileName(str(tmp_path / "a.vtpc"))
+    writer.SetInputData(model)
+    assert writer.Write()
+    assert volume_of(bsm.read_mesh(tmp_path / "a.vtpc").mesh) == pytest.approx(2)
+
+
 LEGACY = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET "
 XML = '<VTKFile type="{0}" version="0.1" byte_order="LittleEndian"><{0}{1}>{2}</{0}></VTKFile>'
 PIECE = (

@@ -33,8 +33,9 @@ _READERS = {
     "vtkIOLegacy": "vtkGenericDataObjectReader", "vtkIOXML": "vtkXMLGenericDataObjectReader",
     "vtkIOHDF": "vtkHDFReader", "vtkIOEnSight": "vtkGenericEnSightReader", "vtkIOExodus": "vtkExodusIIReader",
     "vtkIOCGNSReader": "vtkCGNSReader", "vtkIOGeometry": "vtkOpenFOAMReader",
+    "vtpc": "vtkXMLPartitionedDataSetCollectionReader",
 }  # fmt: skip
-"""The reader in each module of VTK."""
+"""The reader in each module of VTK, or of a suffix."""
 _ALL_OF = ("PointArrays", "CellArrays", "Bases", "Families", "PatchArrays")
 _CELL = "vtkCell"
 _OWN = re.compile(f"vtkGhostType|vtkValidPointMask|{_CELL}")
@@ -49,7 +50,8 @@ def read_vtk(path: str, kind: str, limits: Limits, step: int = 0) -> tuple[Polyg
     size = Path(path).stat().st_size
     with as_library_error("VTK"):
         module = FORMATS[kind].modules[1]
-        reader = getattr(imported(module, "", "simulation"), _READERS[module.partition(".")[2]])()
+        name = _READERS.get(kind) or _READERS[module.partition(".")[2]]
+        reader = getattr(imported(module, "", "simulation"), name)()
         getattr(reader, "SetCaseFileName" if module.endswith("EnSight") else "SetFileName")(path)
         times = _opened(reader, kind, size, limits)
         if times:
@@ -123,6 +125,7 @@ def _part(data: Any, name: str, left: dict[str, None]) -> Part | None:
         numbers.SetName(_CELL)  # where cells are curved, those that the filter passes count something else
         data.GetCellData().AddArray(numbers)
         surface = _through(vtkDataSetSurfaceFilter(), data)
+    surface.RemoveGhostCells()  # those of other pieces, which close the skin of this one
     before = surface.GetNumberOfVerts() + surface.GetNumberOfLines()
     left |= {"points and lines": None} if before else {}
     if surface.GetNumberOfStrips():
@@ -162,6 +165,8 @@ def _inward(data: Any, cells: Ints, positions: Doubles, sizes: Ints, corners: In
     dims = {kind: vtkGenericCell.InstantiateCell(kind).GetCellDimension() for kind in np.unique(kinds).tolist()}
     solid = np.array([dims[kind] == 3 for kind in kinds.tolist()])[np.searchsorted(np.unique(cells), cells)]
     left |= {INSIDE: None} if solid.any() else {}
+    for given in (data.GetPointData(), data.GetCellData()):
+        given.RemoveArray("vtkGhostType")  # cells that are hidden have middles, too
     middles = vtk_to_numpy(_through(vtkCellCenters(), data).GetPoints().GetData())[cells]
     centers = np.add.reduceat(positions[corners], np.cumsum(sizes) - sizes) / sizes[:, None]
     return solid & ((polygon_normals(positions, sizes, corners) * (centers - middles)).sum(axis=1) < 0)
