@@ -46,7 +46,7 @@ def _own(kind: str, begins: bytes, **more: Any) -> Format:
 
 
 def _lines(kind: str) -> Format:
-    return Format(f"read_{kind}", modules=(f"bsm.files.formats.{kind}",))
+    return Format(f"read_{kind}", by_path=True, modules=(f"bsm.files.formats.{kind}",))
 
 
 _EMPTY_PLY = b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"

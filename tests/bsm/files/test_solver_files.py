@@ -54,6 +54,18 @@ NASTRAN = {
         1,
         [9, 1, 0, 10, 2, 0],
     ),
+    "nodes that make a cylindrical system": (
+        "GRID,11,,10.,0.,0.\nGRID,12,,10.,0.,1.\nGRID,13,,11.,0.,0.\nCORD1C,4,12,11,13,5,11,12,13\n"
+        "GRID,1,5,1.,0.,0.\nGRID,2,5,1.,90.,0.\nGRID,3,5,2.,0.,0.\nCTRIA3,1,7,1,2,3\n",
+        0.5,
+        [10, 0, 0, 12, 1, 0],
+    ),
+    "a spherical system": (
+        "CORD2S,5,,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,1,5,1.,90.,0.\nGRID,2,5,1.,90.,90.\nGRID,3,5,1.,0.,0.\n"
+        "CTRIA3,1,7,1,2,3\n",
+        3**0.5 / 2,
+        [0, 0, 0, 1, 1, 1],
+    ),
     "one card twice": (GRIDS + GRIDS + "CTRIA3,1,7,1,2,3\n", 0.5, [0, 0, 0, 1, 1, 0]),
     "an edge without a node": (GRIDS + "CTRIA6,1,7,1,2,3\n", 0.5, [0, 0, 0, 1, 1, 0]),
 }
@@ -102,6 +114,19 @@ def test_input_of_abaqus_is_read_as_it_is_meant(what, tmp_path):
     assert "beams" not in what or "left out: elements of the type B31 (1), elements of the type MASS (1)" in notes
 
 
+@pytest.mark.parametrize("isolated", [None, True])
+def test_files_include_others(isolated, tmp_path):
+    (tmp_path / "below").mkdir()
+    (tmp_path / "below" / "n.inp").write_text(NODES)
+    (tmp_path / "e.txt").write_text("1, 1,2,3,4")
+    (tmp_path / "a.inp").write_text('*INCLUDE, INPUT="below/n.inp"\n*Element, input=e.txt, type=S4\n*Step\n')
+    (tmp_path / "g.dat").write_text("include 'below/more.dat'\n" + GRIDS[17:])
+    (tmp_path / "below" / "more.dat").write_text(GRIDS[:17])
+    (tmp_path / "a.bdf").write_text("BEGIN BULK\nINCLUDE 'g.\n dat'\nCQUAD4,1,7,1,2,3,4\nENDDATA\n")
+    for name in ("a.inp", "a.bdf"):
+        assert area_of(bsm.read_mesh(tmp_path / name, isolated=isolated).mesh) == pytest.approx(1)
+
+
 def test_sets_of_elements_are_groups(tmp_path):
     found = read(tmp_path / "a.inp", NODES + "9, 2,0,0\n" + QUAD + "*Element, type=S3, elset=b\n2, 2,9,3\n").mesh
     assert [found.metadata[f"group.{n}.name"] for n in range(2)] == ["a", "b"]
@@ -110,10 +135,12 @@ def test_sets_of_elements_are_groups(tmp_path):
 
 REFUSED = {
     "a.bdf": (
-        ("INCLUDE 'b.bdf'\n", "line 1: INCLUDE is not read here"),
+        ("INCLUDE 'b.bdf'\n", "b.bdf: no such file beside the mesh"),
+        ("INCLUDE '../b.bdf'\n", "not in the folder of the mesh"),
+        ("INCLUDE 'a.bdf'\n", "included twice"),
         ("GRDSET,,5\n", "GRDSET"),
         ("CQUADX,1,1,1,2,3\n", "CQUADX"),
-        ("CORD2C,5,,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\n", "CORD2C"),
+        ("CORD3G,5,,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,1,5,0.,0.,0.\n", "coordinate system 5 is not there"),
         ("BEGIN BULK\nBEGIN SUPER=1\n", "BEGIN SUPER=1"),
         (GRIDS + "GRID,1,,5.,5.,5.\nCTRIA3,1,7,1,2,3\n", "node 1 is there twice"),
         (GRIDS + "CTRIA3,1,7,1,2,8\n", "node 8 is not there"),
@@ -128,7 +155,10 @@ REFUSED = {
         (NODES + QUAD + "*Elgen\n1,2,1,1\n", "ELGEN"),
         ("*Ngen\n1,2\n", "NGEN"),
         ("*Node, system=C\n1,1,90\n", "NODE with SYSTEM"),
-        ("*Include, input=b.inp\n", "INCLUDE with INPUT"),
+        ("*Include, input=b.inp\n", "b.inp: no such file beside the mesh"),
+        ("*Include, input=a.inp\n", "included twice"),
+        ("*Element, input=b.inp, type=S4\n", "b.inp: no such file"),
+        ("*Surface, input=b.inp\n", "SURFACE with INPUT"),
         (NODES + "*Element, type=U1\n1, 1,2,3,4\n", "U1"),
         (NODES + "*Element, type=C3D15V\n1, 1\n", "C3D15V"),
         (NODES + "*Element, type=S4\n1, 1,2,3\n", "do not have 4 nodes"),

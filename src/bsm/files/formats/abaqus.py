@@ -13,7 +13,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError
 from bsm.bitstream.limits import Limits
 from bsm.files.formats.cells import skin
-from bsm.files.formats.lines import Keywords, by_number, whole
+from bsm.files.formats.lines import Keywords, by_number, included, whole
 from bsm.files.formats.metadata import named
 from bsm.files.formats.polygons import Part, Polygons, joined_parts, part_of, unit_rows
 from bsm.files.parsing import Doubles, Ints, require_counts
@@ -26,6 +26,7 @@ _LINES = re.compile(
     r"(?:B[23]\d|T[23]D[23]|PIPE|ELBOW|MASS|ROTARYI|SPRING|DASHPOT|CONN|GAP|FRAME|RB|DC1D|DCOUP|D$|ITT|ITS|LS6)\w*"
 )
 """Elements without a surface."""
+_INCLUDE = r"""^((?:\*(?:NODE|ELEMENT)\b.*?)?)(?:\*INCLUDE\b *)?,\s*INPUT\s*=\s*("[^"\n]*"|[^,\s]+)[ \t]*(.*)$"""
 _WAY = "write it as .vtu, e.g. with ccx2paraview or ParaView"
 
 
@@ -76,11 +77,11 @@ def _said(keyword: _Keyword) -> _Keyword:
     return _Keyword(" ".join(name.upper().split()), given, keyword.line, keyword.rows[1:])
 
 
-def read_abaqus(data: bytes, limits: Limits) -> Polygons:
+def read_abaqus(data: bytes, path: str | None, limits: Limits) -> Polygons:
     table = Keywords("abaqus", _WAY)
     model, parts, instances = _Scope(""), dict[str, _Scope](), list[_Scope]()
     scope, assembly = model, False
-    for keyword in map(_said, _keywords(data.decode("latin-1").splitlines())):
+    for keyword in map(_said, _keywords(included(data.decode("latin-1"), _INCLUDE, path).splitlines())):
         name, given, line = keyword.name, keyword.given, keyword.line
         if name == "PART":
             scope = parts[given.get("NAME", "").upper()] = _Scope(given.get("NAME", ""))

@@ -1,6 +1,7 @@
-"""Files of solvers in lines: keywords that are taken, harmless, or refused, numbers by their own names, and blocks."""
+"""Files of solvers in lines: keywords that are taken, harmless, or refused, files that they include, and numbers."""
 
 import csv
+import re
 from collections import Counter
 from collections.abc import Sequence
 from fnmatch import fnmatch
@@ -10,6 +11,7 @@ import numpy as np
 
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.files.parsing import Ints
+from bsm.files.pipes import about, file_beside
 
 _MOST_NAMED = 16
 
@@ -37,6 +39,24 @@ class Keywords:
         """Return the keywords that were left out, with their counts."""
         found = [f"{keyword} ({count})" for keyword, count in self.left.items() if f"-{keyword}" not in self._harmless]
         return (*found[:_MOST_NAMED], *([f"{len(found) - _MOST_NAMED} other keywords"] * (len(found) > _MOST_NAMED)))
+
+
+def included(text: str, pattern: str, path: str | None, known: set[Path] | None = None) -> str:
+    """Text with that of files it includes, each once: a pattern finds the kept part of a line, a name, and the rest."""
+    known = set() if known is None else known
+
+    def content(found: re.Match[str]) -> str:
+        name = re.sub(r"\s*\n\s*", "", found[2].strip("'\""))
+        with about(name):
+            if path is None:
+                raise FormatError("only a file with a name, and not compressed, can include others")
+            file = file_beside(Path(path).resolve().parent, name)
+            if file in known:
+                raise FormatError("this file is included twice")
+            known.add(file)
+            return f"{found[1]}{found[3]}\n{included(file.read_text('latin-1'), pattern, path, known)}".lstrip("\n")
+
+    return re.sub(pattern, content, text, flags=re.M | re.I)
 
 
 def by_number(known: Ints, asked: Ints, what: str = "node") -> Ints:

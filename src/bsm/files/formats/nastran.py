@@ -6,7 +6,7 @@ blank field, + or *. Cards of geometry are taken; those in keywords.csv are harm
 
 import re
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -14,7 +14,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.limits import Limits
 from bsm.files.formats.cells import skin
-from bsm.files.formats.lines import Keywords, by_number, whole
+from bsm.files.formats.lines import Keywords, by_number, included, whole
 from bsm.files.formats.polygons import Polygons, unit_rows
 from bsm.files.parsing import Doubles, Ints, require_counts
 
@@ -29,21 +29,25 @@ _ELEMENTS = {
 _ORDER = {15: [*range(9), 12, 13, 14, 9, 10, 11], 20: [*range(12), 16, 17, 18, 19, 12, 13, 14, 15]}
 """Where nodes on edges are, which Nastran counts from the bottom up."""
 _EXPONENT = re.compile(r"(?<=[\d.])(?:[eEdD])?([+-])(?=\d)|[dD](?=\d)")
+_INCLUDE = r"""^\s*()INCLUDE\s+('[^']*'|"[^"]*"|[^\s'"]+)().*$"""
 _WAY = "write it as .vtu, e.g. with pyNastran or ParaView"
 
 
-def read_nastran(data: bytes, limits: Limits) -> Polygons:
-    keywords = Keywords("nastran", _WAY)
+def read_nastran(data: bytes, path: str | None, limits: Limits) -> Polygons:
+    keywords, systems = Keywords("nastran", _WAY), dict[int, tuple[str, Card]]()
     cards = defaultdict[str, list[Card]](list)
-    for name, line, fields in _cards(data.decode("latin-1").splitlines(), keywords):
-        if name in ("GRID", "CORD2R", *_ELEMENTS):
+    for name, line, fields in _cards(included(data.decode("latin-1"), _INCLUDE, path).splitlines(), keywords):
+        if name in ("GRID", *_ELEMENTS):
             cards[name].append((line, fields))
+        elif re.fullmatch("CORD[12][RCS]", name):
+            for row in (fields[:4], fields[4:8]) if name[4] == "1" else (fields,):
+                systems |= {_integers([(line, row)], 0)[0]: (name, (line, row))} if any(row) else {}
         else:
             keywords.leave(name, line)
     require_counts(limits, vertices=len(cards["GRID"]))
     grids = _without_repeats(cards["GRID"])
     numbers = _integers(grids, 0)
-    points = _placed(_reals([(line, row[2:5]) for line, row in grids]), _integers(grids, 1), cards["CORD2R"])
+    points = _placed(_reals([(line, row[2:5]) for line, row in grids]), _integers(grids, 1), numbers, systems)
     blocks, properties = [], list[Ints]()
     for name, (shape, counts) in _ELEMENTS.items():
         for count, some in _by_count(name, cards[name], counts, keywords):
@@ -126,30 +130,39 @@ def _by_count(
     yield from found.items()
 
 
-def _placed(points: Doubles, systems: Ints, cards: Sequence[Card]) -> Doubles:
+def _placed(points: Doubles, owners: Ints, numbers: Ints, systems: Mapping[int, tuple[str, Card]]) -> Doubles:
     """Points of coordinate systems in basic coordinates."""
-    given = {row[0]: (line, row) for line, row in cards}
-    places = dict[str, tuple[Doubles, Doubles]]()
 
-    def system(number: str, below: tuple[str, ...] = ()) -> tuple[Doubles, Doubles]:
-        if number in ("", "0"):
-            return np.eye(3), np.zeros(3)
-        if number not in given or number in below:
-            why = "refers to itself" if number in below else "is not there, or not rectangular (CORD2R)"
-            raise FormatError(f"the coordinate system {number} {why}; {_WAY}")
-        if number not in places:
-            line, row = given[number]
-            axes, origin = system(row[1], (*below, number))
-            a, b, c = _reals([(line, (row[2:11] + [""] * 9)[:9])]).reshape(3, 3) @ axes.T + origin
-            z = unit_rows((b - a)[None])[0]
-            y = unit_rows(np.cross(z, c - a)[None])[0]
-            if not y.any():
-                raise MeshError(f"line {line}: the axes of the coordinate system {number} lie on a line")
-            places[number] = np.column_stack([np.cross(y, z), y, z]), a
-        return places[number]
+    def place(rows: Doubles, number: int, below: tuple[int, ...] = ()) -> Doubles:
+        if not number:
+            return rows
+        if number not in systems or number in below:
+            raise FormatError(
+                f"the coordinate system {number} {'refers to itself' if below else 'is not there'}; {_WAY}"
+            )
+        name, (line, row) = systems[number]
+        inner = (*below, number)
+        if name[4] == "1":  # three nodes
+            nodes = by_number(numbers, np.array([_integers([(line, row)], k)[0] for k in (1, 2, 3)]))
+            a, b, c = (place(points[[node]], int(owners[node]), inner)[0] for node in nodes)
+        else:
+            corners = _reals([(line, (row[2:11] + [""] * 9)[:9])]).reshape(3, 3)
+            a, b, c = place(corners, int(_integers([(line, row)], 1)[0]), inner)
+        z = unit_rows((b - a)[None])[0]
+        y = unit_rows(np.cross(z, c - a)[None])[0]
+        if not y.any():
+            raise MeshError(f"line {line}: the axes of the coordinate system {number} lie on a line")
+        r, s, t = rows.T
+        first, second = np.radians(s), np.radians(t)
+        if name[5] == "C":
+            r, s = r * np.cos(first), r * np.sin(first)
+        elif name[5] == "S":
+            flat = r * np.sin(first)
+            r, s, t = flat * np.cos(second), flat * np.sin(second), r * np.cos(first)
+        moved: Doubles = np.column_stack([r, s, t]) @ np.array([np.cross(y, z), y, z]) + a
+        return moved
 
     found = points.copy()
-    for number in np.unique(systems).tolist():
-        axes, origin = system(str(number))
-        found[systems == number] = points[systems == number] @ axes.T + origin
+    for number in np.unique(owners).tolist():
+        found[owners == number] = place(points[owners == number], number)
     return found
