@@ -68,7 +68,9 @@ def check_package(package, tmp_path):
 
 
 def test_a_checkout_without_links_is_installed_and_viewed(checkout, tmp_path):
-    package = installed(wheel_of(checkout, tmp_path / "wheel", *WITHOUT_CMAKE), tmp_path / "package")
+    wheel, again = (wheel_of(checkout, tmp_path / name, *WITHOUT_CMAKE) for name in ("wheel", "again"))
+    assert wheel.read_bytes() == again.read_bytes()
+    package = installed(wheel, tmp_path / "package")
     built = {path.name for path in (package / "bsm" / "viewer" / "built").iterdir()}
     assert built == {"encode.wasm", "encode-moving.wasm", "kernels.wasm", "small.wasm"}
     assert not list(package.rglob("*.[ch]"))
@@ -104,4 +106,7 @@ def test_a_published_readme_has_no_relative_link():
 
 @pytest.mark.long
 def test_a_checkout_without_links_is_compiled(checkout, tmp_path):
-    check_package(installed(wheel_of(checkout, tmp_path / "wheel"), tmp_path / "package"), tmp_path)
+    package = installed(wheel_of(checkout, tmp_path / "wheel"), tmp_path / "package")
+    (data,) = package.glob("*.data")
+    assert (data / "data/share/man/man1/bsm-encode.1").is_file()
+    check_package(package, tmp_path)

@@ -93,7 +93,7 @@ def command_parser(name: str) -> "Parser":
 
 
 def program_parser(*, complete: bool = True) -> "Parser":
-    """The parser of the program, for shtab, too; with `complete` it also knows what each command takes."""
+    """The parser of the program; with `complete` it also knows what each command takes."""
     codes = "\n".join(f"  {row.code:>3}  {row.meaning}" for row in sorted(EXITS, key=lambda row: row.code))
     parser = Parser(
         prog="bsm",

@@ -1,10 +1,11 @@
 """What people see first: help, completion, names, sizes and lengths in words, maps and curves."""
 
+import argparse
 import inspect
 import json
 import re
 import subprocess
-import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -28,6 +29,8 @@ from bsm.ground.lengths import (
 from tests.bsm.test_batch import bsm as program
 from tests.shapes import torus
 from tests.streams import events_of
+
+SHARE = Path(__file__).parents[2] / "share"
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -70,14 +73,43 @@ def test_compare_says_which_file_is_wrong(tmp_path, capsys):
         assert capsys.readouterr().err.startswith(f"bsm: {tmp_path / 'b.off'}: a face refers to vertex 7")
 
 
-def test_bash_completes():
-    pytest.importorskip("shtab")
-    words = [sys.executable, "-m", "shtab", "--shell", "bash", "--prog", "bsm", "bsm.cli.program_parser"]
-    script = subprocess.run(words, capture_output=True, text=True, timeout=60, check=True).stdout
-    assert all(name in script for name in COMMANDS) and "keep-order" in script
-    script += "\nCOMP_WORDS=(bsm encode --the); COMP_CWORD=2; _shtab_bsm bsm --the encode; echo ${COMPREPLY[@]}\n"
-    done = subprocess.run(["bash"], input=script, capture_output=True, text=True, timeout=60, check=False)
-    assert done.stdout.split() == ["--theta"]
+def test_bash_completes_options_and_files(tmp_path):
+    (tmp_path / "mesh.ply").touch()
+    script = (SHARE / "bash-completion/completions/bsm").read_text("utf-8")
+    for words, found in (("encode --the", "--theta"), ("encode me", "mesh.ply"), ("decode -o me", "mesh.ply")):
+        word = words.split()[-1]
+        script += f"\nCOMP_WORDS=(bsm {words}); COMP_CWORD={len(words.split())}"
+        script += f"; _shtab_bsm bsm {word} x; echo ${{COMPREPLY[@]}} = {found}\n"
+    done = subprocess.run(["bash"], input=script, capture_output=True, text=True, timeout=60, check=True, cwd=tmp_path)
+    assert all(got == wanted for got, wanted in (line.split(" = ") for line in done.stdout.splitlines()))
+    assert len(done.stdout.splitlines()) == 3
+
+
+def test_manual_pages_and_completion_are_current():
+    """`python -m tools.manuals` makes them."""
+    completion = [
+        (SHARE / name).read_text("utf-8") for name in ("bash-completion/completions/bsm", "zsh/site-functions/_bsm")
+    ]
+    pages = {path.stem: path.read_text("utf-8") for path in (SHARE / "man/man1").iterdir()}
+    assert pages.keys() == {"bsm", *(f"bsm-{name}" for name in COMMANDS)}
+    for name, summary in COMMANDS.items():
+        page = re.sub(r"\\f.|\\[,/]", "", pages[f"bsm-{name}"]).replace("\\-", "-")
+        parser = command_parser(name)
+        assert f".SH NAME\nbsm-{name} - {summary}\n" in page
+        assert summary.replace("-", "\\-") in pages["bsm"]
+        named = dict(re.findall(r"^\.TP\n(.+)\n(.+)", page, re.MULTILINE))
+        actions = [
+            action
+            for action in parser._actions
+            if action.help not in (None, argparse.SUPPRESS, "show this help message and exit")
+        ]
+        helps = {parser._get_formatter()._expand_help(action) for action in actions}
+        assert set(named.values()) == helps
+        options = {option for action in actions for option in action.option_strings}
+        assert {
+            word for key in named if key.startswith("-") for word in re.findall(r"(?<![\w-])--?[a-z][\w-]*", key)
+        } == options
+        assert all(option in text for option in options for text in completion)
 
 
 def test_every_command_says_what_it_takes_for_files():

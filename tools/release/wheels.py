@@ -80,11 +80,12 @@ def check_contents(wheel: Path) -> None:
     """Look into a wheel."""
     names = zipfile.ZipFile(wheel).namelist()
     tops = {name.partition("/")[0] for name in names}
-    strange = {top for top in tops if top != "bsm" and not top.endswith(".dist-info")}
+    strange = {top for top in tops if top != "bsm" and not top.endswith((".dist-info", ".data"))}
     sources = [name for name in names if name.endswith((".c", ".h", ".cpp", ".hpp"))]
     kernels = [name for name in names if "_core." in name and name.endswith((".so", ".pyd"))]
     kernels = [name for name in kernels if "cpython" not in name or wheel.stem.endswith(tuple(name.split("-")[2:3]))]
-    if strange or sources or len(kernels) != 1 or "bsm/py.typed" not in names:
+    manual = any(name.endswith("/man1/bsm-encode.1") for name in names)
+    if strange or sources or len(kernels) != 1 or not manual or "bsm/py.typed" not in names:
         raise SystemExit(f"{wheel.name}: {strange or sources or kernels} is not what a wheel should have")
 
 
