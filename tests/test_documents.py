@@ -229,7 +229,7 @@ def test_commands_on_real_meshes(command, folder, meshes):
 def test_something_is_found():
     assert len(BLOCKS) >= 5 and len(COMMANDS) >= 15
     assert sum(is_python(block) for _, block in BLOCKS) >= 1
-    assert any("tools.attack fuzz" in command for command in COMMANDS)
+    assert any("tools.attack costly" in command for command in COMMANDS)
 
 
 # ----------------------------------------------------------------------------------------------- names in documents

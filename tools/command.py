@@ -9,6 +9,11 @@ from bsm.ground.console import Console
 from bsm.ground.exits import behind, exit_of, is_expected, report_error
 
 
+def parser_of(words: str | None) -> argparse.ArgumentParser:
+    """A parser whose help begins with these words, as they are."""
+    return argparse.ArgumentParser(description=words, formatter_class=argparse.RawDescriptionHelpFormatter)
+
+
 def run_command(parser: argparse.ArgumentParser, work: Callable[[argparse.Namespace, Console], None]) -> None:
     """Parse, work, and exit."""
     try:

@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
 # Build the kernels with AddressSanitizer and UndefinedBehaviorSanitizer (GCC), and run them over all vectors, mutations
-# of them and bad meshes; then bsmdec over mutations, bsmenc over random meshes, and bsmdec over every 40th vector
-# (STARVE=1: all of them) while its memory ends in each place (tools/attack/starve.c). The tests of the binding run with
-# these sanitizers and with ThreadSanitizer. Any finding ends the run with a report and exit code 1. ONLY=binding skips
-# everything but the binding.
+# of them and bad meshes; then bsmenc over random meshes, and bsmdec over every 40th vector (STARVE=1: all of them)
+# while its memory ends in each place (tools/attack/starve.c). The tests of the binding run with these sanitizers and with
+# ThreadSanitizer. Any finding ends the run with a report and exit code 1. ONLY=binding skips everything but the binding.
 #     [STARVE=N] tools/sanitize.sh [PYTHON] [OPTIONS of python -m tools.attack sweep ...]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -36,8 +35,6 @@ unset PYTHONPATH PYTHONMALLOC
 flags=$("$python" -c "from tools.attack.meshes import SANITIZED; print(*SANITIZED)")
 # Without the sanitizer in the compiler itself, and once for all that follows.
 made=$(env -u LD_PRELOAD "$python" -c "from tools.bsmenc import compiled_whole; print(compiled_whole(*'$flags'.split()))")
-LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" \
-    "$python" -m tools.attack.library 5000 ci --exact --tolerant --seconds 15 --flags="$flags"
 LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" \
     "$python" -m tools.attack meshes --seconds 15
 unset LD_PRELOAD ASAN_OPTIONS

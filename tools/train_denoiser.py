@@ -10,7 +10,6 @@ differently: networks of two machines differ a little. Needs PyTorch (`pip insta
 if there is one: 16 processors and an H100 took six minutes.
 """
 
-import argparse
 import time
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -35,6 +34,7 @@ from bsm.codec.denoise.surface import Topology, follow_normals, surroundings
 from bsm.codec.geometry.metrics import face_normals
 from bsm.encoding.simplification import collapsed, compact
 from bsm.files.mesh import read_mesh
+from tools.command import parser_of
 from tools.made_shapes import made_shape
 from tools.noise import (
     correlated_along_normals,
@@ -179,7 +179,7 @@ def train(parts: Sequence[tuple[Singles, Singles]], seed: int, rounds: int = ROU
 
 def main(arguments: list[str] | None = None) -> int:
     """Train and write."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("meshes", type=Path, help="folder with static/")
     parser.add_argument("--output", type=Path, default=WEIGHTS, help=f"file ({WEIGHTS.name} of the package)")
     parser.add_argument("--examples", type=int, default=4800, help="noisy meshes (4800)")

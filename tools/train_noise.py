@@ -10,7 +10,6 @@ Meshes of `HELD_OUT` are only judged. The program prints the rules, the clean me
 noise is found.
 """
 
-import argparse
 from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import chain, product
@@ -29,6 +28,7 @@ from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.files.mesh import read_mesh
 from tools import noise
+from tools.command import parser_of
 from tools.made_shapes import made_shape
 from tools.scans import CAMERAS, view
 
@@ -188,7 +188,7 @@ def report(rule: str, cases: list[Example]) -> None:
 
 def main() -> None:
     """Print the rules."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("meshes", type=Path)
     parser.add_argument("packages", type=Path, nargs="*")
     args = parser.parse_args()

@@ -4,7 +4,6 @@ python -m tools.web_constants --write    web/src/constants.json
 python -m tools.web_constants            fail if that is not what Python has
 """
 
-import argparse
 import json
 from dataclasses import MISSING
 from pathlib import Path
@@ -13,6 +12,7 @@ from typing import Any
 from bsm.bitstream.container.header import HEADER_FIELDS, Field
 from bsm.bitstream.container.wire import MAGIC, MAX_VARINT_BYTES, SHORT, VERSION, FrameType
 from bsm.bitstream.limits import Limits
+from tools.command import parser_of
 
 TARGET = Path(__file__).parents[1] / "web/src/constants.json"
 
@@ -63,7 +63,7 @@ def source() -> str:
 
 def main() -> None:
     """Write the file, or compare it."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("--write", action="store_true", help="write it")
     if parser.parse_args().write:
         TARGET.write_text(source())

@@ -1,7 +1,6 @@
 """Everything that attacks decoders and readers: `python -m tools.attack WHAT ...`, and `WHAT --help` for what it asks.
 
-fuzz     every decoder's function, guided by coverage
-sweep    the same inputs in the same order, without guidance: for kernels that check themselves (tools/sanitize.sh)
+sweep    every decoder's function on mutants, for kernels that check themselves (tools/sanitize.sh)
 bombs    streams that cost as much as they can, held against what they may take
 charges  many small and few large of all that can be many: time by what was charged
 walk     every frame type and field as large as its bytes allow, held against the law
@@ -20,7 +19,7 @@ proof    mutants and random streams by all decoders, on all processors, in all e
 
 from tools.command import dispatch
 
-ALIKE = "fuzz sweep readers calls answers growth proof costly manifests uses doors meshes figures"
+ALIKE = "sweep readers calls answers growth proof costly manifests uses doors meshes figures"
 COMMANDS = {name: f"{name}:main" for name in ALIKE.split()}
 COMMANDS |= {name: f"bombs:{name}" for name in ("bombs", "charges", "walk")}
 

@@ -4,7 +4,6 @@ Sound answers are mutated: kinds, sizes and places of rows, numbers, lists, and 
 or frames that can be used, or an error of ours, in little memory.
 """
 
-import argparse
 import os
 import resource
 import struct
@@ -22,6 +21,7 @@ from bsm.files.answer import FRAMES, MESH, found_in, leave
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.isolation import shared
 from bsm.files.motion.frames import Frames
+from tools.command import parser_of
 from tools.vectors.meshes import torus
 
 SIZE = 1 << 20  # bytes of shared memory
@@ -102,7 +102,7 @@ def fault(memory: int, data: bytes, limits: Limits) -> str:
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("--count", type=int, default=100_000, help="messages (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()

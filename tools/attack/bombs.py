@@ -31,6 +31,7 @@ from tools.attack.taken import (
     warm_up,
 )
 from tools.attack.walk import cases
+from tools.command import parser_of
 
 HOWS = ("events", "threads", "whole", "tolerant", "browser")
 TIMES = 3
@@ -185,7 +186,7 @@ def charges() -> int:
 
 
 def _parser(names: str, *hows: str) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("names", nargs="*", metavar="NAME", help=names)
     parser.add_argument("--how", choices=HOWS, nargs="+", default=hows, help="default: %(default)s")
     return parser

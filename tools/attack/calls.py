@@ -4,7 +4,6 @@ Every attack on readers is read in isolation under a recorder. What is recorded 
 held against src/bsm/files/calls.csv.
 """
 
-import argparse
 import csv
 import platform
 import re
@@ -16,6 +15,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from bsm.files import isolation
+from tools.command import parser_of
 
 _TABLE = Path(isolation.__file__).with_name("calls.csv")
 _LINE = re.compile(r"(\d+) +(?:(\w+)\(|<\.\.\. (\w+) resumed>|\+\+\+)(.*)")
@@ -41,7 +41,7 @@ def recorded(lines: Iterable[str]) -> tuple[Counter[str], Counter[str]]:
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("--every", type=int, default=200, metavar="N", help="of the numbers take one in N")
     parser.add_argument("--bytes", type=int, default=1 << 16, help="of a file that is grown (default: %(default)s)")
     args = parser.parse_args()

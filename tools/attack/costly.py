@@ -4,7 +4,6 @@ Each file is a binary PLY file with few bytes for its mesh. It is read under the
 thread. The CPU time of both is compared with the bound of src/bsm/SERVICE.md: `SECONDS` and `SECONDS_PER_BYTE`.
 """
 
-import argparse
 import time
 from dataclasses import dataclass, replace
 from functools import partial
@@ -17,6 +16,7 @@ import numpy as np
 import bsm
 from bsm.bitstream.errors import BsmError
 from tools.attack.taken import Taken, taken_by_each, warm_up
+from tools.command import parser_of
 
 SECONDS, SECONDS_PER_BYTE = 2.0, 2e-5
 FAN = 255  # corners of the longest polygon whose number of corners takes a byte
@@ -143,7 +143,7 @@ def _prepared(recipe: Recipe) -> partial[Taken]:
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("--seconds", type=float, default=600, help="how long to search (default: %(default)s)")
     parser.add_argument("--seed", default="0")
     parser.add_argument("--save", type=Path, metavar="FILE", help="write the worst file here")

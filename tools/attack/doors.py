@@ -13,7 +13,6 @@ A difference is right if a note of ours names it, or explained in `doors.json`, 
 Files are those of packages of Debian and PyPI, listed in `doors.json` with licence and SHA-256, and of folders.
 """
 
-import argparse
 import fnmatch
 import hashlib
 import importlib
@@ -43,6 +42,7 @@ from bsm.files.formats.metadata import materials_in, names_in, rgba
 from bsm.gltf.compress import compress, restore
 from bsm.gltf.document import read_document
 from tools.attack.acts import Acts
+from tools.command import parser_of
 from tools.replicate.fetch import unpacked
 
 Array = npt.NDArray[Any]
@@ -535,7 +535,7 @@ def scenes_in(folders: Sequence[Path]) -> int:
 
 def main() -> NoReturn:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("folders", nargs="*", type=Path, help="more files: folders that are walked")
     parser.add_argument(
         "--cache", type=Path, default=Path(tempfile.gettempdir(), "bsm-doors"), help="where packages lie"

@@ -4,7 +4,6 @@ Writes each stream and what it decodes to into FOLDER; decodes the streams in OT
 written, as well. Everything follows from SEED, so streams of two processors can be compared byte by byte.
 """
 
-import argparse
 import traceback
 import warnings
 from pathlib import Path
@@ -16,6 +15,7 @@ from bsm.bitstream.errors import BsmError
 from tools.attack.decoding import whole
 from tools.attack.inputs import random_stream
 from tools.attack.tally import Decoded
+from tools.command import parser_of
 from tools.copies import refuse_other_kernels
 
 
@@ -48,7 +48,7 @@ def stored(path: Path) -> Decoded:
 
 def main() -> None:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m tools.attack.encodes", description=(__doc__ or "").split("\n")[0])
+    parser = parser_of(__doc__)
     parser.add_argument("seed")
     parser.add_argument("count", type=int)
     parser.add_argument("folder", type=Path)

@@ -6,7 +6,6 @@ each are held against those of `bsm compare` of the given file and the stream, a
 `--turned` encodes cones, globes, tubes and pinched tubes with each preset.
 """
 
-import argparse
 import json
 import math
 import re
@@ -21,6 +20,7 @@ from bsm import Attribute, TriangleMesh, save
 from bsm.codec.static.options import PRESETS
 from tests.bsm import program
 from tests.shapes import curved, patch, soup, tetrahedron, together, torus, turned
+from tools.command import parser_of
 
 Words = tuple[str, ...]
 Random = np.random.Generator
@@ -247,7 +247,7 @@ def cases(seed: int, folder: Path, *, frames: bool = False) -> Iterator[str]:
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("--count", type=int, default=200, help="of meshes (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=0, help="of the first one (default: %(default)s)")
     parser.add_argument("--frames", action="store_true", help="sequences in place of meshes")

@@ -3,7 +3,6 @@
 Of the files of `readers` that grow; they must not take longer by more than `MOST_GROWTH`.
 """
 
-import argparse
 import tempfile
 from collections.abc import Callable
 from functools import partial
@@ -12,6 +11,7 @@ from pathlib import Path
 from bsm.bitstream.limits import Limits
 from tools.attack.readers import Sample, grown, is_ours, reading, warm_up
 from tools.attack.taken import taken_by_each
+from tools.command import parser_of
 
 SIZE = 1 << 16
 """Bytes of files before they grow."""
@@ -34,7 +34,7 @@ def growth(make: Callable[[int], Sample], most: float = MOST_GROWTH, times: int 
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("--most", type=float, default=MOST_GROWTH, help="growth at four times (default: %(default)s)")
     most = parser.parse_args().most
     warm_up()

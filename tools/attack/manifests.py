@@ -4,7 +4,6 @@ Each mutant is opened, verified, shown as `bsm info` shows it, joined to a mesh 
 out must be a result or an error of ours.
 """
 
-import argparse
 import copy
 import json
 import signal
@@ -30,6 +29,7 @@ from bsm.ground.console import Console, as_json
 from bsm.tiles.joining import write_joined, write_tileset
 from bsm.tiles.manifest import FOOT
 from bsm.tiles.shards import open_tiles
+from tools.command import parser_of
 from tools.vectors.meshes import torus
 
 VALUES: tuple[Any, ...] = (
@@ -190,7 +190,7 @@ def walk(count: int, seed: str) -> Iterator[str]:
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("--count", type=int, default=50_000, help="mutants (default: %(default)s)")
     parser.add_argument("--seed", default="0")
     args = parser.parse_args()

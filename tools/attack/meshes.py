@@ -4,7 +4,6 @@ LD_PRELOAD="$(cc -print-file-name=libasan.so) $(cc -print-file-name=libubsan.so)
     python -m tools.attack meshes --seconds N [--seed S]
 """
 
-import argparse
 import time
 from collections import Counter
 from typing import Any
@@ -13,6 +12,7 @@ import numpy as np
 
 from bsm import Attribute, TriangleMesh
 from tools.bsmenc import CELLS, LOSSLESS, QUALITIES, UNREACHABLE, encode, library
+from tools.command import parser_of
 
 SANITIZED = ("-g1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 MISUSED = 2
@@ -50,7 +50,7 @@ def mesh_of(rng: np.random.Generator) -> TriangleMesh:
 
 
 def main(argv: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args(argv)

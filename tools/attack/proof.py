@@ -29,6 +29,7 @@ from pathlib import Path
 
 from tools.attack.places import ROOT, build_processors, environments
 from tools.attack.tally import Tally
+from tools.command import parser_of
 
 SHARD_SECONDS = 1800
 INPUTS = {
@@ -57,9 +58,7 @@ class Part:
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(
-        prog="python -m tools.attack proof", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = parser_of(__doc__)
     parser.add_argument("--short", action="store_true", help="a minute of everything, on two processors")
     parser.add_argument("--only", nargs="+", metavar="SUITE", help="these suites alone")
     parser.add_argument("--seed", default="0", help="default: %(default)s")

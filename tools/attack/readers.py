@@ -6,7 +6,6 @@ files that are sound, and large in one place for their bytes. What reading takes
 what decoding takes; whatever comes out must be a mesh or an error of ours.
 """
 
-import argparse
 import gzip
 import importlib
 import io
@@ -38,6 +37,7 @@ from bsm.files.table import SEQUENCES_READ
 from tests.gltf import Built, Tree, glb, unpack
 from tests.shapes import ply_head
 from tools.attack.taken import Taken, bounds, taken_by_each
+from tools.command import parser_of
 from tools.vectors.good_attributes import charts, colors, groups, with_attributes
 from tools.vectors.meshes import patch, torus
 
@@ -679,7 +679,7 @@ def warm_up() -> None:
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("--bytes", type=int, default=1 << 20, help="of a file that is grown (default: %(default)s)")
     parser.add_argument("--every", type=int, default=1, metavar="N", help="of the numbers take one in N")
     parser.add_argument("--only", default="", metavar="TEXT", help="cases whose name begins so")

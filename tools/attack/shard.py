@@ -4,7 +4,6 @@ Prints what it saw as a line of JSON. Everything follows from the arguments, so 
 with `--careful` each input is written to the folder of findings before it is tried.
 """
 
-import argparse
 import hashlib
 import json
 import re
@@ -31,6 +30,7 @@ from tools.attack.sweep import mutant
 from tools.attack.tally import Outcome, Tally
 from tools.attack.targets import LIMITS, vector_seeds
 from tools.bsmdec import decode, released
+from tools.command import parser_of
 from tools.web_constants import limits_there
 
 WEB = Path(__file__).parents[2] / "web"
@@ -248,7 +248,7 @@ SUITES: dict[str, Callable[[Shard, int, int], None]] = {
 
 def main() -> None:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m tools.attack.shard", description=(__doc__ or "").split("\n")[0])
+    parser = parser_of(__doc__)
     parser.add_argument("suite", choices=SUITES)
     parser.add_argument("number", type=int)
     parser.add_argument("size", type=int)

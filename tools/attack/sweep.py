@@ -1,10 +1,9 @@
 """`python -m tools.attack sweep --seconds N`: every target on its seeds and mutations; encoders on bad meshes.
 
-Always the same inputs in the same order, without coverage and without atheris: for builds of the kernels that check
+Always the same inputs in the same order, without guidance by coverage: for builds of the kernels that check
 themselves, see `tools/sanitize.sh`. What goes wrong there ends the process with a report.
 """
 
-import argparse
 import time
 from collections.abc import Iterator
 from contextlib import suppress
@@ -19,6 +18,7 @@ from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
 from tools.attack.mutate import mutate_stream
 from tools.attack.targets import MESH_FILE, TARGETS, run, seeds
+from tools.command import parser_of
 from tools.copies import refuse_other_kernels
 
 Ints = npt.NDArray[np.int32]
@@ -26,7 +26,7 @@ Ints = npt.NDArray[np.int32]
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = parser_of(__doc__)
     parser.add_argument("--seconds", type=float, default=60.0, help="for all targets together (default: %(default)s)")
     parser.add_argument("--targets", nargs="+", choices=TARGETS, default=list(TARGETS), metavar="NAME")
     args = parser.parse_args()

@@ -104,7 +104,6 @@ MESH_FILE = "mesh_file"
 """The target that takes no streams; the others are given mutations that keep checksums right."""
 LARGEST_SEED = 4096
 """Larger vectors are not mutated: they probe size, and cost time."""
-SLOW = ("stream", "stream_threads", "damaged", "sequence", "mesh_file")
 
 
 def seeds(name: str) -> list[bytes]:

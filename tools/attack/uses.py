@@ -6,7 +6,6 @@ USD, nodes and controllers of COLLADA, materials and images of OBJ, files of lis
 its uses, so that reading could take the product of both. What reading takes is held against the law (M 14.8, M 14.9).
 """
 
-import argparse
 import base64
 import copy
 import importlib.util
@@ -24,6 +23,7 @@ from bsm.files.formats.npz import write_npy
 from tests.gltf import Tree, glb, unpack
 from tests.shapes import ply_head
 from tools.attack.readers import DATA_URI, Case, Sample, Scene, problems, strip_of, three_mf, warm_up
+from tools.command import parser_of
 from tools.vectors.meshes import patch
 
 Use = Callable[[int, int], Sample]
@@ -429,7 +429,7 @@ def of_size(make: Use, size: int, split: float = SPLITS[0]) -> Sample:
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument(
         "--bytes", type=int, nargs="+", default=(40_000, 400_000), help="of files (default: %(default)s)"
     )

@@ -7,7 +7,6 @@ which is Clang for all targets, and QEMU (qemu-user-static, from PATH or by apt-
 `fused` must refuse all streams. The exit code is 1 if a target does otherwise.
 """
 
-import argparse
 import shutil
 import subprocess
 import sys
@@ -16,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tools.amalgamate import ROOT, amalgamated, interface
+from tools.command import parser_of
 
 FINGERPRINT = ROOT / "tools/processors/fingerprint.c"
 
@@ -121,7 +121,7 @@ def complaint(folder: Path, name: str, expected: list[str], streams: list[Path],
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("streams", nargs="*", type=Path, metavar="STREAM")
     parser.add_argument("--targets", default=",".join(TARGETS), help="default: %(default)s")
     parser.add_argument("--folder", type=Path, default=ROOT / ".cache/processors")

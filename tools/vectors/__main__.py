@@ -7,7 +7,6 @@
 spec/vectors/run.py runs any other decoder, by its command line.
 """
 
-import argparse
 import sys
 
 import numpy as np
@@ -16,6 +15,7 @@ from bsm.bitstream.errors import BsmError
 from bsm.codec.decoding import SequenceDecoder, decode
 from bsm.codec.events import END_OF_STREAM, ConnectivityEvent, FrameEvent
 from bsm.codec.geometry.attributes import Attribute
+from tools.command import parser_of
 from tools.vectors.example import example
 from tools.vectors.store import (
     NEXT,
@@ -32,9 +32,7 @@ from tools.vectors.worked_blocks import worked_blocks
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(
-        prog="python -m tools.vectors", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = parser_of(__doc__)
     parser.add_argument("--new", action="store_true", help="make the vectors that are missing")
     parser.add_argument("--example", action="store_true", help="print the worked examples of the specification")
     parser.add_argument("--only", metavar="TEXT", default="", help="only vectors whose names hold this")

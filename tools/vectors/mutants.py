@@ -7,7 +7,6 @@ that is a difference, and must treat some vector otherwise than the decoder that
 with 1 if there is one that no vector notices.
 """
 
-import argparse
 import ast
 import hashlib
 import itertools
@@ -24,6 +23,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from tools.command import parser_of
 from tools.vectors.store import read_manifest
 
 SPEC = Path(__file__).parents[2] / "spec"
@@ -203,7 +203,7 @@ def is_noticed(spot: Spot, vectors: list[Known]) -> bool:
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m tools.vectors.mutants", description=__doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("count", type=int, help="how many places, chosen by chance; 0: all")
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args()
