@@ -13,12 +13,14 @@ from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import mean_edge_length
 
 BEND = 0.02  # change of slope up to which bends are rounded, not sharp
+# Each round solves a linear system by conjugate gradients, from the solution before: it need not be exact.
 ROUNDS, STEPS, EXACT, STAND_OUT = 6, 120, 1e-5, 2.0
 
 
 def flattened(given: Positions, places: Positions, topology: Topology, weight: float, power: float) -> Positions:
     """Positions, shape (n, 3), of fewer bends over the places, shape (n, 3), near the given ones."""
     middle, edge = given.mean(axis=0), mean_edge_length(given, topology.faces) or 1.0
+    # In mean edges, since the constants are; and about the middle, so that no digits are lost far from the origin.
     found = fewer_bends((given - middle) / edge, (places - middle) / edge, topology, weight, power)
     return np.asarray(middle + edge * found)
 
@@ -29,15 +31,21 @@ def fewer_bends(given: Floats, places: Floats, topology: Topology, weight: float
     values, trust = given, np.ones(len(given))
     for turn in range(ROUNDS):
         bent = np.linalg.norm(bends @ values, axis=1)
+        # The weights of an L1 norm grow without bound where nothing bends. The first round is smoother still: noise
+        # bends everything, and would pass for edges.
         sharp = np.maximum(bent, BEND if turn else max(BEND, float(np.median(bent))))
         system = (
             sparse.diags(trust) + bends.T @ sparse.diags(weight * lengths * sharp ** (power - 2.0)) @ bends
         ).tocsr()
+        # Weights differ by orders of magnitude between flat places and edges. Scaling by the diagonal evens that out,
+        # and costs nothing.
         near = sparse.diags(1.0 / system.diagonal())
         columns = zip((trust[:, None] * given).T, values.T, strict=True)
         found = [linalg.cg(system, *each, rtol=EXACT, maxiter=STEPS, M=near)[0] for each in columns]
         values = np.stack(found, axis=1)
         off = np.linalg.norm(values - given, axis=1)
+        # The median of a normal distribution is 0.6745 deviations. Points far beyond are outliers, which least squares
+        # would follow.
         usual = STAND_OUT * float(np.median(off)) / 0.6745
         trust = np.minimum(1.0, usual / np.maximum(off, 1e-9)) if usual > 0.0 else trust
     return values
@@ -47,6 +55,7 @@ def bending(places: Floats, topology: Topology) -> tuple[sparse.csr_matrix, Floa
     """How the gradient of values at the places, shape (n, d), changes over each edge between two faces; its length."""
     first, second = (topology.faces[topology.pairs[:, side]] for side in range(2))
     equal = first[:, :, None] == second[:, None, :]
+    # Faces that share three vertices are one face twice, and bend nowhere.
     hinge = equal.any(axis=2).sum(axis=1) == 2
     first, second, equal = first[hinge], second[hinge], equal[hinge]
     lone = equal.any(axis=2).argmin(axis=1)
@@ -61,6 +70,7 @@ def bending(places: Floats, topology: Topology) -> tuple[sparse.csr_matrix, Floa
         apart = places[tip] - begin
         share = np.einsum("ij,ij->i", apart, along) / lengths
         height = np.linalg.norm(apart - (share * lengths)[:, None] * along, axis=1)
+        # The slope of a thin triangle is its rounding, times any number.
         weights[:, column] = 1.0 / np.maximum(height, 0.1)
         weights[:, 0] -= (1.0 - share) * weights[:, column]
         weights[:, 1] -= share * weights[:, column]

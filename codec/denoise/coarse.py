@@ -19,6 +19,7 @@ BLOCK_SIZE = 500  # about the paper's; half or twice of it leaves 2.4 and 0.6 % 
 OVERLAP = 1.15
 KEEP = 0.10
 SHORTEST = 0.1  # of mean edges: the length from which on an edge is not shorter to the weights
+# More iterations than a stream would send, since nobody waits for a decoder; and no springs, as the paper has none.
 RULES = ChainRules(exact=False, key_interval=16, power=3, iterations=2, key_iterations=4, shift=0.125, springs=False)
 
 
@@ -42,6 +43,7 @@ class CoarseFilter:
             subspace = dictionary[:, :width]
             # Constants are in the subspace but for rounding, which far from the origin would be all there is.
             center = values[vertices].mean(axis=0)
+            # Twice a thin product, never the n x n projection.
             blend.add(vertices, subspace @ (subspace.T @ (values[vertices] - center)) + center, copies)
         return blend.all_positions()
 
@@ -58,6 +60,7 @@ def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> list[tuple[I
         for index in indices:
             vertices, _, weights = chain.begin(index)
             dictionary = chain.dictionary(width)
+            # The next dictionary starts from this one. Positions do not matter here, for nothing is predicted.
             chain.commit(dictionary.shape[1], np.zeros((len(vertices), 3)))
             found.append((vertices, weights, dictionary.astype(np.float64)))
         return found
@@ -73,6 +76,8 @@ def by_lengths(positions: Positions) -> ChainRules:
         sides = positions[site.vertices[rows]] - positions[site.vertices[site.neighbors]]
         lengths = np.sqrt(np.square(sides).sum(axis=1))
         mean = lengths.sum() / max(len(lengths), 1) or 1.0
+        # Dense: a block has a few hundred vertices, and LAPACK finds its lowest vectors sooner than a sparse solver
+        # would.
         laplacian = np.zeros((len(site.vertices),) * 2)
         laplacian[rows, site.neighbors] = -1.0 / np.maximum(lengths / mean, SHORTEST)
         np.fill_diagonal(laplacian, -laplacian.sum(axis=1))

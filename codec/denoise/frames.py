@@ -26,8 +26,10 @@ from bsm.codec.threads import ordered_map
 
 Pair = tuple[Positions, Positions]
 
+# The filter looks at frequencies over time, of which short windows have few.
 WINDOW = 64  # frames that the temporal filter sees at once, if they fit
 WINDOW_BYTES = 2**28
+# Without fading, the change from one window to the next would be seen as a jump.
 OVERLAP = 8  # frames over which one window fades into the next
 UNSTEADY = 0.03  # noise that changes from frame to frame, in mean edges along the normals, from which on it is removed
 CHANGING = "noise that changes with the frames"
@@ -55,6 +57,7 @@ class FrameDenoiser:
             raise MeshError(f"a frame must have shape (n, 3), not {first.shape}")
         self._shape = first.shape
         first = self._checked(first)
+        # Copies of a vertex must move together, or the surface tears along its seams.
         welded, faces, self._index = weld_seams(first, faces)
         self._members = np.unique(self._index, return_index=True)[1]
         self._surface = Filters(faces, len(welded))
@@ -69,6 +72,8 @@ class FrameDenoiser:
         for given, result in results:
             moved = (result != given[self._members]).any(axis=1)[self._index]
             displaced = given + (result - given[self._members])[self._index]
+            # Where copies lie at one place, the result is taken as it is: a sum of differences could leave them apart
+            # by a rounding.
             alone = (given == given[self._members][self._index]).all(axis=1)
             displaced[alone] = result[self._index][alone]
             if self._strength < 1.0:
@@ -83,6 +88,7 @@ class FrameDenoiser:
         def finish(pair: Pair) -> tuple[Pair, AutomaticChoice]:
             given, welded = pair
             assert choice is not None and found is not None
+            # The first frame was calmed when the choice was made.
             if choice.outliers and welded is not begun:
                 welded = calm(welded, self._surface)[1]
             result, done = treat(choice, welded, found, self._surface, self._strength)
@@ -97,6 +103,7 @@ class FrameDenoiser:
                     group[0] = group[0][0], begun
                 else:
                     found = find_noise(begun, self._surface.probe)
+                # What the temporal filter leaves is known in strength, even where the mesh itself does not show it.
                 if remaining is not None and remaining >= UNSTEADY * found.edge:
                     found = Finding("unsteady", remaining, np.full(len(begun), remaining), found.edge, CHANGING)
                 goal = "both" if remaining is not None and self._goal == "shading" else self._goal
@@ -113,6 +120,7 @@ class FrameDenoiser:
     def _steadied(self, frames: Iterator[Positions]) -> Iterator[tuple[list[Pair], float | None]]:
         """Pairs of given frames and welded ones after the temporal filter, and the level of noise that is left."""
         n = len(self._members)
+        # Large meshes get shorter windows, so that memory stays the same.
         size = int(np.clip(WINDOW_BYTES // (24 * max(1, n)), 2 * OVERLAP, WINDOW))
         filter_: TemporalFilter | None = None
         seen: list[Positions] = []
@@ -130,6 +138,7 @@ class FrameDenoiser:
                 filter_ = filter_ or TemporalFilter(self._surface.topology.faces, n)
                 steadied, deviation, remaining = filter_(welded)
                 edge = mean_edge_length(welded[0], self._surface.topology.faces)
+                # Below this, frames are steady already, and a filter could only blur fast motion.
                 if np.sqrt(3.0) * deviation > UNSTEADY * edge:
                     welded, level = steadied, np.sqrt(3.0) * deviation * remaining
             results = welded[-fresh:]
@@ -137,6 +146,7 @@ class FrameDenoiser:
                 fading = min(len(tail), len(results))
                 share = ((np.arange(fading) + 1.0) / (fading + 1.0))[:, None, None]
                 results = np.concatenate([(1.0 - share) * tail[:fading] + share * results[:fading], results[fading:]])
+            # The last frames of a window wait, since the next window sees what follows them.
             ready = len(results) if last else len(results) - OVERLAP
             if ready:
                 yield list(zip(seen[-fresh:][:ready], results[:ready], strict=True)), level
@@ -151,6 +161,7 @@ class FrameDenoiser:
         iterations = {} if options.iterations is None else {"iterations": options.iterations}
         coarse, first = None, list(islice(frames, 2))
         if options.hand_over != "none":
+            # Weights by lengths differ from frame to frame, and would need dictionaries of their own for each.
             rules = RULES if len(first) != 1 else by_lengths(first[0][self._members])  # frames share dictionaries
             coarse = CoarseFilter(topology.faces, topology.n, options.keep, options.block_size, rules)
 
@@ -161,6 +172,8 @@ class FrameDenoiser:
             result = step(start(noisy, smooth, GuidedFilter(noisy, topology)), topology.faces, **iterations)
             if self._force:
                 return given, result
+            # Options are the user's, and may be wrong for this mesh. What is lost is measured before anything is
+            # returned.
             good, reason = judge(noisy, result, find_noise(noisy, self._surface.probe), self._surface.probe)
             if reason:
                 raise HarmError(f"{reason}; nothing is written unless it is forced", frame=number)

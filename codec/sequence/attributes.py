@@ -21,11 +21,14 @@ from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.targets import secant
 from bsm.codec.static.units import single
 
+# A finer step costs bytes in proportion to its logarithm, and another attempt costs time.
 SLACK = 0.2  # part of a bound that may be left, in logarithms
 LEAST = 1e-6  # of a bound, an error that counts as none; and of the first step, the finest one
 FIRST_STEP, FIRST_STEP_RMS = 0.7, 2.0  # that of the first attempt, in bounds of every value and on average
 OUTLIER = 10.0  # how many times as far as all are on average a single value may be off
+# A value at a half may be rounded up here and down there. Kept away from it, integers are equal everywhere.
 MARGIN = 1e-6  # by which integers keep away from halves, which processors may round either way
+# All other frames are differences from the first, whose error they keep.
 FIRST_FRAME = 0.5  # bound of the first frame, as a fraction of the bound of the others
 LARGEST = 1e100
 
@@ -33,6 +36,7 @@ LARGEST = 1e100
 def changed(first: Values, change: Matrix) -> Values:
     """Values, shape (n, d), that differ from the first frame's by so much; integers are the nearest of their kind."""
     with np.errstate(over="ignore", invalid="ignore"):
+        # From the decoded first frame, as decoders do, and not from the original one.
         values = first.astype(np.float64) + change
         if not np.isfinite(values).all():
             raise NumericError("values of an attribute that moves are not finite")
@@ -42,6 +46,7 @@ def changed(first: Values, change: Matrix) -> Values:
                 raise NumericError("values of an attribute that moves are beyond the range of their kind")
             return values
     kind = np.iinfo(first.dtype)
+    # Clipped, since a difference may lead out of the range of bytes.
     return np.rint(values).clip(kind.min, kind.max).astype(first.dtype)
 
 
@@ -58,11 +63,13 @@ class Bound:
         name = self.attribute.name
         rows = values.reshape(-1, values.shape[-1])
         low, high = rows.min(axis=0).astype(np.float64), rows.max(axis=0).astype(np.float64)
+        # The largest range of any component: a color has one bound, and not three.
         extent = float((high - low).max())
         if not max(-low.min(), high.max()) < LARGEST:
             raise OptionError(f"{name!r} moves, and values beyond {LARGEST:g} cannot")
         whole = values.dtype.kind != "f"
         way, amount = self.quality.way, self.quality.amount
+        # Differences of floats are coded in steps, which no step makes exact.
         if way in ("angle", "recompute") or (way == "exact" and not whole):
             raise OptionError(
                 f"{name!r} moves, and cannot be kept {self.quality}: ask for a bound, 0.01, 1% or 1%rms, or for bits"
@@ -89,6 +96,7 @@ class Bound:
         """The bound of what `off` tells."""
         assert self.amount is not None
         whole = self.attribute.values.dtype.kind != "f" and not self._is_rms
+        # Before rounding, an integer may be off by almost a half more.
         return self.amount + 0.5 - MARGIN if whole else self.amount
 
     @property
@@ -100,6 +108,7 @@ class Bound:
         wide = values.astype(np.float64)
         if self._is_rms:
             apart = changed(first, change) - wide
+            # A mean forgives one value that is completely wrong, and eyes do not.
             return max(math.sqrt(float(np.square(apart).mean())), float(np.abs(apart).max()) / OUTLIER)
         now = first.astype(np.float64) + change
         if values.dtype.kind == "f":
@@ -114,6 +123,7 @@ class Bound:
         if self._is_rms:
             most = max(float(np.sqrt(np.square(apart).mean())), most / OUTLIER)
         # Decoded floats are rounded once more.
+        # The check has only decoded values, which were rounded to their kind.
         rounding = float(np.finfo(np.float32).eps) * float(np.abs(given).max(initial=0.0))
         allowed = (self.amount or 0.0) * (1.0 + MARGIN) + rounding
         return float(most / allowed) if most > 0.0 else 0.0
@@ -173,6 +183,8 @@ class MovingAttributeEncoder:
 
     def fields(self, bodies: Sequence[GopBody], values: Values) -> list[GopField]:
         """Fields of each GOP, which together have all these values, shape (T, n, d)."""
+        # An attribute that stood still until now begins to move. Its bound follows from what is known of it here, as a
+        # live stream cannot wait for its end.
         if self.bound.amount is None and (values != self._given).any():
             known = np.concatenate([self._given[None], values])
             self.bound = self.bound.over(known)
@@ -193,12 +205,14 @@ class MovingAttributeEncoder:
         reach, encoder = self.bound.reach, self._encoder
         kept: tuple[GopEncoder, GopField, Values] | None = None
 
+        # Each attempt codes on a copy of the state: the models learn from what they code.
         def excess(step: float) -> float:
             nonlocal kept
             twin = encoder.copy()
             twin.step = single(step)
             field, changes = self._attempt(twin, body, values)
             off = max(self.bound.off(own, self.first, change) for own, change in zip(values, changes, strict=True))
+            # The widest step that holds is kept, whatever order they are tried in.
             if off <= reach and (kept is None or twin.step > kept[0].step):
                 kept = twin, field, changed(self.first, changes[-1])
             return math.log(max(off / reach, LEAST))
@@ -223,6 +237,7 @@ class MovingAttributeEncoder:
                 field = encoder.encode_next(wanted, silent, key=key)
                 assert encoder.latest is not None
                 return field, list(encoder.latest)
+            # Positions decide how frames are grouped and repeated. An attribute follows, so that one table tells both.
             distinct, places = distinct_frames(body.places)
             frames, weights = wanted[distinct], np.sqrt(np.bincount(places))
             motion = Motion.of(frames, encoder.step)

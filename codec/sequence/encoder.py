@@ -37,6 +37,7 @@ from bsm.codec.static.units import checksum_of
 from bsm.codec.static.verification import AsGiven
 from bsm.codec.static.ways.block_coder import as_of_decoders
 
+# Volumetric capture comes back to the same topologies, and a decoder cannot keep all.
 KEPT_MESHES = 8  # by decoders, of the meshes so far
 
 
@@ -132,6 +133,7 @@ class SequenceEncoder:
         self._metadata = checked_metadata(metadata)
         if self.options.frame_rate:
             self._metadata = {**self._metadata, "frame_rate": float(self.options.frame_rate)}
+        # At the beginning: with live frames, an error after an hour would be too late.
         packets.Metadata(self._metadata).require_readable()
 
     @property
@@ -183,13 +185,16 @@ class SequenceEncoder:
         target = self.options.target
         if target is None:
             raise OptionError("no target to search for")
+        # A target is for the whole sequence, so it is coded several times, and an iterator gives its frames once.
         found = list(frames)
         for run in RunSplitter(found, self._faces, allowed=self.options.runs).runs():
+            # The bits of runs depend on their meshes, of which no step is a function.
             if run.first:
                 raise OptionError(
                     f"the faces change at frame {run.first}: a target is for frames that share them; "
                     "take a preset or a bound"
                 )
+            # The splitter moves on only when the frames of a run have been taken.
             deque(run.frames, maxlen=0)
         finest = finest_step([_positions(frame) for frame in found], self.options)
         first, rise = self.options.step, RISES.get(target.kind, 1.0)
@@ -227,15 +232,18 @@ class SequenceEncoder:
         for index, run in enumerate(runs):
             if not index:
                 gops = -(-self._count // options.together(len(run.joined.first)))
+                # Without the number of frames there is no share of the work that could be told.
                 steps = _Rounds(progress if gops else None, gops + (options.promise is None))
                 yield verifier.take(writer.start())
             for packet in self._run(run, index, meshes, options, steps):
+                # The verifier decodes with the limits of the target. What it refuses, the user's decoders would refuse.
                 with as_of_decoders(options.limits):
                     chunk = verifier.take(writer.write(packet))
                 yield chunk
             number = run.first + self._done
         if not self.run_starts:
             raise MeshError("a sequence needs at least one frame")
+        # The header has announced them already, and decoders wait for them.
         if self._count and number != self._count:
             raise OptionError(f"{self._count} frames were announced and {number} came")
         changes = (f"{name} changes at frame {first}, but stays as before" for name, first in splitter.changed.items())
@@ -247,6 +255,7 @@ class SequenceEncoder:
         """Runs with the attributes that each is sent with."""
         for run in splitter.runs():
             attributes = tuple(attribute for attribute in run.mesh.attributes if attribute.semantic != "normal")
+            # The caller's attributes belong to the first run; later meshes bring their own.
             own = attributes if run.first or not self._attributes else self._attributes
             yield replace(run, mesh=replace(run.mesh, attributes=own))
 
@@ -282,12 +291,15 @@ class SequenceEncoder:
         still = {name: values[0] for name, values in group.moving.items() if name not in moving}
         while len(group):
             yield from self._coded(run, index, mesh, group)
+            # A group is the largest thing in memory. Two of them would double it.
             del group  # before the next one is read
             group = next_group(frames, longest, prepared, run.moving)
             if len(group):
                 mesh = replace(mesh, gops=encoder.next(group, self._done, mesh.gops))
                 for name, values in still.items():
                     if (group.moving[name] != values).any():
+                        # The first group stood still, so the values were sent exactly. Now it is too late to send them
+                        # otherwise.
                         raise OptionError(f"{name!r} moves, and floats that do cannot be exact; ask for a bound")
         self.notes = tuple(dict.fromkeys((*self.notes, *(coder.note for coder in mesh.coders))))
         meshes.keep(mesh, run)
@@ -305,6 +317,7 @@ class SequenceEncoder:
         for body in bodies:
             if 0 < self._count < run.first + self._done + body.frames:
                 raise OptionError(f"{self._count} frames were announced and more came")
+            # Decoders grant memory by the bytes that have arrived, so the encoder keeps the same account.
             gops.first_frame.kept.received += body.size
             yield packets.Gop(run.first + self._done, write_gop_body(body, index, [coder.number for coder in coders]))
             self._done += body.frames
@@ -316,6 +329,8 @@ class SequenceEncoder:
         """Return the attributes of a run with its own mesh, and encoders of those that move, or may if `more` comes."""
         given, asked = run.mesh, dict(options.attributes)
         move = {name for name, values in group.moving.items() if (values != values[:1]).any()}
+        # Whether an attribute ever moves is unknown while more frames may come. It is declared as moving, and costs
+        # nothing while it rests.
         may = move | (set(group.moving) if more else set())
         bounds = {
             a.name: Bound(quality, a) for a, quality in qualities(given.attributes, asked, "balanced", moving=may)
@@ -387,8 +402,10 @@ class Meshes:
             moving = {coder.name for coder in opened.coders}
             others = (attribute for attribute in before.attributes if attribute.name not in moving)
             if all(has(begun.mesh.attributes, attribute) for attribute in others):
+                # The mesh comes back, but what decoders keep has changed since.
                 opened.gops.first_frame.kept = replace(self.kept)
                 return opened
+        # The least recently used one goes, by the same rule as in decoders, to the mesh.
         if len(self._opened) == KEPT_MESHES:
             oldest = self._opened.pop(next(iter(self._opened))).gops.first_frame
             self.kept.vertices -= oldest.header.vertices
@@ -398,6 +415,7 @@ class Meshes:
     def keep(self, opened: OpenedMesh, ended: JoinedRun) -> None:
         """Take note that a run of this mesh has ended."""
         self.kept = replace(opened.gops.first_frame.kept)
+        # Taken out and put in again: a dictionary keeps the order of insertion, and this one is by last use.
         self._opened.pop(opened.run, None)
         self._opened[opened.run] = opened
         given = TriangleMesh(ended.mesh.positions, ended.mesh.faces, ended.mesh.attributes)
@@ -407,6 +425,7 @@ class Meshes:
 def _digest(run: JoinedRun) -> bytes:
     """Return a digest that runs of the same faces, joins and resting attributes share."""
     mesh, moving = run.mesh, {attribute.name for attribute in run.moving}
+    # A digest, since comparing a mesh with all earlier ones would need all their faces.
     found = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes() + run.joined.index.tobytes())
     for attribute in mesh.attributes:
         found.update(repr(kind_of(attribute)).encode())
@@ -433,6 +452,7 @@ class _Rounds:
 
     def __call__(self, done: int, blocks: int) -> None:
         if self._progress is not None:
+            # There may be more rounds than were foreseen, since GOPs can be cut.
             rounds = max(self._rounds, self._done + 1)
             self._progress(int(PARTS * (self._done + done / blocks)), PARTS * rounds)
         self._done += done == blocks

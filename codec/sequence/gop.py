@@ -22,6 +22,7 @@ from bsm.codec.sequence.temporal import time_cosines
 from bsm.codec.sequence.tracks import Setting
 from bsm.codec.static.units import single
 
+# Motion that swings back is often nearer to an older frame than to the latest. To refer to it costs a number.
 LIKE = 0.5
 """If kept frames are nearer than this, in squares and relative to the latest one, the next frames start from them."""
 
@@ -63,12 +64,14 @@ class GopEncoder:
 
     def stay(self, frames: int, method: GopMethod) -> None:
         """Skip frames that are not coded; they repeat the previous frame, or the first one."""
+        # The track counts its frames even if nothing is coded, as decoders do.
         self._track.code(method, frames, 1.0, 0, np.empty((0, 0)))
         self._depth = self._follow(method)
         self._kept = []
 
     def method_with_basis(self, together: int) -> GopMethod:
         """Return the method of the next GOP with a basis, given the longest chain of GOPs."""
+        # A chain of references must end: a viewer that joins late, or a lost GOP, waits for its beginning.
         following = 0 <= self._depth < together - 1
         return GopMethod.LEARNT_NEXT if following else GopMethod.LEARNT
 
@@ -91,6 +94,7 @@ class GopEncoder:
             self._kept = []
         width, columns = self._width, self._width * len(frames)
         back = self._nearest(frames)
+        # With few frames there is nothing to learn a basis from, and cosines need not be sent.
         rows = np.kron(time_cosines(len(frames)), np.eye(width))  # each cosine in one number after the other
         basis = np.ascontiguousarray(rows.reshape(len(frames), width, -1).transpose(1, 0, 2))
         wanted = temporal.trajectories(frames) @ basis.reshape(-1, columns)
@@ -113,8 +117,11 @@ class GopEncoder:
         body, columns = self._basis(motion, weights)
         progress(1, 2)
         basis = columns * weights[:, None]
+        # The basis was rounded, so its columns are not quite orthogonal. The pseudo-inverse fits motion to what
+        # decoders have.
         fit = basis @ np.linalg.pinv(basis.T @ basis, hermitian=True)
         wanted = fields @ (motion @ fit)
+        # Coded and decoded in one: what follows must build on the decoded coefficients.
         levels, coefficients = self._track.code(method, frames, self.step, 0, wanted)
         field = coefficients.reshape(wanted.shape)  # which may have no columns
         progress(2, 2)

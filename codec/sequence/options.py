@@ -12,6 +12,7 @@ from bsm.codec.static.attributes.quality import checked_qualities
 from bsm.codec.static.targets import SEQUENCE_TARGETS, Contract, Target
 
 CHOICES = {"limits": tuple(NAMED_LIMITS)}
+# The longer a GOP, the less its basis costs for each frame. Memory sets the bound.
 SIZES, SPANS = (5_000, 10_000), (512, 256)
 """Frames of a GOP by default, for small and for large meshes, and interpolated in between; that takes much the
 same memory."""
@@ -110,6 +111,7 @@ class SequenceOptions:
             raise OptionError("promise and target are mutually exclusive")
         if self.target is not None:
             self.target._require_kind(SEQUENCE_TARGETS, "a sequence")
+        # Other bounds of a contract are for meshes at rest; one that is silently not kept would be a lie.
         if (bounds := self.promise) and bounds != Contract(bounds.farthest, absolute=bounds.absolute, look=bounds.look):
             raise OptionError(f"a sequence promises vertex errors and looks only, not {bounds}")
         if self.gop is not None and self.low_delay > self.gop:

@@ -40,6 +40,7 @@ BYTE = 0.4  # squared errors of one step that a byte is worth, about as in the c
 PASS = 0.4  # share of the next attempt in the remaining progress of a search
 LEVELS = 0.6  # of the time of an attempt, the share before frames are looked at
 
+# Coding the first frame takes as long as several GOPs. Within these factors another one would save less than a percent.
 NEAR = 0.75, 1.4  # a first frame is reused for steps within these factors of its own
 
 
@@ -83,7 +84,9 @@ def encode_first_frame(
     moving: Sequence[Matrix] = (),
 ) -> FirstFrame:
     """Code the first frame, which all others of a run build upon; `frames` as for `SequenceEncoder`."""
+    # The levels of the first frame must fit into the law's integers.
     finest = smallest_step(prepared.size)
+    # Every frame is predicted from the first, so its error shows in all of them; it gets a finer step.
     step = options.first_step or max(FIRST_STEP * options.step, finest)
     if step < finest:
         raise OptionError(f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}")
@@ -146,6 +149,7 @@ class RunEncoder:
 
         def begun(step: float, progress: Progress) -> EncodedGops:
             nonlocal first_frame, coded_for
+            # Attempts at the step of the GOP share a first frame as long as it is good enough for them.
             if first_frame is None or not NEAR[0] <= step / coded_for <= NEAR[1]:
                 coded_for = step
                 fitting = replace(self._options, step=step)
@@ -183,11 +187,13 @@ class RunEncoder:
             heard = near.within(PASS * LEVELS)
             found = _encoded(begun(step, heard), step, weights, lengths, group, number, heard)
             near.by(PASS * (1.0 - LEVELS))
+            # Where to cut depends little on the step, and finding it takes time.
             lengths = tuple(body.frames for body in found.bodies)  # as the first attempt was cut, so are the others
             return found
 
         search = StepSearch(group.positions, self._prepared.mesh.faces, promise, units.scale, options.threads)
         bound = 0.01 if promise.absolute else promise.farthest
+        # About what the bound leads to, for most motions. From the second GOP on, the one before is the better guess.
         first = step or min(0.45 * bound, 4.5e-3 * min(promise.look, 1e3))
         finest = finest_step(group.positions, options)
         found = search.run(attempt, first, finest, weighed=not options.low_delay)
@@ -204,6 +210,7 @@ def finest_step(frames: Sequence[Matrix] | Positions, options: SequenceOptions) 
         energies = np.zeros(len(frames[0]))
         for frame in frames[first : first + longest]:
             energies += np.square(frame - middle).sum(axis=1)
+        # A component has one coefficient for each row of a block, whose squares sum to the energy of its vertices.
         most = max(most, float(np.sort(energies)[-2 * options.block_size :].sum()))
     return max(FINEST_STEP, 2.0 * float(np.sqrt(most)) / scale / LARGEST_LEVEL)
 
@@ -241,6 +248,7 @@ def _encoded(
     if lengths:
         return in_parts(lengths, progress)
     whole, lengths = in_parts([len(frames)], progress), lengths_of(motion, encoder.step)
+    # The lengths are an estimate, so both ways are coded once and weighed by what they really cost.
     return whole if len(lengths) == 1 else min(whole, in_parts(lengths, silent), key=cost)
 
 
@@ -255,6 +263,7 @@ def _with_basis(
     repeats, once = len(kept) < len(places), np.sqrt(np.bincount(places, weights[part] ** 2))
     learnt = encoder.encode_learnt(motion.fields, shapes[..., kept], once, method, progress)
     body = GopBody(method, len(places), (learnt.field,), places if repeats else None)
+    # A decoder needs memory for the components of a GOP. Halves need half.
     if len(places) > 1 and not before.first_frame.has_room(body):
         middle = part.start + len(places) // 2
         for half in slice(part.start, middle), slice(middle, part.stop):

@@ -23,6 +23,7 @@ Frame: TypeAlias = npt.ArrayLike | TriangleMesh
 
 SHOWN = ("material.", "image.")  # metadata of materials and images begin with these
 
+# A vertex at infinity, for a frame, comes from tracking that failed. It would make all steps useless.
 FARTHEST = 1e5
 """Diagonals of the first frame that a vertex may move away from it; levels of wider motion would overflow."""
 
@@ -33,6 +34,7 @@ EMPTY = "empty_frame"
 def empty_frame() -> TriangleMesh:
     """Return the mesh that stands for a frame without faces."""
     mark = Attribute(EMPTY, np.ones((1, 1), np.uint8), "face", "generic")
+    # A mesh must have faces. This one has no area, so that it shows nothing wherever it is drawn.
     return TriangleMesh(np.array([(0, 0, 0), (1, 0, 0), (2, 0, 0)]), np.array([(0, 1, 2)]), (mark,))
 
 
@@ -61,6 +63,7 @@ class RunSplitter:
         self._faces = faces
         self._allowed = allowed
         self._names = {attribute.name for attribute in attributes}
+        # One frame ahead, to know whether a run goes on.
         self._ahead: Frame | None = next(self._frames, None)
         self._number = 0
         self._shown: dict[str, str | int | float | bytes] | None = None  # materials and images of the first frame
@@ -111,6 +114,7 @@ class RunSplitter:
                 columns.append((now or attribute).values.astype(np.float64))
             if attribute.semantic != "normal" and now is None and not has(mesh.attributes, attribute):
                 self.changed.setdefault(attribute.name, self._number)
+        # Attributes that move ride along as further columns, through joining and grouping.
         return np.hstack(columns) if moving else mesh.positions
 
 
@@ -157,6 +161,8 @@ def joined_runs(
         while (frame := next(frames, None)) is not None:
             first = frames.number - 1
             mesh = replace(run.mesh, positions=frame[:, :3])
+            # Vertices are joined only if they are at one place in all frames of the first group: at rest, the hands of
+            # a figure may touch its hips.
             index, begun = _begun(frame, frames, together)
             one = joined(mesh, index, keep=keep_order, keep_loose=False)
             later = frames.while_together(one, may_part=keep_order or allowed)
@@ -189,6 +195,7 @@ class _Frames:
         merged = len(used) > len(mesh.first)
         for positions in self:
             found = positions[mesh.first]
+            # Joined vertices may part later. Then a run ends, and the next one has them apart.
             apart = (positions[used] != found[mesh.index[used]]).any(axis=1) if merged else np.zeros(0, np.bool_)
             if apart.any():
                 if not may_part:
@@ -198,6 +205,7 @@ class _Frames:
                         "keep_order = True (--keep-order), or runs = True (--runs), they may"
                     )
                 self.number -= 1
+                # The frame that showed it is the first of the next run.
                 self._ahead = positions
                 return
             yield found
@@ -210,6 +218,7 @@ class _Frames:
             vertex = int(np.argmin(np.isfinite(positions).all(axis=1)))
             raise MeshError(f"vertex {vertex} of frame {self.number} has a number that is not finite; repair it")
         require_sizes(positions[:, :3])  # columns of attributes follow
+        # The first frame is the measure: later ones may be the broken ones.
         low, high = self._box = self._box or box_around(positions[:, :3])
         apart, diagonal = np.linalg.norm(positions[:, :3] - low, axis=1), float(np.linalg.norm(high - low))
         if apart[vertex := int(apart.argmax())] > FARTHEST * diagonal > 0.0:

@@ -73,6 +73,7 @@ class StepSearch:
         self._knots: set[int] = set()
         self.worst_look = 0.0  # of the frames that were drawn of the returned encoding
         if promise.look < math.inf:
+            # Captured motion rests for many frames, which look the same and need be drawn once.
             self._twins = same_frames(frames, (), TWIN_STEP * self._reach)
             self._knots.update(np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist())
 
@@ -83,18 +84,22 @@ class StepSearch:
         kept: Tried[Found] | None = None
         step, evened, missed = first, np.zeros(len(self._frames)), 0
         for attempt in range(1, TRIES + 1):
+            # Beyond these, levels do not fit, or nothing is left of the motion.
             step = min(max(step, finest), COARSEST_STEP)
             found = encode(step, np.exp(evened))
             latest = Tried(found, step, evened, self._measure(list(found.decoded_frames())))
             missed = missed + 1 if latest.excess > 0.0 else 0
+            # By bytes and not by steps: with weights, a finer step may give the smaller stream.
             if latest.excess <= 0.0 and (kept is None or found.size <= kept.found.size):
                 kept = latest
             while True:
                 step, evened = self._following(latest, attempt if weighed else 0, price / SLOPE * (1 + missed))
                 last = latest.step == (COARSEST_STEP if latest.excess <= 0.0 else finest)
+                # What the next attempt would take, about. It is made only if it can save more than its price.
                 likely = latest.found.size * (latest.step / step) ** SLOPE
                 if kept is None or not (last or attempt == TRIES or likely > (1.0 - price) * kept.found.size):
                     break
+                # Only here are all doubtful frames drawn: once, for the stream that would be returned.
                 if self._is_certain(kept):
                     return kept.found
                 latest, kept, missed = kept, None, 1
@@ -106,6 +111,7 @@ class StepSearch:
         """The step after one that was tried, and weights; they stay if the `attempt` is 0."""
         change, looks = np.zeros(len(tried.evened)), tried.measured.looks()
         if attempt and len(looks):
+            # Less with each attempt, or weights would swing from frame to frame for ever.
             change = EVENING * _evening(looks) / attempt
         step = tried.step * math.exp(RELIEF * float(change.max()) - tried.excess - spare)
         return step, (tried.evened + change).clip(-WIDEST, WIDEST)
@@ -116,6 +122,7 @@ class StepSearch:
         farthest = math.sqrt(max(squares_of(one - other).max() for one, other in pairs)) / self._reach
         if not self._knots:
             return Measured(farthest, np.zeros(0), {})
+        # Errors of normals follow the look closely and cost a hundredth of a picture.
         wrong = ordered_map(lambda pair: shading_error(*pair, self._faces), pairs, self._threads)
         errors = np.array(list(wrong)).clip(1e-12) ** POWER
         knots = sorted({*self._knots, int(errors.argmax())})  # the verification draws the largest error, too
@@ -141,12 +148,14 @@ class StepSearch:
     def _look(self, index: int, decoded: Sequence[Matrix]) -> float:
         """Return the look of a frame as a share of the bound; 0 if nothing of it is seen."""
         twin = int(self._twins[index])
+        # Equal pictures need not be drawn twice. The little more keeps the twin from setting the pace.
         if twin != index and np.array_equal(decoded[twin], decoded[index]):
             return TWIN * self._look(twin, decoded)
         metric = self._metrics.get(index) or metric_of(self._frames[index], self._faces, self._threads)
         if metric is None:
             return 0.0
         held = int(_PIXEL * metric.pixels**2)
+        # Pictures of originals take megabytes each; the first ones are the knots, which every attempt draws.
         if index not in self._metrics and held <= self._room:
             self._room -= held
             self._metrics[index] = metric
@@ -195,6 +204,7 @@ class Measured:
             return np.zeros(len(self.errors))
         ratios = np.log([self.drawn[index] for index in seen]) - np.log(self.errors[seen])
         steps, frames = np.diff(seen), np.arange(len(self.errors))
+        # The variance of a Brownian motion grows with time, and this is its rate.
         rate = float(np.mean(np.diff(ratios) ** 2 / steps)) if len(steps) else 1.0
         since = frames - seen[np.maximum(np.searchsorted(seen, frames, side="right") - 1, 0)]
         until = seen[np.minimum(np.searchsorted(seen, frames), len(seen) - 1)] - frames
@@ -212,6 +222,7 @@ def _evening(looks: Matrix) -> Matrix:
     return np.asarray(smooth - smooth.mean())
 
 
+# A frame of an explosion may show nothing, and then no step is too wide for it.
 def metric_of(frame: Positions, faces: Faces, threads: int | None = None) -> LookMetric | None:
     """Return the metric of an original frame, or None if nothing of it is seen."""
     try:

@@ -46,7 +46,10 @@ def compare_runs(runs: Runs) -> tuple[SequenceComparison, list[dict[str, float]]
         each += [{"rms_relative": f.rms / diagonal, "max_error_relative": f.max_error / diagonal} for f in found]
         seen += found
         wrong += float(np.square(original - decoded).sum())
+        # Karni and Gotsman divide by the motion about the mean of each frame, so that a walk across the room counts
+        # nothing.
         extent += float(np.square(original - original.mean(axis=1, keepdims=True)).sum())
+        # Second differences: an error that stays is not seen, and one that jumps is.
         flicker += float(np.square(np.diff(decoded - original, 2, axis=0)).sum())
         motion += float(np.square(np.diff(original, 2, axis=0)).sum())
     nmsve = float(np.mean([frame.nmsve for frame in seen]))
@@ -65,6 +68,7 @@ def compare_runs(runs: Runs) -> tuple[SequenceComparison, list[dict[str, float]]
 def _percent(part: float, whole: float) -> float:
     if part == 0.0:
         return 0.0
+    # Of a motionless original any error is infinitely large.
     return 100.0 * math.sqrt(part / whole) if whole else math.inf
 
 

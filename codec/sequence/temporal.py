@@ -65,7 +65,9 @@ class Motion:
     def of(frames: Matrix, step: float) -> Motion:
         """Decompose frames, shape (T, n, d)."""
         rows = trajectories(frames)
+        # Of the two products the smaller one is decomposed. Both have the same energies.
         few = len(rows) < rows.shape[1]
+        # An eigenvalue problem of a few hundred rows instead of an SVD of all vertices.
         vectors, energies, _ = np.linalg.svd(rows @ rows.T if few else rows.T @ rows, hermitian=True)
         count = int(np.count_nonzero(energies > FAINT * least_energy(rows.shape[1], step)))
         vectors, roots = np.ascontiguousarray(vectors[:, :count]), np.sqrt(energies[:count])
@@ -88,6 +90,7 @@ def lengths_of(motion: Motion, step: float) -> list[int]:
         rows = part.reshape(len(part), part.shape[1] * part.shape[2])
         energies = np.linalg.eigvalsh(rows.T @ rows if len(rows) > rows.shape[1] else rows @ rows.T)
         kept = energies[energies > least_energy(rows.shape[1], step)]
+        # The spectrum of a cosine transform by an FFT, without a matrix of cosines.
         there_and_back = np.concatenate([part, part[..., ::-1]], axis=2)  # its sines vanish, and cosines remain
         smooth = np.square(np.abs(np.fft.rfft(there_and_back)[..., : end - begin])).sum(axis=0) / (2 * (end - begin))
         fields = vertices * np.log2(1.0 + kept / (DENSE * vertices * step**2)).sum()
@@ -98,11 +101,14 @@ def lengths_of(motion: Motion, step: float) -> list[int]:
         """Return those of the places, from 0 to `frames`, between which bits are fewest."""
         ways: list[tuple[float, list[int]]] = [(0.0, [0])]
         for end in places[1:]:
+            # The cheapest way to each place goes on from the cheapest way to an earlier one, since costs of parts just
+            # add up.
             ways.append(min((cost + bits(cuts[-1], end), [*cuts, end]) for cost, cuts in ways))
         return ways[-1][1]
 
     stride = max(1, frames // PLACES)
     cuts = cheapest([*range(0, frames - stride + 1, stride), frames])
+    # First coarsely and then around what was found: to price every pair of places would take cubic time.
     while len(cuts) > 2 and (stride := stride // 2):
         for at in range(1, len(cuts) - 1):
             low, middle, high = cuts[at - 1 : at + 2]
@@ -110,6 +116,7 @@ def lengths_of(motion: Motion, step: float) -> list[int]:
             cuts[at] = min(near, key=lambda place: bits(low, place) + bits(place, high))
         between = ((low + high) // 2 for low, high in pairwise(cuts))  # of two cuts beside a change, one is enough
         cuts = cheapest(sorted({*cuts, *between}))
+    # An estimate that is nearly even is noise, and one GOP is simpler.
     if sum(bits(*part) for part in pairwise(cuts)) >= CLEARLY * bits(0, frames):
         return [frames]
     return [end - begin for begin, end in pairwise(cuts)]
@@ -121,6 +128,7 @@ def learn_basis(motion: Matrix, step: float, limit: int) -> tuple[Matrix, npt.ND
     energies, vectors = np.linalg.eigh(motion @ motion.T if few else motion.T @ motion)
     count = int(np.count_nonzero(energies > least_energy(motion.shape[1], step)))
     kept = energies[: -count - 1 : -1]
+    # A column that multiplies much energy must be finer, in proportion to the root of it.
     exponents = np.round(OCTAVE * np.log2(np.sqrt(kept) / (PRECISION * step)))
     columns = np.ascontiguousarray(vectors[:, : -count - 1 : -1])
     if few:
@@ -132,6 +140,7 @@ def trajectories(frames: Matrix) -> Matrix:
     """Frames, shape (T, n, d), as a matrix of its own, shape (n, dT)."""
     frame_last = frames.transpose(1, 2, 0)
     matrix = np.empty(frame_last.shape)  # of a single frame, reshaping would give the frame itself
+    # BLAS multiplies a matrix in order several times as fast as a view with strides.
     matrix[...] = frame_last
     return matrix.reshape(len(matrix), -1)
 
@@ -161,6 +170,8 @@ def free_of(columns: Matrix) -> Matrix:
     """Free parameters of columns, shape (n, r) with r <= n: zeros above the diagonal, none negative on it."""
     if not columns.size:
         return columns.copy()
+    # LAPACK's raw form is the vectors of the reflections themselves: these are the degrees of freedom of orthonormal
+    # columns.
     packed, factors = np.linalg.qr(columns, mode="raw")  # vectors are 1 on the diagonal, where lengths stand instead
     lengths = np.diagonal(packed)
     # Of a diagonal that rounding has made 0 the length tells the sign: where it is reflected, it is the other one.

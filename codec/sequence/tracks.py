@@ -40,6 +40,7 @@ class Setting:
 
 def make_setting(scheme: Scheme, faces: Faces, first_frame: Matrix, moving: Sequence[Matrix] = ()) -> Setting:
     """Make the dictionaries from the decoded first frame, shape (n, 3), and the first values of what moves, (n, d)."""
+    # The dictionaries of a sequence are made once and kept, for every GOP uses all of them.
     whole = Chain(scheme.rules, scheme.blocks)
     widths = [values.shape[1] for values in moving]
     starts = np.ascontiguousarray(np.hstack([np.empty((len(first_frame), 0)), *moving]))

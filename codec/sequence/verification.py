@@ -46,6 +46,7 @@ class SequenceVerifier:
         self._decoder = SequenceDecoder(NAMED_LIMITS[options.limits](), options.threads)
         self._promise, self._metadata, self._shown = options.promise, metadata, shown
         self._meshes: deque[tuple[AsGiven, tuple[PreparedAttribute, ...]]] = deque()
+        # Frames wait only until their GOP is decoded, so memory stays that of a GOP.
         self._frames: deque[ExpectedFrame] = deque()
         self._ended = False
         self._wrong = self._extent = 0.0  # sums of squares over all frames
@@ -78,6 +79,7 @@ class SequenceVerifier:
             self._decoder.receive_data(chunk)
             if last:
                 self._decoder.receive_eof()
+            # The decoder in C decodes while the encoder writes, as a receiver would, chunk by chunk.
             while not isinstance(event := self._decoder.next_event(), Signal):
                 match event:
                     case ConnectivityEvent(faces, vertices):
@@ -91,9 +93,11 @@ class SequenceVerifier:
         except BsmError as error:
             raise VerificationError(f"the decoder refuses the encoded stream: {error}") from error
         if last:
+            # Frames that never came back would be found by nothing else.
             require(self._ended and not self._frames and not self._meshes, "the decoder did not return all frames")
             require(self._decoder.metadata == dict(self._metadata), "the decoded metadata differ")
             if self._promise is not None and self._promise.look < math.inf:
+                # The search has drawn the others. This frame is drawn again, from what the decoder returned.
                 look, most = self.worst_look or 0.0, self._promise.look
                 require(look <= most * (1.0 + ROUNDING), f"a frame has look {look:.4g}; the bound is {most:g}")
         return chunk
@@ -110,6 +114,7 @@ class SequenceVerifier:
         expected = self._frames.popleft()
         require_positions(frame.positions, expected.positions, self._matched, self._original.loose)
         self._measure(frame, expected)
+        # Attributes that rest are the same in every frame.
         if not self._checked:
             moving = {each.number for each in expected.moving}
             still = [attribute for number, attribute in enumerate(frame.attributes) if number not in moving]
@@ -137,6 +142,7 @@ class SequenceVerifier:
         self.farthest_relative = max(self.farthest_relative, far / self._diagonal)
         if self._promise is not None:
             most = self._promise.reach(units.scale, 1.0)
+            # Positions far from the origin are rounded when they go back to the unit of the mesh.
             rounding = ROUNDING * most + 8.0 * float(np.finfo(np.float64).eps * np.abs(original).max())
             require(far <= most + rounding, f"a vertex of frame {frame.index} is off by {far:.4g}")
         error = shading_error(original, decoded, faces)

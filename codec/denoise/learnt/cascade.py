@@ -13,6 +13,7 @@ from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles,
 from bsm.codec.denoise.surface import Topology, follow_normals, surroundings, unit
 from bsm.codec.geometry.metrics import face_normals
 
+# A mesh unlike those that were learnt from must not lead a network into numbers that it has never seen.
 FARTHEST = np.float32(6.0)  # bound of standardised numbers
 MOST_NEGATIVE = np.float32(80.0)
 TOGETHER = 16  # faces of a product of matrices: larger ones wake threads that wait longer than they work
@@ -26,12 +27,15 @@ class Network:
     layers: tuple[tuple[Singles, ...], ...]
 
     def __call__(self, numbers: Singles) -> Singles:
+        # Always the same shape of product: BLAS sums in an order that depends on it, and results shall not.
         values = np.zeros((-(-len(numbers) // TOGETHER), TOGETHER, NUMBERS), np.float32)
         values.reshape(-1, NUMBERS)[: len(numbers)] = np.clip((numbers - self.mean) * self.scale, -FARTHEST, FARTHEST)
         for matrix, shift in self.layers[:-1]:
             values = values @ matrix + shift
+            # x / (1 + exp(-x)), which has no kink. The exponential of larger numbers overflows single precision.
             values /= np.float32(1.0) + np.exp(np.minimum(-values, MOST_NEGATIVE))
         matrix, shift = self.layers[-1]
+        # A correction of the filtered normal: a network that knows nothing changes nothing.
         normals = numbers[:, BASE] + (values @ matrix + shift).reshape(-1, 3)[: len(numbers)]
         return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.float32(1e-6)))
 
@@ -46,6 +50,7 @@ def read_networks(path: Path = WEIGHTS) -> tuple[Network, ...]:
             layers = (tuple(arrays[part + key].astype(np.float32) for part in ("matrix", "shift")) for key in keys)
             networks.append(Network(arrays[f"mean{stage}"], arrays[f"scale{stage}"], tuple(layers)))
     if not networks or any(len(network.mean) != NUMBERS for network in networks):
+        # Weights for other inputs would run, and give garbage.
         raise ValueError(f"{path}: made for other numbers of faces; train it again: python -m tools.train_denoiser")
     return tuple(networks)
 
@@ -70,6 +75,7 @@ def learnt(positions: Positions, topology: Topology, noisy: Mask | None = None) 
     normals, near = np.zeros((len(topology.faces), 3)), surroundings(positions, topology, RADIUS)
     for network in read_networks():
         normals = regressed_normals(descriptions(positions, topology, near, noisy), network)
+        # Each stage sees the mesh that the one before it left, as it did in training.
         positions = follow_normals(positions, topology, normals, VERTEX_ITERATIONS)
     return Learnt(positions, normals)
 

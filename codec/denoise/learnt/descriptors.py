@@ -40,6 +40,7 @@ def descriptions(
     repeated = list(_repeated(geometry, topology.patches, distance))
     counted = np.ones(len(smooth), bool) if noisy is None else noisy[topology.faces].any(axis=1)
     rough = np.linalg.norm(geometry.normals - smooth, axis=1)[counted].sum() / max(np.count_nonzero(counted), 1)
+    # Turned by half about the normal, a face looks the same. Of both ways the one that the base normal tells is taken.
     order, signs = mirrored(True, True)
     for begin in range(0, len(geometry.areas), BATCH):
         count = min(BATCH, len(geometry.areas) - begin)

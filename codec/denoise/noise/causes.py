@@ -14,8 +14,10 @@ from bsm.codec.denoise.surface import Topology, surface_normals
 from bsm.codec.geometry.welding import weld
 
 FEWEST_VALUES = 16  # with fewer different values of a coordinate, a grid looks like a few planes
+# Files write six or seven digits, so a grid is met only nearly.
 NEAR = 0.02  # distance from a multiple, in steps, that the precision of files explains
 SAME = 1e-6  # values closer together, as a share of the extent, are one value
+# Rounding puts neighbors at one place, and faces without area tell no normal.
 SPREADS = 3  # averagings that part vertices that rounding has merged
 
 FEW_VALUES = 4  # of a coordinate that lies on half-cells
@@ -37,6 +39,7 @@ class Spacing:
         return np.asarray(np.sqrt(np.square(normals * self.steps).sum(axis=1) / 12.0))
 
     def within(self, given: Positions, moved: Positions) -> Positions:
+        # Rounded values are within half a step of the true ones: the one thing that is certain.
         half = np.where(self.steps > 0.0, 0.5 * self.steps, np.inf)
         return np.clip(moved, given - half, given + half)
 
@@ -54,6 +57,7 @@ class Spacing:
 def find_grid(positions: Positions) -> Spacing | None:
     """The grid that the positions, shape (n, 3), were rounded to, in all coordinates."""
     steps = [rounding_step(positions[:, axis]) for axis in range(3)]
+    # A flat part may have one coordinate that tells nothing. Two that do are evidence enough.
     known = [step for step in steps if step is not None]
     return Spacing(np.array(known)) if len(known) == 3 and sum(step > 0.0 for step in known) >= 2 else None
 
@@ -64,6 +68,7 @@ def weld_seams(positions: Positions, faces: Faces) -> tuple[Positions, Faces, In
     n = len(positions)
     if len(welded) == n or find_grid(welded) is None:
         return welded, joined, index
+    # On a grid, vertices meet by chance. Only those of borders are seams.
     index = np.where(Topology(faces, n).boundary, n + index, np.arange(n))
     index = np.unique(index, return_inverse=True)[1].ravel().astype(np.int32)
     return positions[np.unique(index, return_index=True)[1]], index[faces], index
@@ -77,6 +82,7 @@ def rounding_step(coordinate: Floats, fewest: int = FEWEST_VALUES) -> float | No
     gaps = gaps[gaps > SAME * extent]
     if len(gaps) < fewest:
         return 0.0
+    # The smallest gap between values is one step, unless few values are seen.
     count = round(extent / float(gaps.min()))
     # One gap alone is known no better than the file's last digits: all of them together say it.
     step = extent / count
@@ -84,6 +90,7 @@ def rounding_step(coordinate: Floats, fewest: int = FEWEST_VALUES) -> float | No
         numbers = np.round((values - values[0]) / step)
         step = float(numbers @ (values - values[0]) / (numbers @ numbers))
     off = np.abs((values - values[0]) / step - np.round((values - values[0]) / step))
+    # Any few numbers are multiples of a tiny step. Enough places of the grid must be taken.
     return step if off.max() < NEAR and len(values) * 8 > count else None
 
 
@@ -117,6 +124,7 @@ class Reach:
             normals = surface_normals(moved, self.topology)
             along = np.einsum("ij,ij->i", way, normals)[:, None] * normals
             across = way - along
+            # Motion along the surface is damped and not cut, so that no vertex sticks at a bound.
             way = along + across / (1.0 + np.linalg.norm(across, axis=1, keepdims=True) / (ASIDE * level))
         far = np.linalg.norm(way, axis=1, keepdims=True) / (FARTHEST * level)
         return np.asarray(given + way / np.maximum(far, 1.0))

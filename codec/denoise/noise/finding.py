@@ -21,11 +21,13 @@ def lattice_step(positions: Positions) -> float:
     extent = float(np.ptp(positions, axis=0).max())
     planes = []
     for column in positions.T:
+        # Marching cubes leave two coordinates of each vertex on planes of the lattice: heaps of equal values.
         values, counts = np.unique(np.round((column - column.min()) / (SAME * extent or 1.0)), return_counts=True)
         values, counts = values[counts >= LATTICE_HEAP], counts[counts >= LATTICE_HEAP]
         # Symmetric shapes have smaller heaps beside.
         usual = np.median(np.repeat(counts, counts)) if len(counts) else 0.0
         planes.append(values[counts > LATTICE_USUAL * usual] * SAME * extent)
+    # A box has heaps as well, at its sides.
     if min(len(heaps) for heaps in planes) < FEWEST_VALUES:
         return 0.0
     step = float(np.median(np.concatenate([np.diff(heaps) for heaps in planes])))
@@ -76,6 +78,7 @@ class Finding:
         """The finding with a bound to where noise that is not bound otherwise may have moved vertices from."""
         free = self.bound is None and self.kind in ("white", "correlated", "local")
         # Fine levels hold little of noise that neighbors share: about the square of their share in the finest.
+        # A bound by the noise itself, where coordinates tell none: no vertex was moved by more than a few deviations.
         return replace(self, bound=Reach(topology, self.levels / self.whiteness**2, slides)) if free else self
 
 
@@ -103,6 +106,7 @@ class Evidence:
 
     def whiteness(self, windows: Mask) -> float:
         """Level of the finest frequencies over the fine ones: 1 for white noise, less if neighbors share it."""
+        # The lower quarter: creases are in the upper parts of both.
         return float(np.quantile(self.finest[windows], 0.25) / max(np.quantile(self.levels[windows], 0.25), 1e-9))
 
     def residuals(self, windows: Mask) -> Floats:
@@ -120,6 +124,7 @@ class Evidence:
         off = abs(broader + SLOPE * whiteness + SHIFT)
         across = self.across[windows[self.probe.windows.labels] & self.probe.counted]
         irregular = np.log(max(float(np.quantile(across, 0.9)), LEAST_ACROSS))
+        # Few windows make every measure uncertain, and rules want more evidence then.
         few = max(1.0 / np.sqrt(len(fine)) - 1.0 / np.sqrt(MANY_WINDOWS), 0.0)
         return np.array([level, whiteness, off, *uneven, irregular, few])
 
@@ -141,6 +146,7 @@ def look(probe: Probe, values: Floats, directions: Floats, edge: float) -> Evide
 
 def spread(levels: Floats, windows: Windows) -> float:
     """Spread of the lower half of levels, shape (k,), beyond what chance makes; creases are in the upper one."""
+    # Robust against the upper half, where shape adds to noise.
     bottom, middle = np.quantile(levels, [0.1, 0.5])
     if bottom <= 0.0:
         return float("inf")
@@ -150,5 +156,6 @@ def spread(levels: Floats, windows: Windows) -> float:
 
 def is_random(values: Floats) -> bool:
     """Whether standardised values, shape (k,), lie on both sides, with neither a heap of zeros nor a hole there."""
+    # The share of a standard normal distribution within a tenth of a deviation is 0.0797.
     center = float(np.mean(np.abs(values) < 0.1)) / 0.0797
     return abs(float(np.median(values))) < ASIDE and CENTER[0] < center < CENTER[1]

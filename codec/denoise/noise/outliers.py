@@ -44,7 +44,9 @@ REFINEMENTS = 30
 
 def put_outliers_back(positions: Positions, probe: Probe, finding: Finding) -> Positions:
     """Put back vertices far outside their neighbors and, in a mesh without noise, those that stand out; no others."""
+    # Far strays first: one of them hides fainter ones around it.
     back = put_strays_back(positions, probe)
+    # In a noisy mesh, vertices that stand out a little are the noise.
     noisy = (finding if back is positions else find_noise(back, probe)).noisy
     return back if noisy else _peeled(back, probe)
 
@@ -57,6 +59,7 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
     place, stray = positions, np.zeros(n, dtype=np.bool_)
     for turn in range(STRAY_TURNS):
         distance, height = _distances(place, probe)
+        # Nine tenths of the mesh tell how far vertices usually lie from their neighbors.
         usual = float(np.quantile(distance[probe.counted], 0.9))
         spiky = _spiky(place, probe)
         if turn == 0:
@@ -65,14 +68,17 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
                 return positions
         noise = (probe.windows.quantiles(height, SHARE) / BOUND)[probe.windows.labels]
         stray |= spiky & (distance > max(STRAY, 2.0 * usual)) | (height > np.fmax(HIGH * noise, 1.0))
+        # A fifth of all vertices cannot be exceptions.
         if stray.sum() > MOST_SHARE * n:
             return positions
         known = np.where(stray, 0.0, 1.0)
+        # Only from neighbors that are not strays themselves.
         weight = probe.average @ known
         middle = (probe.average @ (known[:, None] * positions)) / np.maximum(weight, 1e-9)[:, None]
         place = np.where((stray & (weight > 0.0))[:, None], middle, positions)
     way = np.median(np.linalg.norm(place - positions, axis=1)[plain])
     far = way > STRAY_FAR * mean_edge_length(place, probe.topology.faces) and np.median(distance[plain]) < STRAY_OFF
+    # Slivers of CAD models look like strays. Put "back", they still stand out, and are then left alone.
     return place if far and _spiky(place, probe)[plain].mean() < STRAY_LEFT else positions
 
 
@@ -92,6 +98,7 @@ def _distances(positions: Positions, probe: Probe) -> tuple[Floats, Floats]:
     spread = grouped_quantiles(np.linalg.norm(positions[members] - middle[owners], axis=1), owners, sizes, 0.5)
     height = np.einsum("ij,ij->i", positions - middle, probe.smooth_normals(middle, passes=1))
     off = np.linalg.norm(positions - middle, axis=1)
+    # The median of the neighbors' distances: a mean would follow the stray among them.
     scale = np.where(probe.counted, np.maximum(spread, 1e-12 * off + 1e-300), np.inf)
     return off / scale, np.abs(height) / scale
 
@@ -101,14 +108,17 @@ def _peeled(positions: Positions, probe: Probe) -> Positions:
     normals = probe.smooth_normals(positions, passes=1)
     operator, gain = probe.fine_operator
     seen = np.einsum("ij,ij->i", operator @ (positions / edge), normals)
+    # The energy of the pattern that a vertex off by one edge would make.
     energy = np.maximum(np.asarray(operator.multiply(operator).sum(axis=0)).ravel(), 1e-12)
     support = (operator != 0).astype(np.float64).T.tocsr()
     transposed = operator.T.tocsr()
     rest, amounts, most = seen.copy(), np.zeros(len(positions)), np.inf
+    # The clearest first: once their patterns are taken away, fainter ones nearby can be seen.
     for share in (CLEAR, *LESS_CLEAR):
         calm = np.zeros(len(positions))
         if share < CLEAR:
             off = amounts[amounts != 0.0]
+            # Detail makes a few clear ones on any mesh, and on one side. Real outliers are many, and lie on both.
             few = len(off) < max(FEWEST, FEWEST_SHARE * len(amounts))
             if few or abs(np.sign(off).mean()) >= ONE_SIDED or np.median(np.abs(off)) <= WORTH:
                 return positions
@@ -121,6 +131,7 @@ def _peeled(positions: Positions, probe: Probe) -> Positions:
         for _ in range(ROUNDS):
             fit = (transposed @ rest) / energy
             explained = np.where(probe.counted, fit**2 * energy, 0.0)
+            # Only the best in its surroundings is peeled: neighbors would explain the same pattern again.
             best = support.multiply(explained).max(axis=1).toarray().ravel()
             found = (explained > 0.0) & (explained >= best) & (explained >= share * (support @ rest**2))
             found &= (np.abs(fit) > least) & (np.abs(fit) < most)

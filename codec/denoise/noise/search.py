@@ -76,8 +76,10 @@ class Suspect(NamedTuple):
 def find_noise(positions: Positions, probe: Probe) -> Finding:
     """Return the first kind of noise that the coordinates tell, or that its rule believes."""
     edge, nothing = mean_edge_length(positions, probe.topology.faces), np.zeros(probe.topology.n)
+    # Coordinates that tell a cause come first: nothing has to be guessed then.
     if cells := _cells(positions, probe, edge):
         return cells
+    # A spread over three windows says nothing. "Unknown" is honest, and nothing is changed.
     if int(probe.windows.valid.sum()) < FEWEST_WINDOWS:
         return Finding("unknown", 0.0, nothing, edge, "too few vertices to tell noise from shape")
     evidence = surface(positions, probe, edge)
@@ -85,6 +87,7 @@ def find_noise(positions: Positions, probe: Probe) -> Finding:
         finding = test(positions, evidence)
         if finding is not None:
             return finding
+    # The most special first: noise along an axis would also pass as noise all over, which is treated worse.
     for suspect in suspects(positions, evidence):
         if suspect.score > 0.0:
             return suspect.finding
@@ -97,6 +100,7 @@ def find_noise(positions: Positions, probe: Probe) -> Finding:
 
 def surface(positions: Positions, probe: Probe, edge: float) -> Evidence:
     """Return what filters see along the normals of a surface as smooth as its noise asks, in mean edges."""
+    # Heavy noise turns normals, along which it is to be measured. Then they come from a smoother version.
     for passes in (2, HEAVY_PASSES):
         normals = probe.smooth_normals(positions, passes)
         evidence = look(probe, positions / edge, normals, edge)
@@ -193,11 +197,13 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
     probe, chosen, edge = evidence.probe, evidence.probe.counted, evidence.edge
     fine = probe.fine(positions / edge)
     length = np.linalg.norm(fine, axis=1)
+    # A few creases must not set the direction, so long vectors are shortened.
     calm = fine * np.minimum(1.0, np.quantile(length[chosen], 0.8) / np.maximum(length, 1e-300))[:, None]
     values, vectors = np.linalg.eigh(calm[chosen].T @ calm[chosen] / chosen.sum())
     if values[2] < AXIS_ALONE**2 * values[1]:
         return None
     axis = vectors[:, 2] * np.sign(vectors[np.abs(vectors[:, 2]).argmax(), 2])
+    # Cameras and printers are aligned to an axis much more often than nearly aligned.
     axis = np.round(axis) if np.abs(axis).max() > SNAP else axis
     normals = probe.smooth_normals(positions, HEAVY_PASSES)
     facing = np.abs(normals @ axis)
@@ -212,6 +218,7 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
     growth = _growth(along, positions @ axis)
     along = along if growth is None else along.weakened(growth)
     # The shape is as strong across.
+    # The shape adds as much along the axis as across it, where it is seen alone.
     level = float(np.sqrt(max(along.level(probe.windows.valid) ** 2 - values[1], 0.0)))
     if level < FAINTEST:
         return None
@@ -250,6 +257,7 @@ def _here_and_there(positions: Positions, evidence: Evidence) -> Suspect | None:
     """Strong and even in some windows, weak in the others."""
     probe, windows = evidence.probe, evidence.probe.windows
     levels = np.where(windows.valid, evidence.levels, 0.0)
+    # Otsu's threshold: the one that leaves two groups which differ most.
     above = levels > np.exp(_otsu(np.sort(np.log(np.maximum(levels[windows.valid], 0.02)))))
     inner = above & ~windows.beside(~above & windows.valid)
     if inner.sum() < FEWEST_INNER or above.sum() < LOCAL_SHARE * windows.count:
@@ -261,6 +269,7 @@ def _here_and_there(positions: Positions, evidence: Evidence) -> Suspect | None:
     inside = inner[windows.labels]
     unsure = ((above & ~inner) | (~above & windows.beside(above)))[windows.labels]
     nearby = np.square(np.minimum(np.abs(evidence.along), 3.0 * level))
+    # Windows are coarser than the edge of a noisy part. Near it, each vertex is judged by its surroundings.
     for _ in range(NEARBY):
         nearby = probe.average @ nearby
     inside[unsure] = nearby[unsure] > (0.5 * level) ** 2

@@ -39,11 +39,13 @@ def estimate_noise(positions: Positions, smooth: Positions, probe: Probe) -> Noi
     """Return the noise of `positions`, shape (n, 3), along and across the normals of a smooth version of them."""
     counted = probe.counted if probe.counted.any() else np.ones(len(positions), dtype=np.bool_)
     normals = surface_normals(smooth, probe.topology)[counted]
+    # The finest filter, which leaves least of the shape.
     seen = probe.finest(positions)[counted]
     along = np.einsum("ij,ij->i", seen, normals)
     # Triangles are irregular here and there, and noise is everywhere: its tenth part tells.
     across = float(np.quantile(np.linalg.norm(seen - along[:, None] * normals, axis=1), 0.1)) / TENTH_ACROSS
     normal = float(np.median(np.abs(along))) / MEDIAN_ALONG
+    # Irregular triangles look like noise along the surface, up to about this level.
     floor = IRREGULARITY * mean_edge_length(positions, probe.topology.faces)
     above = math.sqrt(max(across * across - floor * floor, 0.0))
     return NoiseLevel(normal, min(normal, across if above > SLIDING * normal else above))
@@ -69,6 +71,7 @@ class Synthesis:
         if isinstance(finding.bound, Spacing):
             return finding.bound.round(positions, finding.bound.steps * random.random(3))
         white = random.normal(size=positions.shape)
+        # A rehearsal needs noise of the same kind: a filter that is good for one is bad for another.
         if finding.axis is not None:
             growth = 1.0 if finding.growth is None else finding.growth[:, None]
             return np.asarray(positions + finding.level * growth * white[:, :1] * finding.axis)
@@ -82,6 +85,7 @@ class Synthesis:
         along = np.einsum("ij,ij->i", white, normals)[:, None]
         amount = self._probe.correlated(along, self._steps)
         if self._steps:
+            # Averaging takes strength away, and the level is that of fine frequencies, not of all.
             amount *= self._strength / amount.std()
         across = np.where(finding.levels > 0.0, self._tangential, 0.0)[:, None] * (white - along * normals)
         return np.asarray(positions + finding.levels[:, None] * amount * normals + across)

@@ -30,6 +30,7 @@ class View:
     def plane(self, positions: Positions) -> Floats:
         """Where the vertices are in the picture, shape (n, 2)."""
         rays = positions - self.eye
+        # Any two directions at right angles to the axis will do.
         across = np.linalg.svd(self.axis[None])[2][1:]
         return np.asarray(rays @ across.T / (rays @ self.axis)[:, None])
 
@@ -66,11 +67,14 @@ def find_view(positions: Positions, probe: Probe) -> View | None:
     if not extent > 0.0 or not length.any():
         return None
     off *= np.minimum(1.0, np.quantile(length[probe.counted], 0.8) / np.maximum(length, 1e-300))[:, None]
+    # Noise of a camera is along its rays, so it is strongest along the axis of the camera.
     main = np.linalg.eigh(off.T @ off)[1][:, 2]
     # Noise along rays p - c: the eye c is where the lines along the noise come closest to each other.
     square = np.square(off).sum(axis=1)
     matrix = square.sum() * np.eye(3) - off.T @ off
     eye = np.linalg.lstsq(matrix, square @ positions - off.T @ np.einsum("ij,ij->i", off, positions), rcond=1e-12)[0]
+    # Scans are often given in the frame of the camera, with the eye at the origin. Otherwise it is found from the
+    # noise, or the camera is so far away that rays are parallel.
     eyes = [np.zeros(3), eye, *(middle - FAR * extent * axis for axis in (main, *np.eye(3)))]
     views = [View(eye, (middle - eye) / (np.linalg.norm(middle - eye) or 1.0)) for eye in eyes]
     best = min(views, key=lambda view: _irregular(view, positions, probe))
@@ -79,6 +83,7 @@ def find_view(positions: Positions, probe: Probe) -> View | None:
     plane = best.plane(positions)
     a, b, c = (plane[topology.faces[:, corner]] for corner in range(3))
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    # A view shows one side of every face. Other surfaces have a back.
     return best if max((area > 0.0).mean(), (area < 0.0).mean()) > ONE_SIDED else None
 
 

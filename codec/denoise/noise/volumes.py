@@ -22,6 +22,7 @@ ALIKE, SQUARE, TOGETHER = 1e-3, 1e-2, 1e-4
 SAMPLE, DIRECTIONS, SHARE, FRAMES = 10_000, 9, 0.01, 12
 """Faces to look at; directions of edges that are considered, and their least share; and frames to try."""
 ROUNDS, FIRST, STEPS, POWERS = 3, 100, 60, 15
+# A step above the inverse of the curvature diverges, and the estimate comes from below.
 SAFE = 1.1  # over the estimate of the largest curvature
 
 
@@ -49,6 +50,7 @@ class Cells(Box):
                 bent = np.linalg.norm(bends @ found, axis=1, keepdims=True)
                 weights = 1.0 / np.maximum(np.hypot(bent, np.median(bent)), 1e-300)
                 weights /= weights.max()
+            # Power iteration, from a fixed start, so that results are the same each time.
             curve = np.random.default_rng(0).normal(size=(topology.n, 1))
             for _ in range(POWERS):
                 curve = back @ (weights * (bends @ (curve / max(float(np.linalg.norm(curve)), 1e-300))))
@@ -56,6 +58,8 @@ class Cells(Box):
             for _ in range(STEPS if turn else FIRST):
                 slope = back @ (weights * (bends @ ahead))
                 last, found = found, np.clip(ahead - step * slope, given - self.half, given + self.half)
+                # Acceleration is given up where it points uphill (O'Donoghue and Candes 2015), or it would swing about
+                # the solution.
                 if ((ahead - found) * (found - last)).sum() > 0.0:  # it would turn back
                     ahead, pace = found, 1.0
                 else:
@@ -67,6 +71,7 @@ class Cells(Box):
 def find_cells(positions: Positions, topology: Topology) -> Cells | None:
     """The cells of a binary volume whose surface by marching cubes positions, shape (n, 3), are, in any direction."""
     cells = _cells(positions, np.eye(3))
+    # Most volumes are aligned to x, y and z. Turned ones are looked for only after that.
     for frame in () if cells else _frames(positions, topology):
         cells = cells or _cells(np.stack([_snapped(column) for column in frame @ positions.T], axis=1), frame)
     return cells
@@ -80,6 +85,7 @@ def _cells(places: Positions, frame: Floats) -> Cells | None:
     axes = np.array([1, 2, 4])
     counts = np.bincount((numbers & 1) @ axes, minlength=8)
     offset = max(range(8), key=lambda offset: int(counts[axes ^ offset].sum()))
+    # Each vertex of marching cubes on a binary volume is halfway along one axis and on cells along the other two.
     if counts[axes ^ offset].sum() < HALFWAY * len(places):
         return None
     between = ((numbers ^ (offset >> np.arange(3))) & 1).astype(np.bool_)
@@ -114,6 +120,7 @@ def slice_thickness(planes: Order) -> float:
     thick, begin = float(gaps[gaps <= gaps.min() + 1.0].mean()), 0.0
     for _ in range(3):
         numbers = np.round((heights - begin) / thick)
+        # Slices are rarely a whole number of cells thick, so ends are rounded up and down by turns.
         thick, begin = np.polyfit(numbers, heights, 1)
     return float(thick) if np.abs(heights - begin - thick * numbers).max() < 1.0 else 1.0
 
