@@ -64,10 +64,10 @@ def docstrings(text: str) -> list[ast.Expr]:
     return [node for node in nodes if isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)]
 
 
-def comment_lines(text: str) -> int:
-    """Count the lines of Python that are comments."""
+def comment_lines(text: str) -> list[int]:
+    """The numbers of the lines of Python that are comments."""
     words = tokenize.generate_tokens(io.StringIO(text).readline)
-    return sum(word.type == tokenize.COMMENT and word.line.lstrip().startswith("#") for word in words)
+    return [word.start[0] for word in words if word.type == tokenize.COMMENT and word.line.lstrip().startswith("#")]
 
 
 def count_scanned(text: str) -> int:
