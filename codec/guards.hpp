@@ -21,8 +21,15 @@ inline bool below(ConstInts indices, int64_t limit) { return all_below(indices.d
 inline bool below(ConstInts2 indices, int64_t limit) {
     return all_below(indices.data, indices.rows * indices.columns, limit);
 }
-inline bool triples(int64_t rows, ConstDoubles2 array) { return array.rows == rows && array.columns == 3; }
-inline bool triples(int64_t rows, Doubles2 array) { return array.rows == rows && array.columns == 3; }
+template <typename... Arrays> bool sized(int64_t size, Arrays... arrays) { return ((arrays.size == size) && ...); }
+template <typename... Arrays> bool rows_of(int64_t columns, int64_t rows, Arrays... arrays) {
+    return ((arrays.rows == rows && arrays.columns == columns) && ...);
+}
+template <typename... Arrays> bool triples(int64_t rows, Arrays... arrays) { return rows_of(3, rows, arrays...); }
+inline bool corners(ConstInts2 faces, int64_t vertices) { return faces.columns == 3 && below(faces, vertices); }
+inline bool edges(ConstInts offsets, ConstInts neighbors) {
+    return offsets.size > 0 && fits_rows(offsets, neighbors, offsets.size - 1, offsets.size - 1);
+}
 
 // Rows of a list: they ascend from 0, and end within the members; `least` members at least are in each.
 inline bool lists(ConstLongs starts, int64_t rows, int64_t members, int64_t least = 0) {
@@ -36,46 +43,45 @@ inline bool graph(Lists given, int64_t rows, int64_t limit, int64_t least = 0) {
 }
 inline bool geometry(FaceGeometry faces) {
     int64_t m = faces.normals.rows;
-    return triples(m, faces.centroids) && faces.areas.size == m && triples(m, faces.normals);
+    return triples(m, faces.centroids, faces.normals) && faces.areas.size == m;
 }
 
 inline bool collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second) {
-    return faces.columns == 3 && offsets.size > 0 && below(faces, offsets.size - 1) && filled.size >= offsets.size - 1
+    return offsets.size > 0 && corners(faces, offsets.size - 1) && filled.size >= offsets.size - 1
         && ends.size >= 6 * faces.rows && second.size >= 6 * faces.rows;
 }
 inline bool vertex_faces(ConstInts2 faces, Longs starts, Ints members) {
     return starts.size > 0 && below(faces, starts.size - 1) && members.size >= faces.rows * faces.columns;
 }
 inline bool normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around) {
-    return triples(original.rows, original) && triples(original.rows, decoded) && faces.columns == 3
-        && around.rows == original.rows && around.columns == 7 && below(faces, original.rows);
+    return triples(original.rows, original, decoded) && corners(faces, original.rows)
+        && rows_of(7, original.rows, around);
 }
 inline bool geometric_laplacian(ConstDoubles2 positions, Lists neighbors, Doubles2 result) {
     int64_t n = positions.rows;
-    return triples(n, positions) && triples(n, result) && graph(neighbors, n, n);
+    return triples(n, positions, result) && graph(neighbors, n, n);
 }
 inline bool face_geometry(
     ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals, Bytes whole) {
     int64_t m = faces.rows;
-    return triples(positions.rows, positions) && faces.columns == 3 && below(faces, positions.rows)
-        && triples(m, centroids) && areas.size == m && triples(m, normals) && (whole.size == 0 || whole.size == m);
+    return positions.columns == 3 && corners(faces, positions.rows) && triples(m, centroids, normals) && areas.size == m
+        && (whole.size == 0 || whole.size == m);
 }
 inline bool weighted_angle(
     ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces, double) {
-    return triples(faces.rows, normals) && weights.size == faces.rows && faces.columns == 3
-        && triples(decoded.rows, decoded) && below(faces, decoded.rows);
+    return triples(faces.rows, normals) && weights.size == faces.rows && decoded.columns == 3
+        && corners(faces, decoded.rows);
 }
 inline bool build_tree(ConstDoubles2 lowest, ConstDoubles2 highest, Longs order, Doubles2 low, Doubles2 high,
     Longs first, Longs count) {
     int64_t m = lowest.rows, nodes = 2 * m + 1;
-    return triples(m, lowest) && triples(m, highest) && order.size == m && triples(nodes, low) && triples(nodes, high)
-        && first.size == nodes && count.size == nodes;
+    return triples(m, lowest, highest) && order.size == m && triples(nodes, low, high) && sized(nodes, first, count);
 }
 // A node without triangles has its other child after it, so that a walk ends; how deep it goes the kernel bounds.
 inline bool nearest_distances(ConstDoubles2 points, Tree tree, Doubles, Longs) {
     int64_t m = tree.triangles.rows, nodes = 2 * m + 1, seen = 1;
-    if (points.columns != 3 || tree.triangles.columns != 9 || m < 1 || tree.order.size != m || !triples(nodes, tree.low)
-        || !triples(nodes, tree.high) || tree.first.size != nodes || tree.count.size != nodes)
+    if (points.columns != 3 || tree.triangles.columns != 9 || m < 1 || tree.order.size != m
+        || !triples(nodes, tree.low, tree.high) || !sized(nodes, tree.first, tree.count))
         return false;
     for (int64_t node = 0; node < seen; node++) {
         int64_t begin = tree.first.data[node], held = tree.count.data[node];
@@ -92,8 +98,7 @@ inline bool add_copies(
 }
 inline bool face_patches(ConstInts2 faces, Lists around, int64_t crowd, Ints seen, Longs starts, Ints members) {
     int64_t n = around.starts.size - 1, m = faces.rows, room = m;
-    if (faces.columns != 3 || !graph(around, n, m) || !below(faces, n) || crowd < 0 || seen.size != m
-        || starts.size != m + 1)
+    if (!corners(faces, n) || !graph(around, n, m) || crowd < 0 || seen.size != m || starts.size != m + 1)
         return false;
     for (int64_t k = 0; k < 3 * m; k++) {
         int64_t size = around.starts.data[faces.data[k] + 1] - around.starts.data[faces.data[k]];
@@ -104,38 +109,35 @@ inline bool face_patches(ConstInts2 faces, Lists around, int64_t crowd, Ints see
 inline bool reach(ConstDoubles2 points, Lists adjacent, double, int64_t most, int64_t begin, Ints seen,
     Longs reached_starts, Ints) {
     int64_t n = points.rows;
-    return triples(n, points) && graph(adjacent, n, n) && most > 0 && begin >= 0 && begin <= n && seen.size == n
+    return points.columns == 3 && graph(adjacent, n, n) && most > 0 && begin >= 0 && begin <= n && seen.size == n
         && reached_starts.size == n + 1 && reached_starts.data[begin] >= 0;
 }
 inline bool pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances) {
-    return triples(values.rows, values) && pairs.columns == 2 && distances.size == pairs.rows
-        && below(pairs, values.rows);
+    return values.columns == 3 && pairs.columns == 2 && distances.size == pairs.rows && below(pairs, values.rows);
 }
 inline bool follow_normals(Doubles2 positions, ConstInts2 faces, Lists around, ConstDoubles2 normals, int64_t,
     ConstBytes free, Doubles2 planes, Doubles2 sums) {
     int64_t n = positions.rows, m = faces.rows;
-    return triples(n, positions) && faces.columns == 3 && below(faces, n) && graph(around, n, m)
-        && triples(m, normals) && free.size == n && planes.rows == m && planes.columns == 4 && sums.rows == n
-        && sums.columns == 16;
+    return positions.columns == 3 && corners(faces, n) && graph(around, n, m) && triples(m, normals) && free.size == n
+        && rows_of(4, m, planes) && rows_of(16, n, sums);
 }
 inline bool filter_normals(FaceGeometry faces, ConstDoubles2 guide, Lists near, double, double, Doubles2 packed,
     Doubles2 filtered) {
     int64_t m = faces.normals.rows;
-    return geometry(faces) && triples(m, guide) && graph(near, m, m) && packed.rows == m && packed.columns == 8
-        && triples(m, filtered);
+    return geometry(faces) && triples(m, guide, filtered) && graph(near, m, m) && rows_of(8, m, packed);
 }
 inline bool patch_guidance(ConstDoubles2 normals, ConstDoubles areas, Lists patches, ConstDoubles steps, Lists inner,
     Doubles scores, Doubles2 means, Doubles2 guide) {
     int64_t m = normals.rows;
-    return triples(m, normals) && areas.size == m && graph(patches, m, m, 1)
-        && graph(inner, m, steps.size) && scores.size == m && triples(m, means) && triples(m, guide);
+    return triples(m, normals, means, guide) && sized(m, areas, scores) && graph(patches, m, m, 1)
+        && graph(inner, m, steps.size);
 }
 inline bool describe_faces(FaceGeometry faces, Filtered filtered, Lists near, double, int64_t begin, Doubles2 described,
     Doubles2 frames) {
     int64_t m = faces.normals.rows;
-    return geometry(faces) && triples(m, filtered.guide) && triples(m, filtered.smooth) && triples(m, filtered.axes)
-        && graph(near, m, m) && begin >= 0 && begin <= m - described.rows
-        && described.columns >= DESCRIBED && frames.rows == described.rows && frames.columns == 9;
+    return geometry(faces) && triples(m, filtered.guide, filtered.smooth, filtered.axes) && graph(near, m, m)
+        && begin >= 0 && begin <= m - described.rows && described.columns >= DESCRIBED
+        && rows_of(9, described.rows, frames);
 }
 inline bool cosines(Doubles table, Doubles2 columns) { return table.size >= columns.rows + 8; }
 inline bool project(ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients) {
@@ -147,33 +149,28 @@ inline bool reconstruct(ConstSingles2 subspace, ConstDoubles2 coefficients, Doub
         && coefficients.columns == values.columns;
 }
 
-
 // Kernels that compare sizes themselves: their indices.
 inline bool label_components(ConstInts offsets, ConstInts neighbors, Ints, Ints) {
-    return fits_rows(offsets, neighbors, offsets.size - 1, offsets.size - 1);
+    return edges(offsets, neighbors);
 }
 inline bool smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2, double, Doubles, Doubles2) {
-    return fits_rows(offsets, neighbors, offsets.size - 1, offsets.size - 1);
-}
-inline bool edges(ConstInts offsets, ConstInts neighbors) {
-    return offsets.size > 0 && fits_rows(offsets, neighbors, offsets.size - 1, offsets.size - 1);
+    return edges(offsets, neighbors);
 }
 inline bool find_cells(ConstInts offsets, ConstInts neighbors, int64_t reach, Bytes far, Ints waiting, Ints own) {
     int64_t n = offsets.size - 1;
-    return edges(offsets, neighbors) && reach >= 0 && reach < 255 && far.size == n && waiting.size == n
-        && own.size == n;
+    return edges(offsets, neighbors) && reach >= 0 && reach < 255 && sized(n, far, waiting, own);
 }
 inline bool link_cells(ConstInts offsets, ConstInts neighbors, ConstInts own, Ints bounds, Ints order, Ints filled,
     Ints found, Ints links, Ints ends) {
     int64_t n = offsets.size - 1, cells = links.size - 1;
-    return edges(offsets, neighbors) && own.size == n && below(own, cells) && bounds.size == cells + 1
-        && order.size == n && filled.size == cells && found.size > neighbors.size && ends.size > neighbors.size;
+    return edges(offsets, neighbors) && sized(n, own, order) && below(own, cells) && bounds.size == cells + 1
+        && filled.size == cells && found.size > neighbors.size && ends.size > neighbors.size;
 }
 inline bool cell_faces(
     ConstInts2 faces, ConstInts own, Ints counts, Ints2 found, Ints order, Ints sorted, Ints2 kept) {
     int64_t m = faces.rows;
-    return faces.columns == 3 && below(faces, own.size) && below(own, counts.size - 1) && found.rows == m
-        && found.columns == 3 && order.size == m && sorted.size == m && kept.rows == m && kept.columns == 3;
+    return corners(faces, own.size) && below(own, counts.size - 1) && triples(m, found, kept)
+        && sized(m, order, sorted);
 }
 inline bool prolong(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstDoubles2 places, int64_t, Singles,
     Doubles2) {
@@ -188,7 +185,7 @@ inline bool tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double, dou
     return below(faces, positions.rows);
 }
 inline bool collect_flaps(ConstInts2 faces, ConstInts starts, ConstInts members, Ints, Ints2) {
-    return below(faces, starts.size - 1) && fits_rows(starts, members, starts.size - 1, starts.size - 1);
+    return edges(starts, members) && below(faces, starts.size - 1);
 }
 inline bool count_folds(ConstDoubles2 positions, ConstInts2 flaps) { return below(flaps, positions.rows); }
 inline bool wanted(const Wanted &given) {
@@ -196,18 +193,20 @@ inline bool wanted(const Wanted &given) {
     return below(given.faces, n) && graph(Lists{given.around_starts, given.around}, n, given.faces.rows)
         && fits_rows(given.beside_starts, given.beside, n, n);
 }
+inline bool flapped(const Wanted &given, ConstInts2 flaps, ConstInts starts, ConstInts members) {
+    int64_t n = given.positions.rows;
+    return wanted(given) && below(flaps, n) && fits_rows(starts, members, n, 2 * flaps.rows);
+}
 inline bool shape_levels(Wanted given, Aim, Doubles2, Ints2, ConstDoubles2, ConstDoubles, double, Bytes) {
     return wanted(given);
 }
 inline bool shape_grid(Wanted given, Aim, Doubles2, Ints2, double, ConstInts2 flaps, ConstInts starts,
     ConstInts members, Ints2, ConstDoubles, Bytes) {
-    int64_t n = given.positions.rows;
-    return wanted(given) && below(flaps, n) && fits_rows(starts, members, n, 2 * flaps.rows);
+    return flapped(given, flaps, starts, members);
 }
 inline bool unfold_levels(Wanted given, ConstDoubles, Doubles2, Ints2, ConstDoubles2, ConstInts2 flaps,
     ConstInts starts, ConstInts members, int64_t, Bytes, Bytes) {
-    int64_t n = given.positions.rows;
-    return wanted(given) && below(flaps, n) && fits_rows(starts, members, n, 2 * flaps.rows);
+    return flapped(given, flaps, starts, members);
 }
 
 }  // namespace guards

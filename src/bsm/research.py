@@ -182,7 +182,7 @@ def curves(
 
 
 PART_OPTIONS = ("keep", "coefficients", "doi", "bits", "power", "iterations", "key_seed", "limits", "threads")
-"""What a `PartCoder` takes: all else is fixed, as one block is a part."""
+"""The options of a `PartCoder`: all else is fixed, as one block is a part."""
 
 
 class PartCoder:

@@ -329,7 +329,8 @@ def test_the_documents_list_all_keys_of_reports_and_of_info(corpus, meshes, tmp_
         bsm(*words, "--report", tmp_path / "r.json")
         facts.append(report := json.loads((tmp_path / "r.json").read_text()))
         facts += report["files"]
-    assert bsm("glb", meshes / "a.npz", "-o", tmp_path / "a.glb").returncode == 0
+    facts.append(program.run_json("glb", meshes / "a.npz", "-o", tmp_path / "a.glb"))
+    assert facts[-1]["output_bytes"] == (tmp_path / "a.glb").stat().st_size
     facts += [program.run_json("info", tmp_path / name) for name in ("out/painted.bsm", "out/moving.bsm", "a.glb")]
     assert {key for each in facts for key in keys_of(each, listed)} == {*listed}
 

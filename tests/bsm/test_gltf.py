@@ -50,6 +50,11 @@ def test_geometry_is_coded_and_all_else_stays(source, tmp_path, capsys):
     target = tmp_path / "small.glb"
     assert main(["glb", str(source), "-o", str(target)]) == 0
     assert "2 of 2 primitives coded" in capsys.readouterr().err
+    assert main(["glb", str(source), "-o", str(target), "-f", "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert (facts["primitives"], facts["coded"], facts["unchanged"], facts["images"]) == (2, 2, {}, [])
+    assert (facts["input_bytes"], facts["output_bytes"]) == (source.stat().st_size, target.stat().st_size)
+    assert 0 < facts["max_error_of_component"] < 0.01 and "unchanged images" in facts["notes"][0]
     before, after = read_document(str(source)), read_document(str(target))
     assert target.stat().st_size < 0.3 * source.stat().st_size
     for name in ("nodes", "scenes", "materials", "textures"):

@@ -55,7 +55,10 @@ class RefinementBase:
         """About what levels of a layer move each vertex, shape (n, 3), before any is chosen."""
         # Steps along tangents depend on decoded heights, which are not chosen yet. The original's are near enough to
         # begin with.
-        aside = tangent_steps(self.prepared.positions, self.prepared.mesh.faces, layer.step, layer.ratio)
+        return self._steps(self.prepared.positions, layer)
+
+    def _steps(self, upright: Matrix, layer: Layer) -> Matrix:
+        aside = tangent_steps(upright, self.prepared.mesh.faces, layer.step, layer.ratio)
         return np.column_stack([np.full(len(aside), layer.step), aside, aside])
 
     def known_steps(self, layer: Layer, levels: Levels) -> Matrix:
@@ -66,9 +69,7 @@ class RefinementBase:
     def _known_steps(self) -> Callable[[Layer, bytes], Matrix]:
         def known(layer: Layer, heights: bytes) -> Matrix:
             levels = np.frombuffer(heights, np.int32)[:, None]
-            upright = raised(self.positions, self.frames, levels, layer.step)
-            aside = tangent_steps(upright, self.prepared.mesh.faces, layer.step, layer.ratio)
-            return np.column_stack([np.full(len(aside), layer.step), aside, aside])
+            return self._steps(raised(self.positions, self.frames, levels, layer.step), layer)
 
         # A search asks for the same heights several times in a row, and the array is as large as the mesh.
         return lru_cache(1)(known)

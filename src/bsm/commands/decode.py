@@ -9,7 +9,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import chain, islice, takewhile
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -216,8 +215,7 @@ def _saved(
     args: DecodeJob, console: Console, output: str, kind: str, file: Written, counts: str, seconds: float
 ) -> Facts:
     """Write a file, and note its size and losses."""
-    may_replace = args.may_replace(output)
-    left_out = save_written(output, file, overwrite=may_replace, overwrite_beside=args.force, follow=args.follow)
+    left_out = save_written(output, file, overwrite_beside=args.force, **args.placing(output))
     if left_out:
         console.note(f"{args.input}: {kind} cannot hold {', '.join(left_out)}")
     taken, written = size_of(args.input), len(file.data)
@@ -237,7 +235,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
     # Decoding begins at the first frame that is wanted; GOPs before it are skipped where no later one needs them.
-    stream = SequenceStream(chunks, console.note if args.tolerant else None, first, limits_of(args.limits))
+    stream = _opened(args, console, chunks, first)
     header, frames = stream.header, stream.changing_frames()
     # Writers need the faces before the first frame, and the decoder has those only with it.
     ahead = list(islice(frames, 1))  # whose faces are those that are written first
@@ -250,8 +248,8 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     # Attributes follow the order of the stream. With another order of vertices they would be at wrong places, so they
     # are left out, and a note says so.
     shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: said, first=first)
-    how: dict[str, Any] = {"overwrite": args.may_replace(output), "follow": args.follow, "shared": shared}
-    with sequence_writer(output, kind, faces, expected, **how) as write, console.progress("decoding") as progress:
+    writer = sequence_writer(output, kind, faces, expected, shared=shared, **args.placing(output))
+    with writer as write, console.progress("decoding") as progress:
         for count, (number, frame) in enumerate(takewhile(lambda found: found[0] < last, chain(ahead, frames)), 1):
             changed = stream.run_starts[-1:] == [number]
             # A permutation belongs to one set of faces.
@@ -275,6 +273,10 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     console.note(f"{args.input} -> {output}: {counted(frames=count)} of {counted(**counts)}, {seconds:.2f} s")
     sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}
     return {"input": args.input, "output": output, "frames": count, **counts, **sizes, "seconds": seconds}
+
+
+def _opened(args: DecodeJob, console: Console, chunks: Iterator[bytes], start: int) -> SequenceStream:
+    return SequenceStream(chunks, console.note if args.tolerant else None, start, limits_of(args.limits))
 
 
 def _is_of_one_frame(output: str, file_format: str | None) -> bool:
@@ -313,7 +315,7 @@ def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], nu
     kind = str(args.format or format_of_name(output))
     refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
-    stream = SequenceStream(chunks, console.note if args.tolerant else None, number, limits_of(args.limits))
+    stream = _opened(args, console, chunks, number)
     found = next(stream.changing_frames(), None)
     # A tolerant decoder may go on after a lost frame, and return a later one.
     if found is None or found[0] != number:

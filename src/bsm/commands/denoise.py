@@ -140,8 +140,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions |
         file = Written(encode(moved, preset="near-lossless"))
     else:
         file = meshes.written_mesh(moved, kind, args.output)
-    replacing: dict[str, Any] = {"overwrite": args.may_replace(args.output), "follow": args.follow}
-    left_out = meshes.save_written(args.output, file, overwrite_beside=args.force, **replacing)
+    left_out = meshes.save_written(args.output, file, overwrite_beside=args.force, **args.placing(args.output))
     if left_out or stale:
         console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")
     console.note(f"{args.input}: {counted(vertices=len(mesh.positions))} -> {args.output}, {seconds:.2f} s")
@@ -184,8 +183,7 @@ def _denoise_sequence(
     begin = time.perf_counter()
     denoiser = FrameDenoiser(first, source.faces, options, goal=args.goal, strength=args.strength, force=args.force)
     count = 0
-    replacing: dict[str, Any] = {"overwrite": args.may_replace(args.output), "follow": args.follow}
-    writer = sequence_writer(args.output, kind, source.faces, source.count, **replacing)
+    writer = sequence_writer(args.output, kind, source.faces, source.count, **args.placing(args.output))
     with writer as write, console.progress("denoising") as progress:
         for frame in denoiser(chain([first], source.frames)):
             write(frame)

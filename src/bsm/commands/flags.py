@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from itertools import groupby
+from itertools import accumulate, groupby
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -20,7 +20,7 @@ from bsm.files.output import refuse_terminal
 # told once.
 @dataclass(frozen=True)
 class Flag:
-    """A row of options.csv: an option, or the keyword of a setting; "unset": without a value the namespace has none."""
+    """A row of options.csv: an option, or the keyword of a setting. A row without a group is of that before."""
 
     group: str
     names: str
@@ -42,9 +42,11 @@ class Flag:
         if self.default == "required":
             how |= {"required": True}
         elif self.default:
+            how |= {"default": self.parse(self.default)}
+        elif self.group in UNSET:
             # Without a default in the namespace, an option that was not given differs from one that was given its
             # default. Presets need to know which.
-            how |= {"default": argparse.SUPPRESS if self.default == "unset" else self.parse(self.default)}
+            how |= {"default": argparse.SUPPRESS}
         adder(group)(self.names, self.value, self.help, **how)
 
 
@@ -158,8 +160,13 @@ _ACTIONS: dict[str, dict[str, Any]] = {
     "list": {"action": "append", "default": []},
 }
 _ROWS = csv.DictReader(Path(__file__).with_name("options.csv").read_text("utf-8").splitlines())
-FLAGS = {group: list(rows) for group, rows in groupby((Flag(**row) for row in _ROWS), lambda flag: flag.group)}
+_FILLED = accumulate(_ROWS, lambda before, row: {**row, "group": row["group"] or before["group"]})
+FLAGS = {group: list(rows) for group, rows in groupby((Flag(**row) for row in _FILLED), lambda flag: flag.group)}
 """The rows of options.csv, by group; those of the group settings are given by `--set NAME=VALUE`."""
+
+
+UNSET = ("bounds", "targets", "coding", "sequences", "denoise method")
+"""Groups whose options the namespace lacks unless they are given."""
 
 
 def add_flags(parser: argparse._ActionsContainer, *groups: str) -> None:

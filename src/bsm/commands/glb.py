@@ -2,8 +2,9 @@
 
 import argparse
 import shlex
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 from bsm.account.images import changed
 from bsm.bitstream.errors import HarmError, OptionError
@@ -18,7 +19,7 @@ from bsm.files.table import GLTF
 from bsm.gltf.compress import Compressed, compress, count_primitives
 from bsm.gltf.document import Document, read_document
 from bsm.gltf.write import moving_scene
-from bsm.ground.console import Console
+from bsm.ground.console import Console, print_json
 
 MANY = 16  # primitives from which on a page waits longer for decoding than for the bytes that it saves
 PRESETS = ("balanced", "fine", "near-lossless", "lossless", "grid14")
@@ -66,23 +67,35 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if beside and found.fallback:
         write_output(str(beside), found.fallback, overwrite=args.force, follow=False)
     write_output(args.output, found.data, overwrite=args.force)
-    console.note(
-        f"{args.input} -> {args.output}: {found.coded} of {found.coded + sum(found.left.values())} primitives coded, "
-        f"{taken or document.received} -> {len(found.data)} bytes; largest vertex error {found.error[0]:.3g}, at most "
-        f"{100 * found.error[1]:.3g} % of the diagonal of its component"
-    )
-    for note in _notes_on(found, document, taken or document.received, shrinks=rule is not None):
+    count, before = found.coded + sum(found.left.values()), taken or document.received
+    words = f"{found.coded} of {count} primitives coded, {before} -> {len(found.data)} bytes; largest vertex error "
+    words += f"{found.error[0]:.3g}, at most {100 * found.error[1]:.3g} % of the diagonal of its component"
+    notes = list(_notes_on(found, document, before, shrinks=rule is not None))
+    more = {"primitives": count, "coded": found.coded, "unchanged": found.left, "notes": notes}
+    more |= {"max_error": found.error[0], "max_error_of_component": found.error[1]}
+    _finish(args, console, words, before, found.data, more | {"images": [image.facts() for image in found.images]})
+    for note in notes:
         console.note(f"{args.input}: {note}")
+
+
+def _finish(
+    args: argparse.Namespace, console: Console, words: str, taken: int, data: bytes, more: Mapping[str, Any]
+) -> None:
+    console.note(f"{args.input} -> {args.output}: {words}")
+    if args.json:
+        sizes = {"input_bytes": taken, "output_bytes": len(data)}
+        print_json({"input": args.input, "output": args.output, **sizes, **more})
 
 
 def _wrap_sequence(args: argparse.Namespace, console: Console) -> None:
     changes = (args.fallback, args.images, args.quick is not None, args.attribute, args.one_grid, args.jobs != 1)
     if any(changes) or args.preset != PRESETS[-1]:
-        raise OptionError("a stream is wrapped unchanged; only -o, -f and -q apply")
+        raise OptionError("a stream is wrapped unchanged; only -o, -f, -q and --json apply")
     stream = as_input(args.input).read_all()
     scene = moving_scene(stream)
     write_output(args.output, scene, overwrite=args.force)
-    console.note(f"{args.input} -> {args.output}: a sequence, {len(stream)} -> {len(scene)} bytes")
+    words = f"a sequence, {len(stream)} -> {len(scene)} bytes"
+    _finish(args, console, words, len(stream), scene, {"notes": []})
 
 
 def _notes_on(found: Compressed, document: Document, before: int, *, shrinks: bool) -> Iterator[str]:

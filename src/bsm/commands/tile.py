@@ -28,7 +28,7 @@ from bsm.tiles.work import NOTE, held, refuse_others, remove_made, there
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
-    add_flags(parser, "tile")
+    add_flags(parser, "tile", "inputs", "many inputs")
     add("--triangles", "N", "largest number of triangles of a tile (default 2^19)", type=within(64), default=1 << 19)
     more = "write tileset.json (3D Tiles) and a GLB for each tile instead of shards. "
     add("--tileset", "", more + CONTENT_HELP, nargs="?", choices=CONTENTS, const=CONTENTS[0])

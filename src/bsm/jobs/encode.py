@@ -289,7 +289,7 @@ def _written(job: EncodeJob, console: Console) -> Iterator[tuple[Any, Progress]]
     """Open the output, which must not be there unless it may be replaced, and report progress while it is written."""
     if job.permutation:
         refuse_to_overwrite(job.permutation, job.may_replace(job.permutation))
-    output = open_output(job.output, overwrite=job.may_replace(job.output), follow=job.follow)
+    output = open_output(job.output, **job.placing(job.output))
     with output as file, console.progress("encoding") as progress:
         yield file, progress
 

@@ -43,6 +43,10 @@ class Task:
     def may_replace(self, path: str) -> bool:
         return self.force or path in self.replaceable
 
+    def placing(self, path: str) -> dict[str, Any]:
+        """How an output may be put in its place: keywords of `open_output`."""
+        return {"overwrite": self.may_replace(path), "follow": self.follow}
+
 
 Work: TypeAlias = Callable[[Any, Console], Facts]
 """The function of a command that does a task; at the top level of a module, so that processes find it."""
