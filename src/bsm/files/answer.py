@@ -23,6 +23,7 @@ from bsm.files.parsing import require_counts
 _COUNT = struct.Struct("<Q")
 _ROW = struct.Struct("<IIQQ")  # a kind, columns, rows, and the first byte after the table
 _PLAIN: dict[type, tuple[Callable[[Any], bytes], Callable[[bytes], Any]]] = {
+    # Names of files that are not UTF-8 hold lone surrogates in Python; strict coding would lose the whole answer.
     str: (lambda text: text.encode(errors="surrogatepass"), lambda data: data.decode(errors="surrogatepass")),
     bytes: (bytes, bytes),
     float: (struct.Struct("<d").pack, lambda data: struct.unpack("<d", data)[0]),
@@ -81,6 +82,8 @@ def leave(
         parts.append(data)
         total += len(data)
     table = _COUNT.pack(len(rows)) + b"".join(rows)
+    # Before anything is written: the parent may refuse, while a file of too many bytes would end this process with a
+    # signal, and without words.
     ask(len(table) + total)
     with open(memory, "wb", closefd=False) as file:
         file.seek(0)
@@ -118,6 +121,7 @@ def found_in(memory: int, most: int, limits: Limits, accepted: tuple[type, ...])
     except Exception as error:
         raise FormatError("the process that read this file left no mesh") from error
     if isinstance(found, BsmError):
+        # Not the words of the child: they may tell to install anything.
         words = _MISSING if isinstance(found, errors.DependencyError) else found.message[:_MOST_WORDS]
         found.message = " ".join(words.splitlines())
         raise found
@@ -126,6 +130,7 @@ def found_in(memory: int, most: int, limits: Limits, accepted: tuple[type, ...])
 
 def _read(memory: int, most: int) -> Iterator[Any]:
     size = os.fstat(memory).st_size
+    # Of what the answer may take, the shared memory itself is already gone.
     left = most - size
     (count,) = _COUNT.unpack(os.pread(memory, _COUNT.size, 0))
     left -= count * _COST
@@ -165,6 +170,7 @@ def _check(given: dict[str, Any], limits: Limits) -> None:
     counts = {"vertices": max(given.get("rigged", 0), *map(len, frames)), "faces": len(given["faces"])}
     require_counts(limits, **counts, frames=len(frames))
     kinds = {given["faces"].dtype.name, *(f"{frame.dtype} of {frame.shape[1]}" for frame in frames)}
+    # Checked here since the classes convert what they get: a million objects in place of numbers would be copied first.
     if kinds != {"int32", "float64 of 3"} or given.get("count", 0) not in (0, len(frames)):  # 0: it is not known
         raise ValueError("arrays of another kind")
     if "meshes" in given:

@@ -40,6 +40,7 @@ def surface_of(path: str, kind: str, limits: Limits, step: int = 0, *, here: boo
             pickle.dump(asked, process.stdin)
             process.stdin.flush()
             answer: Surface | BsmError = pickle.load(process.stdout)
+        # A crash shows as the end of the pipe. The next file gets a new process.
         except (OSError, EOFError, pickle.UnpicklingError) as error:
             _process.cache_clear()
             code = _end(process)
@@ -67,7 +68,9 @@ def _process() -> Any:
     own = str(Path(sys.modules["bsm"].__file__ or "").parents[1])
     paths = os.pathsep.join(filter(None, (own, os.environ.get("PYTHONPATH", ""))))
     pipes: Any = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+    # A program and not multiprocessing: its spawn would run the user's main module again, and fork copies held locks.
     begun = subprocess.Popen([sys.executable, "-P", "-c", _COMMAND], env={**os.environ, "PYTHONPATH": paths}, **pipes)
+    # Otherwise Popen warns at exit of a process that still runs.
     atexit.register(_end, begun)
     return begun
 
@@ -84,6 +87,7 @@ def _end(process: Any) -> int:
 def serve() -> None:
     """Read the files that are asked for at standard input, until it ends."""
     answers = os.fdopen(os.dup(1), "wb")
+    # Answers keep the pipe under another number: one line that VTK prints would break the pickle.
     os.dup2(2, 1)  # libraries print
     while True:
         try:

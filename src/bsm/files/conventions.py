@@ -56,6 +56,7 @@ def to_linear(shares: Array) -> Doubles:
     """Return the linear values of colors in sRGB; a fourth column is an opacity, which stays."""
     found = np.array(shares, np.float64)
     c = found[..., :3]
+    # The curve of IEC 61966-2-1. A plain power of 2.2 would be off by some levels in the dark.
     found[..., :3] = np.where(c <= 0.04045, c / 12.92, ((np.maximum(c, 0.0) + 0.055) / 1.055) ** 2.4)
     return found
 
@@ -83,6 +84,7 @@ def srgb_colors(colors: Array) -> Array:
     linear = shares_of(colors)
     shares = to_srgb(linear)
     bytes_ = np.rint(shares.clip(0.0, 1.0) * 255)
+    # Half a step of the words in which bytes are written: such values were bytes, and become the same bytes again.
     if colors.size and np.abs(to_linear(bytes_ / 255) - linear).max() <= 0.51 / _WORD:
         found: Array = bytes_.astype(np.uint8)
     elif colors.dtype == np.uint8:

@@ -49,6 +49,7 @@ def opened(data: bytes) -> Any | None:
     pillow = imported("PIL.Image", "images are read and written with Pillow", "formats")
     try:  # what Pillow does not know is an OSError
         image = pillow.open(io.BytesIO(data))
+        # Before load: opening reads the head only, and the pixels of a hostile image may take gigabytes.
         if image.width * image.height > MOST_PIXELS:
             return None
         image.load()
@@ -59,6 +60,7 @@ def opened(data: bytes) -> Any | None:
 
 def _written(image: Any, rule: ImageRule) -> bytes | None:
     """The file of an image; None if the format would lose what shows through."""
+    # JPEG has no opacity: leaving it out would show what the artist has cut away.
     if rule.kind == "jpeg" and image.mode not in ("RGB", "L"):
         if "A" in image.getbands() or "transparency" in image.info:
             return None
@@ -113,6 +115,7 @@ def largest_side(metadata: Metadata) -> int:
 
 
 def _digest(data: bytes) -> str:
+    # Half of it, 128 bits: names stay short, and equal names of two images are still out of reach.
     return sha256(data).hexdigest()[:32]
 
 
@@ -142,6 +145,7 @@ def with_linked_images(mesh: TriangleMesh, stream: str) -> TriangleMesh:
     for key, link in mesh.metadata.items():
         match = _LINK.fullmatch(str(link)) if is_link(key) else None
         path = Path(stream).parent / str(link)
+        # By the digest, too: the file of a link may have been changed since, and the stream promised these very bytes.
         if match and path.is_file() and _digest(data := path.read_bytes()) == match[1]:
             found[key.removesuffix("link") + "data"] = data
     return replace(mesh, metadata=found)

@@ -79,6 +79,8 @@ class StreamInfo:
         """Whether it has all that the preset "paper" sets; c may differ. Overlaps show in the sum of block sizes."""
         how, header = self.header.constants, self.header
         plain = not (header.key_interval or header.smoothing or header.refinement or header.grid)
+        # Overlaps have no mark in a header. They make the blocks' sizes sum up to more than the vertices, by 15 % or
+        # more with the paper's overlap.
         grown = self.sizes["partition"] and header.blocks * (header.block_size + 0.5) >= 1.15 * header.vertices
         own = how.bits, how.exact, how.power, how.iterations, how.shift, how.springs, header.onorm
         return plain and own == (12, 1, 2, 1, 2.0**-7, 0, 2) and (header.blocks == 1 or bool(grown))
@@ -136,6 +138,7 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         total, version = packet.offset + packet.length, packet.version
         match packet.type:
             case FrameType.HEADER:
+                # Asked for at once: the engine only holds the header of the latest run.
                 headers.append(header := skimmer.header)
                 mesh = header.run_number if header.mesh_of is None else header.mesh_of
                 runs.append(RunInfo(sum(gop.frames for gop in gops), 0, header.vertices, header.faces, mesh))
@@ -157,6 +160,7 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         if packet.type == FrameType.GOP:
             runs[-1] = replace(runs[-1], frames=runs[-1].frames + packet.count)
             gops.append(GopInfo(packet.index, packet.count, packet.offset, packet.length))
+    # At the end: a later packet may replace entries of an earlier one.
     metadata = dict(sorted(skimmer.engine.metadata(entry) for entry in range(entries)))
     attributes = tuple(_attribute_info(packet, lengths[packet.index]) for packet in declared)
     sizes["attributes"] = sum(attribute.bytes for attribute in attributes)

@@ -59,6 +59,7 @@ _QUIET = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "PXR_WORK_THR
 _QUIET |= {"HDF5_USE_FILE_LOCKING": "FALSE"}
 
 
+# Asked once for a process: what it finds cannot change while it runs, and every file asks.
 @cache
 def lack() -> str | None:
     """What this system lacks to keep files of others from readers."""
@@ -88,6 +89,7 @@ def frames_isolated(
     return found
 
 
+# A path of this process (/dev/fd/3, /proc/self/...) means another file in the child, so its bytes are sent instead.
 def _asked(given: Input, file_format: str | None, kind: str) -> dict[str, Any]:
     path = os.path.abspath(given.name) if given.is_file and not _OF_THIS_PROCESS.match(given.name) else None
     chosen = file_format if lack() is None else file_format or kind or None  # one that others read never comes here
@@ -118,6 +120,7 @@ def _too_little(asked: dict[str, Any]) -> LimitError:
 
 def _end_of(number: int, words: bytes, asked: dict[str, Any]) -> BsmError:
     """The error of a child that a signal has ended, by its last words."""
+    # C++ libraries end so where memory is refused; their last words are all that tells this from a fault of theirs.
     if number == signal.SIGABRT and b"bad_alloc" in words:
         return _too_little(asked)
     if number == signal.SIGXCPU:
@@ -132,6 +135,7 @@ def _end_of(number: int, words: bytes, asked: dict[str, Any]) -> BsmError:
 @contextmanager
 def shared(data: bytes) -> Iterator[int]:
     """Memory that other processes can read and write."""
+    # Memory without a name in any folder: nobody else can open it, and the kernel frees it with the last process.
     memory = os.memfd_create("bsm")
     try:
         os.pwrite(memory, data, 0)
@@ -150,9 +154,12 @@ class _Server:
         self._socket, there = socket.socketpair()
         paths = (str(Path(importlib.import_module("bsm").__file__ or "").parents[1]), os.environ.get("PYTHONPATH", ""))
         known = {name: os.environ[name] for name in ("PATH", "LANG", "HOME") if name in os.environ}
+        # Not the whole environment: it holds keys of clouds and other secrets, which a reader that has been taken over
+        # could put into the answer.
         environment = known | _QUIET | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
         if not re.match("python|pypy", os.path.basename(sys.executable or "")):
             raise FileNotFoundError("sys.executable is not Python")  # but a program that has Python in it
+        # -P keeps the current folder out of sys.path: a file named numpy.py beside the mesh would be run otherwise.
         command = [sys.executable, "-P", "-c", _COMMAND.format(number=there.fileno())]
         nothing: Any = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
         with there:
@@ -182,6 +189,8 @@ def _server() -> _Server:
 
 def end_of_child(memory: int, kind: str, seconds: int) -> End:
     try:
+        # Tried twice: the server may have been ended by somebody between two files, and a new one then reads this file.
+        # A second failure is of the file or of the system.
         with suppress(ConnectionError):
             return _server().read(memory, kind, seconds)
         with suppress(subprocess.TimeoutExpired):  # somebody has ended it
@@ -250,6 +259,7 @@ def _watch(answer: int, memory: int, seconds: int) -> None:
             last = os.read(words, 1 << 16)[-4096:]
         os.write(answer, _END.pack(status, used.ru_maxrss << 10, used.ru_utime + used.ru_stime, last))
     finally:
+        # Not sys.exit: what is registered to run at exit belongs to the server, of which this is a copy.
         os._exit(0)
 
 
@@ -341,6 +351,8 @@ def _least(most: int, given: int) -> int:
     return most if given == resource.RLIM_INFINITY else min(most, given)
 
 
+# Landlock only knows what is allowed. So the list is of what Python and its packages need to be loaded, and of the
+# folder of the file, whose other files a mesh may name.
 def _close_files(beside: set[str]) -> None:
     landlock: Any = importlib.import_module("landlockpy")
     known = landlock.AccessFS.READ_FILE | landlock.AccessFS.READ_DIR
@@ -352,6 +364,8 @@ def _close_files(beside: set[str]) -> None:
         rules.restrict()
 
 
+# First the parent's death ends this process (1), then no program gets new rights (38), without which the kernel takes
+# no filter (22) of an ordinary user.
 def _close_calls() -> None:
     """Let the kernel refuse all calls but those of reading, by a filter."""
     if platform.machine() not in _PROCESSORS:
@@ -370,6 +384,8 @@ def _filter(own: int) -> Iterator[tuple[int, int, int, int]]:
     load, equal, any_bit, at_least, add, end, end_so = 0x20, 0x15, 0x45, 0x35, 0x04, 0x06, 0x16
     allowed, killed, failed = (end, 0, 0, 0x7FFF0000), (end, 0, 0, 0x80000000), 0x50000 + _REFUSED
     call, processor, arguments = (load, 0, 0, 0), (load, 0, 0, 4), [(load, 0, 0, 16 + 8 * place) for place in range(3)]
+    # The processor is compared first: the numbers of calls differ between the two that one kernel serves, and those of
+    # 32 bits would pass a filter for 64.
     yield from (processor, (equal, 1, 0, _PROCESSORS[platform.machine()]), killed, call, (at_least, 0, 1, 1000), killed)
     for number, (name, is_allowed) in _calls().items():
         if not is_allowed:
@@ -383,6 +399,8 @@ def _filter(own: int) -> Iterator[tuple[int, int, int, int]]:
             asked = ((equal, 0, 1, one) for one in _QUESTIONS[name])
             steps = [arguments[1], *itertools.chain.from_iterable((one, allowed) for one in asked), call]
         yield from ((equal, 0, len(steps), number), *steps)
+    # A refused call returns an error that names its number, above all errors of the kernel, and does not kill:
+    # libraries try calls that they can do without.
     yield from ((add, 0, 0, failed), (end_so, 0, 0, 0))
 
 
@@ -404,6 +422,7 @@ def _named(words: str) -> str:
     return re.sub(r"Unknown error (3\d\d\d)", named, words)
 
 
+# For the server, once, as listing folders of all modules takes longer than reading a small file.
 @cache
 def _libraries() -> tuple[str, ...]:
     """Folders of Python, of packages and of libraries; not all of `sys.path`, where a checkout may be."""

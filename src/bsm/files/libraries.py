@@ -31,11 +31,13 @@ _FACES = ("faces", "triangles")
 _WITH_NOTES = ("bsm.cli", "bsm.commands.", "bsm.jobs.", "bsm.viewer.contents")
 
 
+# The number of frames between here and the user's code differs from door to door, so it is counted in the stack.
 def warn(notes: Iterable[str]) -> None:
     """Warn of changes and losses, in the line of the user's code that called `bsm`; commands print notes instead."""
     modules = [str(frame.f_globals.get("__name__", "")) for frame, _ in walk_stack(sys._getframe(1))]
     if any(name.startswith(_WITH_NOTES) for name in modules):
         return
+    # Modules of Python count as ours: contextlib and functools stand between bsm and its caller.
     ours = {"bsm", *sys.stdlib_module_names} - {"__main__"}
     level = next((level for level, name in enumerate(modules, 2) if name.partition(".")[0] not in ours), 2)
     for note in notes:
@@ -63,6 +65,7 @@ def as_file(mesh: Any) -> Input | None:
 def _of_library(mesh: Any) -> MeshFile:
     if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
         return _of_arrays(*mesh)
+    # By what the objects have and not by their classes: no library must be there to ask, and none is loaded for it.
     for first, second, read in _LIBRARIES:
         if hasattr(mesh, first) and hasattr(mesh, second):
             return read(mesh).checked(DEFAULT_LIMITS)
@@ -108,6 +111,7 @@ def _of_arrays(positions: Any, faces: Any) -> MeshFile:
         rows = [as_array(face, f"face {number}").reshape(-1) for number, face in enumerate(faces)]
         sizes, corners = np.array([len(row) for row in rows]), np.concatenate(rows)
     else:
+        # As VTK and pyvista hold faces: a count before the corners of each.
         if table.ndim == 1 and table.size and table.dtype.kind in "iu":
             sizes, corners = _split(table.astype(np.int64))
         elif table.ndim == 2 and table.shape[1] > 3:

@@ -116,6 +116,7 @@ def read_cut(
     path, name = (given.name if given.is_file else None), given.name
     folder = Path(path).parent if path else None
     if kind in FORMATS and FORMATS[kind].apart:
+        # These libraries open a file by its name themselves, often several times; they know no gzip.
         if path is None or given.peek(2) == b"\x1f\x8b":
             raise FormatError(f".{kind} files are read from an uncompressed file with a name")
         surface, times = by_name("bsm.files.apart", "surface_of")(path, kind, limits, here=isolated is False)
@@ -131,6 +132,8 @@ def read_cut(
     if data.startswith(MAGIC):
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
     suffix = file_format or format_of_name(name)
+    # Only formats with many namesakes: .obj is also object code, .off a disk image. A reader's error about line 1 would
+    # say less.
     other = other_kind(data, suffix) if suffix in ("obj", "off", "ply", "glb") else ""
     if other and (suffix, other) != ("glb", "JSON"):
         raise FormatError(f"this is {other}, not .{suffix}; give it the right name, or name its format")
@@ -163,6 +166,7 @@ def is_apart(kinds: Iterable[str], limits: Limits, isolated: bool | None) -> boo
     """Whether files of these formats are read in a process of its own; refused if they must be and cannot."""
     if not (limits.most_memory < math.inf if isolated is None else isolated):
         return False
+    # Through a name, as the module imports resource and seccomp's parts, which Windows does not have.
     lack = by_name("bsm.files.isolation", "lack")() if sys.platform == "linux" else "Linux"
     foreign = next((kind for kind in kinds if isolated or kind not in (*MESH_FORMATS, *GLTF, "npy", "")), None)
     if lack is not None and foreign is not None:
@@ -214,6 +218,7 @@ def parts_of(path: str, metadata: Metadata) -> dict[str, Path | None]:
         with suppress(BsmError):
             names = {*by_name("bsm.gltf.document", "read_document")(path).files}
     beside = Beside(Path(path).resolve().parent, Limits())
+    # Images may lie beside the library of materials that names them, and not beside the mesh.
     folders = ["", *(f"{folder}/" for line in libraries if (folder := line.replace("\\", "/").rpartition("/")[0]))]
     found = {name: [beside.find(folder + name) for folder in folders] for name in filter(None, names)}
     return {name: next((part for part in parts if isinstance(part, Path)), None) for name, parts in found.items()}
@@ -251,10 +256,12 @@ def save_written(
     beside = {name: data for name, data in beside.items() if name not in there or Path(name).read_bytes() != data}
     replace_beside = overwrite if overwrite_beside is None else overwrite_beside
     refuse_to_overwrite(path, overwrite)
+    # All names are asked before the first file is written: a refusal in the middle would leave half of the output.
     for name in beside:
         refuse_to_overwrite(name, replace_beside)
     for name, data in beside.items():
         write_output(name, data, overwrite=replace_beside, follow=follow if isinstance(follow, str) else False)
+    # The mesh comes last: who sees it finds all the files that it names.
     write_output(path, written.data, overwrite=overwrite, follow=follow)
     return (*written.left_out, *lost)
 

@@ -75,6 +75,7 @@ def _replacing(target: Path, overwrite: bool) -> Iterator[BinaryIO]:
         with os.fdopen(handle, "wb") as file:
             yield file
             file.flush()
+            # Before the rename: after a loss of power, the name could otherwise stand for an empty file.
             os.fsync(file.fileno())
             # Another program may have put a link in its place, which only a name would follow.
             os.chmod(file.fileno() if os.chmod in os.supports_fd else name, _permissions(target))
@@ -92,6 +93,8 @@ def _replacing(target: Path, overwrite: bool) -> Iterator[BinaryIO]:
             os.close(lock)
 
 
+# In batches over a folder of others, somebody could swap a folder for a link between the check and the writing. Names
+# that the user did not give are therefore opened one folder at a time, each from the one before.
 @contextmanager
 def _in_its_folder(target: Path, follow: bool | str) -> Iterator[Path]:
     """A name for a place in its folder, which is held open if its folders may be swapped for links."""
@@ -127,6 +130,7 @@ def handled(signals: Iterable[signal.Signals], handler: Any) -> Iterator[None]:
             signal.signal(each, usual)
 
 
+# A signal between making the file and noting its name would leave it there for ever.
 @contextmanager
 def _signals_wait() -> Iterator[None]:
     """Hold signals until a new file has an owner that removes it."""
@@ -184,6 +188,7 @@ def _place(path: str) -> str | None:
     if os.path.exists(path) and not os.path.isfile(path):
         return None
     place = os.path.realpath(path)
+    # Two outputs, A.bsm and a.bsm, are one file on macOS and Windows.
     return place.lower() if _ignores_case(os.path.dirname(place)) else place
 
 
@@ -202,6 +207,8 @@ def _temporary(target: Path) -> tuple[int, str, int | None]:
         handle, name = tempfile.mkstemp(prefix=pattern, suffix=_TEMPORARY, dir=target.parent)
         if fcntl is None:
             return handle, name, None
+        # A copy of the handle: locks of flock belong to the opened file, so that this one holds on when `file` is
+        # closed before the rename.
         lock = os.dup(handle)
         with suppress(OSError):  # a file system without locks
             fcntl.flock(lock, fcntl.LOCK_EX)
@@ -210,6 +217,7 @@ def _temporary(target: Path) -> tuple[int, str, int | None]:
         # Before it was locked another writer took it for a dead one's.
         os.close(handle)
         os.close(lock)
+    # Those of writers that were killed have no lock any more. Those of others at work refuse ours, and stay.
     for part in target.parent.glob(f"{glob.escape(pattern)}????????{_TEMPORARY}"):
         with suppress(OSError), os.fdopen(open_own(part, os.O_RDONLY)) as file:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -265,6 +273,7 @@ def _permissions(target: Path) -> int:
 def _rename_unless_present(name: str, target: Path) -> None:
     """Rename, but never over a file that has appeared meanwhile (a link, unlike a rename, refuses)."""
     try:
+        # Python has no rename that refuses to replace: renameat2 is Linux only, and not in os.
         os.link(name, target)
     except FileExistsError:
         refuse_to_overwrite(target, False)

@@ -79,6 +79,7 @@ def ranges(starts: Ints, sizes: Ints) -> Ints:
 
 
 def as_integers(values: npt.NDArray[Any], what: str) -> Ints:
+    # Up to here every whole number is a double; beyond, neighbours fall on one, and the index would be a guess.
     whole = np.abs(values) < 2**53
     if values.dtype.kind == "f":
         whole &= values == np.rint(values)
@@ -90,6 +91,7 @@ def as_integers(values: npt.NDArray[Any], what: str) -> Ints:
 def plain_text(data: bytes) -> bytes:
     """Text in UTF-8 without a byte order mark; editors of Windows also write UTF-16."""
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        # An odd last byte is left out: the decoder would refuse all of the text for it.
         return data[: len(data) // 2 * 2].decode("utf-16", errors="replace").encode()
     return data.removeprefix(codecs.BOM_UTF8)
 
@@ -174,6 +176,7 @@ def in_words(error: Exception) -> str:
         return f"{error} is missing"
     words = re.sub(r"^\w*(Error|Exception)( \d+)?: *", "", " ".join(str(error).split()))[-200:]
     ours = isinstance(error, LookupError | TypeError | AttributeError | ArithmeticError | AssertionError) or not words
+    # Such a text speaks of our program, not of the file. The line that failed helps whoever reports it.
     if ours or _OF_PYTHON.search(words):
         own = [at for at in walk_tb(error.__traceback__) if at[0].f_code.co_filename.startswith(_PACKAGE)]
         place = "".join(f" ({Path(frame.f_code.co_filename).name}, line {line})" for frame, line in own[-1:])
@@ -188,6 +191,7 @@ def as_format_error(kind: str) -> Iterator[None]:
         yield
     except BsmError:
         raise
+    # Not Exception: what is none of these is a fault of ours, and must not be blamed on the file.
     except (LookupError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError, BadZipFile) as error:
         raise FormatError(f"this {kind} makes no sense: {in_words(error)}") from error
 
@@ -207,6 +211,7 @@ def gunzipped(data: bytes, limits: Limits) -> bytes:
     """What gzip has compressed, in one member or several."""
     found = bytearray()
     try:
+        # gzip.decompress would inflate all before its size can be judged; a few kilobytes may become gigabytes.
         with gzip.open(io.BytesIO(data[: len(data.rstrip(b"\0")) + _ENDING])) as file:
             while piece := file.read(_PIECE):
                 found += piece

@@ -61,6 +61,7 @@ def _decode_until(decoder: Decoder, chunks: Iterator[bytes], enough: Callable[[A
                     known[event.vertices] = True
             if enough(event):
                 break
+        # Faces at the edge of what has come would reach to the origin, where vertices lie that have not.
         complete = np.flatnonzero(known[faces].all(axis=1))
         if len(complete) == 0:
             raise MeshError("no face is complete in the blocks that are there")

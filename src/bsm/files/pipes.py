@@ -17,6 +17,8 @@ from typing import Any, BinaryIO, NamedTuple, TypeAlias, Union, cast
 
 from bsm.bitstream import errors
 
+# At least two letters, as "C:" is a drive of Windows and not a scheme; "::" chains file systems of fsspec
+# ("simplecache::s3://...").
 _URL = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]+)(?:::|://)")
 _PIECE, _IN_MEMORY = 1 << 20, 1 << 26
 """Bytes that are sent at a time, and those that wait in memory and not on the disk."""
@@ -46,6 +48,7 @@ def without_scheme_of_files(path: str) -> str:
     return url2pathname(urllib.parse.urlsplit(path).path)
 
 
+# posixpath and not os.path: slashes part a URL on Windows, too.
 def name_in(url: str) -> str:
     return posixpath.basename(_path(url).rstrip("/"))
 
@@ -54,6 +57,8 @@ def beside(url: str, name: str) -> str:
     return f"{_path(url).rpartition('/')[0]}/{name}"
 
 
+# A mesh from a stranger names these files. Without the check of the folder, "../../.ssh/id_rsa" as the name of a
+# texture would be copied into the stream.
 def file_beside(folder: Path, name: str) -> Path:
     """The regular file in a folder, or below, that a file there names; why there is none as a `FormatError`."""
     if len(name) > _LONGEST_NAME:
@@ -101,6 +106,8 @@ def _errors_of(url: str) -> Iterator[None]:
     """Whatever goes wrong in a library behind fsspec, as an `OSError` that names the file."""
     try:
         yield
+    # fsspec says that a file is not found whatever the cause: only the error behind tells a missing file from a server
+    # that cannot be reached, which is no reason to write a new output.
     except FileNotFoundError as error:
         behind = error.__cause__
         if isinstance(behind, OSError) and behind.errno not in (None, errno.ENOENT):  # no server, as aiohttp has it
@@ -109,9 +116,11 @@ def _errors_of(url: str) -> Iterator[None]:
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), url) from error
     except (errors.BsmError, MemoryError):
         raise
+    # What fsspec raises of a file system that can only be read.
     except NotImplementedError as error:
         raise errors.OptionError(f"{_scheme(url)}:// cannot be written to; name another place with -o") from error
     except OSError as error:
+        # It has been through here already, in a call inside another.
         if error.filename == url:
             raise
         raise OSError(error.errno or errno.EIO, error.strerror or str(error) or type(error).__name__, url) from error
@@ -132,6 +141,7 @@ def open_remote(url: str) -> BinaryIO:
 def open_remote_output(url: str, *, overwrite: bool) -> Iterator[BinaryIO]:
     """Open a file for writing that appears only when the `with` block has ended well."""
     refuse_to_replace(url, overwrite)
+    # Not straight to the server: encoding may still fail, and few servers can take back what has come.
     with tempfile.SpooledTemporaryFile(_IN_MEMORY) as whole:
         yield cast(BinaryIO, whole)
         whole.seek(0)
@@ -170,6 +180,7 @@ def state_of_remote(url: str) -> RemoteState | None:
     try:
         with _errors_of(url):
             files, path = _system(url)
+            # fsspec keeps listings of folders: a file that another program has just written would not be there.
             files.invalidate_cache()
             about = files.info(path)
     except FileNotFoundError:
@@ -203,6 +214,7 @@ def _system(url: str) -> tuple[Any, str]:
     fsspec = errors.imported("fsspec", f"{scheme}:// needs fsspec", "remote")
     try:
         return cast("tuple[Any, str]", fsspec.url_to_fs(url))
+    # fsspec knows which package speaks a scheme, but its message names a module, which pip may call otherwise.
     except ImportError as error:
         registry = errors.imported("fsspec.registry", "", "remote")
         package = registry.known_implementations.get(scheme, {}).get("class", "fsspec.").partition(".")[0]
@@ -254,6 +266,8 @@ class Input:
     def is_file(self) -> bool:
         return self._file is None and self.name != "-" and os.path.isfile(self.name)
 
+    # A file is opened a second time for its head, so that whoever reads it later finds it at its beginning, without a
+    # seek that pipes would not have.
     def peek(self, size: int) -> bytes:
         """The first bytes that are still to be read, up to `size` of them; fewer only at the end."""
         if self.is_file:
@@ -301,9 +315,13 @@ class Input:
                 raise OSError(errno.EBADF, "standard input is closed")
             else:
                 self._file = sys.stdin.buffer
+        # read1 returns what has arrived: read would wait for all of a chunk, and a stream from a pipe would not be
+        # decoded while it comes.
         read = getattr(self._file, "read1", self._file.read)
         with _errors_of(self.name) if self._opened and is_url(self.name) else nullcontext():
             piece = read(_CHUNK)
+        # A descriptor that does not block has nothing yet: taking it for the end would cut the file short without a
+        # word.
         if piece is None:
             raise BlockingIOError(errno.EAGAIN, "the file has no bytes yet, and does not wait for them", self.name)
         if isinstance(piece, str):
@@ -326,6 +344,7 @@ def as_input(source: Source) -> Input:
     return source if isinstance(source, Input) else Input(source)
 
 
+# A name that does not exist is no pipe: opening it then says so, as of any file.
 def is_pipe(source: Source) -> bool:
     """Whether a path names what can be read once only: standard input ("-"), a named pipe, a socket or a terminal."""
     if not isinstance(source, (str, os.PathLike)):
@@ -396,6 +415,8 @@ def state_of(path: str) -> State | None:
             found.append([file, state.size, state.version])
         elif os.path.isfile(file):
             about = os.stat(file)
+            # As a text, like the versions of URLs: readers of JSON that hold numbers as doubles lose the last digits of
+            # nanoseconds.
             found.append([file, about.st_size, str(about.st_mtime_ns)])
     return found or None
 

@@ -46,6 +46,7 @@ def open_sequence(
     isolated: bool | None = None,
 ) -> Frames | None:
     """The sequence that `source` names, or None if it is not one but perhaps a mesh; `isolated` as in `read_mesh`."""
+    # Nothing may be taken from a pipe to look at it: whoever reads the mesh in it needs every byte.
     if is_pipe(source) and file_format != "npy":
         return None
     given, asked = as_input(source), wanted or Wanted()
@@ -87,9 +88,12 @@ def open_frames(
         paths = [os.path.abspath(name) for name in ordered]
         frames: Frames = by_name(*_ISOLATED)(paths, file_format, limits, kinds[0], wanted)
         return frames
+    # Lists of ParaView may name several files for one time, the parts of one mesh.
     ends = np.cumsum(wanted.parts or [1] * len(ordered)).tolist()
     groups = [ordered[begin:end] for begin, end in zip([0, *ends], ends, strict=False)]
     by_label = {", ".join(group): group for group in groups}
+    # One for each place in a group: polygons of later frames must be cut along the diagonals of the first, or faces
+    # would change although nothing does but positions.
     cuts = [CutAlike() for _ in range(max(map(len, groups)))]
 
     def read(label: str) -> MeshFile:
@@ -217,6 +221,7 @@ def _cache_writer(
     refuse_to_overwrite(path, overwrite)
     refuse_to_overwrite(mesh_of(path), overwrite or _plays(mesh_of(path), first))
     meshes, begun, taken = list[TriangleMesh](), 0, 0
+    # A cache begins with the number of its frames, which is known at the end of a run only, so frames wait on the disk.
     with tempfile.TemporaryFile() as spool:
 
         def end(*, last: bool = False) -> None:
@@ -258,6 +263,7 @@ def _plays(path: str, faces: Faces) -> bool:
         known = read_mesh(path).mesh.faces if os.path.isfile(path) else faces[:0]
     except (BsmError, OSError):
         return False
+    # Faces without area were added for loose vertices, and OBJ files of animators do not have them.
     pairs = (some[some[:, 0] != some[:, 1]] for some in (known, faces))
     own, other = (np.unique(np.sort(some, axis=1), axis=0) for some in pairs)
     return np.array_equal(own, other)

@@ -54,6 +54,8 @@ def decode_whole(
     layers: int | None = None,
     progress: Progress | None = None,
 ) -> TriangleMesh:
+    # Here and not above: most commands only ask whether a file is a stream, and loading the decoder takes them longer
+    # than that.
     from bsm.codec.decoding import Decoder
 
     with Decoder(limits, threads, layers=layers) as decoder:
@@ -70,6 +72,7 @@ def peek_header(chunks: Iterator[bytes]) -> tuple[Header | None, Iterator[bytes]
     from bsm.files.inspection import Skimmer
 
     taken: list[bytes] = []
+    # Wide limits, as only the header is wanted here; those of the caller hold when the bytes are decoded.
     skimmer = Skimmer(Limits.wide())
     for chunk in chunks:
         taken.append(chunk)
@@ -136,6 +139,8 @@ class SequenceStream:
             match event:
                 case FrameEvent(index, positions, faces, attributes):
                     self._present = attributes
+                    # Identity first: faces of one run are one array, and comparing millions of them for each frame
+                    # would take as long as decoding.
                     if faces is not self.faces and not np.array_equal(faces, self.faces):
                         if given:
                             self.run_starts.append(index)

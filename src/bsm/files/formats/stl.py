@@ -25,6 +25,7 @@ _HEADER = "stl_header"
 _UNKNOWN = (0, 0xFFFFFFFF)  # numbers of triangles by programs that did not know it yet
 
 
+# The word "solid" at the beginning does not tell: several programs write it into the 80 bytes before binary records.
 def is_text(head: bytes, size: int | None) -> bool:
     """Return whether an STL is text; binary files that begin with "solid" have zeros or the right size."""
     claimed = int.from_bytes(head[HEAD - 4 : HEAD], "little") if len(head) >= HEAD else -1
@@ -71,6 +72,7 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
         if records["attribute"].any():
             columns = [Column(_ATTRIBUTE, records["attribute"][:, None], "face")]
     faces = np.arange(len(soup), dtype=np.int32).reshape(-1, 3)
+    # Only exactly equal corners: a tolerance would close slits that somebody has drawn.
     corners, first, *_ = GivenMesh(faces, group_rows(soup)).join(True, True)
     note = f"STL knows no vertices: {len(soup)} corners with equal coordinates were joined to {len(first)} vertices"
     sizes, dropped = np.full(len(soup) // 3, 3), (wrong,) if wrong else ()

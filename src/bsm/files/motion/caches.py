@@ -50,6 +50,7 @@ def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
     if size < (needed := cache.start + 12 * cache.points * cache.frames):
         raise TruncatedError(f"{what}, which take {needed} bytes; it has {size}")
     require_counts(limits, vertices=cache.points, frames=cache.frames)
+    # A cache only holds points. Animators keep the mesh beside it under the same name.
     beside = mesh_beside(path) if wanted.mesh is None else os.fspath(wanted.mesh)
     with about(beside):
         mesh = read_mesh(beside, limits=limits, isolated=False).mesh
@@ -58,6 +59,7 @@ def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
             f"the cache has {cache.points} points and the mesh {beside} has {len(mesh.positions)} vertices; name the "
             "mesh that it was made for with --mesh"
         )
+    # Asked with the same positions, only to learn which attributes a motion would make wrong.
     kept, normals = mesh.moved(mesh.positions)
     notes = [f"faces and attributes are those of {beside}"]
     notes += [f"left out, for they move: {', '.join(normals)}"] if normals else []
@@ -127,6 +129,7 @@ def write_cache(
         elif taken == 0:
             file.write(_MDD.pack(count, len(frame)))
             file.write((np.array(codes) / (rate or USUAL_RATE)).astype(">f4").tobytes())
+        # Beyond it a coordinate would become infinite without a word.
         if np.abs(frame).max() > np.finfo(np.float32).max:
             raise MeshError(f"a coordinate of frame {taken} is beyond single precision, which {kind.upper()} has")
         file.write(np.ascontiguousarray(frame, single).tobytes())

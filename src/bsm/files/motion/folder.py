@@ -28,6 +28,7 @@ from bsm.files.motion.frames import Frames, Wanted, rate_of_times, timing_of
 from bsm.files.pipes import about, file_beside, is_pipe, is_url
 from bsm.files.table import FORMATS, MESH_SUFFIXES, START, STEP
 
+# A sign counts in names such as t_-5, while step-5 has a hyphen.
 _NUMBERS = re.compile(r"((?:(?<![^\W_])-)?\d+)")  # a "-" that follows a letter or a digit is a hyphen
 _SIGNED, _UNITS = re.compile(r"-?\d+"), re.compile(r"\d([fpnuµm]?s|min|h)(?![^\W_])")
 _DECIMALS = re.compile(r"((?:(?<![^\W_])-)?(?:\d+(?:\.\d+)?|(?<![^_])\.\d+)(?:[eE][-+]?\d+)?)")
@@ -63,6 +64,8 @@ def separate_meshes(path: str, file_format: str | None = None) -> list[str]:
     names = frame_files(path)
     if len(names) > 1:
         cut = CutAlike()
+        # The first and the last, since scans of different things rarely agree, and frames always do: reading all would
+        # take as long as the job itself.
         first, last = (read_cut(name, file_format, DEFAULT_LIMITS, cut).mesh for name in (names[0], names[-1]))
         if first.positions.shape == last.positions.shape and np.array_equal(first.faces, last.faces):
             return []
@@ -131,6 +134,8 @@ def _require_one_series(ordered: Sequence[str]) -> None:
         raise MeshError(f"these files are {len(series)} series of frames, {those}; name the files of one, as a pattern")
 
 
+# An order that was guessed wrong still makes an animation, and nobody sees why it jerks; so what can be read in two
+# ways is refused.
 def _require_clear(ordered: Sequence[str]) -> None:
     """Refuse names whose numbers can be read in two ways, with another order each."""
     bases = _differing(ordered)
@@ -214,6 +219,8 @@ def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], want
         )
     rate, timing = timing_of(np.array(times, np.float64), rate) if times else (rate, _numbering(names))
     notes += ["the times of frames are not numbers that grow, and are left out"] if timing is None else []
+    # An attribute that moves differs most between the first and the last frame; looking at all frames would read the
+    # folder twice.
     last = read(count - 1) if first.attributes and not runs else first
     own = [attribute for attribute in first.attributes if attribute.name != EMPTY]
     kept = tuple(attribute for attribute in own if _as_in(last, attribute) is not None)
@@ -261,6 +268,7 @@ LISTS = ("pvd", "series")  # of ParaView, files and their times
 
 def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float], list[int]]:
     """Return the files of a list, the times, and how many files each time has."""
+    # Before reading: a list is text that is parsed as a whole.
     limits.check("metadata_bytes", os.path.getsize(path))
     data = Path(path).read_bytes()
     try:
@@ -271,6 +279,7 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
             rows = [(float(entry.get("timestep", 0.0)), entry["file"]) for entry in found]
         if not all(math.isfinite(time) for time, _ in rows):
             raise ValueError("a time is not finite")
+    # JSON may hold anything in any place, and nested lists end the recursion of its parser.
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError) as error:
         raise FormatError(f"this is not a .{kind} file of ParaView: {type(error).__name__}: {error}") from error
     if not rows or len({time if kind == "series" else (time, name) for time, name in rows}) < len(rows):
@@ -323,6 +332,7 @@ def write_files(path: str, kind: str, *, overwrite: bool) -> Iterator[Callable[[
         target = pattern.parent / _PLACE.sub(lambda place: f"{number:{place[1]}{place[2]}d}", pattern.name)
         nothing = FORMATS[kind].empty if is_empty(mesh.attributes) else None
         file = written_mesh(mesh, kind, target) if nothing is None else Written(nothing)
+        # Only files that are new are removed after an error: a frame of before, half overwritten or not, is the user's.
         was_there = target.exists()
         if not was_there:
             written.extend([target, *(target.parent / name for name in file.beside)])

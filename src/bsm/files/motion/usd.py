@@ -58,6 +58,8 @@ class Materials:
 
     def __init__(self, pxr: Any, path: str, stage: Any) -> None:
         self._pxr, self._shade, self._geom, self._path, self._stage = pxr, pxr.UsdShade, pxr.UsdGeom, path, stage
+        # By what materials say and not by their paths: instances and copies of a prim name the same look under many
+        # paths.
         self._known: dict[tuple[tuple[str, str | int | float], ...], int] = {}
         self._images: dict[str, int] = {}
         self._packages: dict[str, str] = {}  # that images are in, if not in the stage itself
@@ -143,6 +145,7 @@ class Materials:
                 files = texture.GetInput("file").GetValueProducingAttributes() if texture.GetInput("file") else []
                 image = files[0].Get() if files else None
                 if image is not None and image.path:
+                    # Images inside a package resolve to "scene.usdz[textures/a.png]".
                     outside, packed, inside = str(image.resolvedPath).rpartition("[")
                     folder = Path(self._path).resolve().parent
                     if packed and Path(outside).resolve() != Path(self._path).resolve():
@@ -195,6 +198,8 @@ def _packed(package: zipfile.ZipFile, name: str, most: int) -> bytes | str:
     """The bytes of a file in a package, or why there are none."""
     with suppress(KeyError, zipfile.BadZipFile, NotImplementedError, RuntimeError):
         entry = package.getinfo(name.removeprefix("./"))
+        # USDZ demands entries that are not compressed, so that they can be mapped. Anything else may inflate without
+        # bound.
         if entry.compress_type == zipfile.ZIP_STORED and entry.file_size <= most:
             return package.read(entry)
     return "it is not in the package"
@@ -214,6 +219,7 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
             Path(str(folder), files[number]).write_bytes(data)
     written = {f"image.{number}.{what}" for number in files for what in ("name", "data")}
     bound: dict[int, Any] = {}
+    # USD says it of a mesh and not of a material, so one single-sided material keeps it from being said.
     if words and all(known.get("doubleSided") for known in words.values()):
         mesh.CreateDoubleSidedAttr(True)
         written |= {f"material.{number}.doubleSided" for number in words}
@@ -290,6 +296,7 @@ def _write_surface(pxr: Any, material: Any, look: looks.Appearance, images: Mapp
         texture = shader(f"{name}_texture", _TEXTURE)
         texture.CreateInput("file", types.Asset).Set(pxr.Sdf.AssetPath(f"./{image}"))
         if (shown.scale, shown.offset, shown.rotation) != ((1.0, 1.0), (0.0, 0.0), 0.0):
+            # Beside each texture: two textures of a material may have transforms of their own.
             reader, placed = shader(f"{name}_transform", _MOVE), reader
             reader.CreateInput("in", types.Float2).ConnectToSource(placed.ConnectableAPI(), "result")
             reader.CreateInput("scale", types.Float2).Set(pxr.Gf.Vec2f(*shown.scale))
@@ -301,6 +308,8 @@ def _write_surface(pxr: Any, material: Any, look: looks.Appearance, images: Mapp
         opacity = look.opacity if name == "diffuseColor" and look.mode != "OPAQUE" else 1.0
         if isinstance(value, tuple) and (*value, opacity) != (1.0,) * 4:
             texture.CreateInput("scale", types.Float4).Set(pxr.Gf.Vec4f(*value, opacity))
+        # A normal map holds shares from 0 to 1 of what runs from -1 to 1. UsdPreviewSurface does not unfold them by
+        # itself.
         if name == "normal":
             texture.CreateInput("scale", types.Float4).Set(pxr.Gf.Vec4f(2.0, 2.0, 2.0, 1.0))
             texture.CreateInput("bias", types.Float4).Set(pxr.Gf.Vec4f(-1.0, -1.0, -1.0, 0.0))
@@ -319,6 +328,7 @@ MOST_PRIMS, MOST_NAMED = 1 << 16, 12
 def import_usd() -> Any:
     """The modules of usd-core; `DependencyError` where they are missing."""
     for name in ("Gf", "Sdf", "Tf", "Usd", "UsdGeom", "UsdShade", "UsdSkel", "UsdUtils", "Vt"):
+        # One by one: `import pxr` alone loads none of them.
         imported(f"pxr.{name}", "USD files are read and written with usd-core", "usd")
     return sys.modules["pxr"]
 
@@ -335,6 +345,7 @@ class _Shape:
         self.counts_attr, self.corners_attr = mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()
         tables = (self.points, self.counts_attr, self.corners_attr)
         self.vertices, faces, corners = (len(attr.Get(time) or []) for attr in tables)
+        # A polygon of k corners has k - 2 triangles. Known before any table is copied, so that limits can refuse.
         self.triangles = corners - 2 * faces
         self.left_handed = mesh.GetOrientationAttr().Get() == pxr.UsdGeom.Tokens.leftHanded
         self.rows: dict[Domain, int] = {"vertex": self.vertices, "face": faces, "corner": corners}
@@ -390,6 +401,7 @@ class _Shape:
                 continue
             self.left_out.append(name)
             values = np.array(value)
+            # One color for a whole mesh would be lost where parts are joined, so its vertices have it.
             if primvar.GetInterpolation() == "constant" and name in _SHADES and len(values) == 1:
                 domain, values = "vertex", np.repeat(values, self.vertices, axis=0)
             if domain is None or not kind.endswith("[]") or name == "normals":
@@ -450,6 +462,7 @@ class _Instancer:
 
     def place(self, number: int, time: Any, cache: Any) -> Doubles:
         """Return the matrix that places an instance, with its prototype's transform, in the world."""
+        # usd-core computes all instances at once; asking for each would take the square of their number.
         if self._placed[0] != time.GetValue():
             every = self._pxr.UsdGeom.PointInstancer.IgnoreMask
             moved = self._pxr.UsdGeom.PointInstancer.IncludeProtoXform
@@ -491,6 +504,8 @@ class _Part:
             return found
         instancer, number, root, _ = self.instance
         base = np.array(cache.GetLocalToWorldTransform(root), np.float64)
+        # The prototype may lie anywhere in the stage: its own place is taken out first. A pseudo-inverse, as a
+        # prototype may be scaled to 0.
         return found @ np.linalg.pinv(base) @ instancer.place(number, time, cache)
 
     def at(self, time: Any, cache: Any) -> Doubles:
@@ -588,6 +603,7 @@ class _Stage:
         """Yield the visible meshes, and the instances of instancers."""
         pxr, left = self.pxr, dict[str, list[str]]()
         self.blinking: list[str] = []
+        # The usual traversal stops at instances, whose meshes would then be missing.
         every = iter(pxr.Usd.PrimRange.Stage(self.stage, pxr.Usd.TraverseInstanceProxies()))
         for count, prim in enumerate(every):
             if count == MOST_PRIMS:
@@ -689,6 +705,7 @@ class _Stage:
 
         def made(part: Any) -> shapes.Part:
             shape = part.shape
+            # A mirror swaps inside and outside, as the left-handed orientation does; both together swap nothing.
             mirrored = np.linalg.det(part.matrix(code, cache)[:3, :3]) < 0.0
             order = shapes.turned_corners(shape.counts, np.full(len(shape.counts), shape.left_handed != mirrored))
             columns = [c if c.indices is None else replace(c, indices=c.indices[order]) for c in shape.columns]
@@ -733,6 +750,7 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     first, last = stage.span or (times[0], times[-1])
     if not np.isfinite([first, last, codes, (last - first) * rate / codes]).all():
         raise FormatError(f"the stage runs from {first:g} to {last:g} at {codes:g} codes per second")
+    # A little more, as 1/24 of a second is no double, and the last frame would be lost by rounding.
     count = int(np.floor(max(last - first, 0.0) * rate / codes + 1e-6)) + 1
     require_counts(limits, frames=count)
     still = stage.frame(first)
@@ -788,6 +806,8 @@ def write_usd(file: BinaryIO, kind: str, faces: Faces, shared: Shared) -> Iterat
                 still = None
             for attribute in shared.moved():
                 if still is not None and attribute.name not in keyed:
+                    # A value at a later time alone would hold for all earlier times: its old value gets the time
+                    # before.
                     _written(pxr, mesh, next(own for own in still.attributes if own.name == attribute.name), before)
                 keyed.add(attribute.name)
                 _written(pxr, mesh, attribute, code)
@@ -830,7 +850,9 @@ def _begun(
     mesh = geom.Mesh.Define(stage, place)
     for above in list(place.GetPrefixes())[:-1]:
         geom.Xform.Define(stage, above)
+    # Without one, a reference to this file from another stage finds nothing.
     stage.SetDefaultPrim(stage.GetPrimAtPath(place.GetPrefixes()[0]))
+    # The default is Catmull-Clark: without this, viewers round off every mesh.
     mesh.CreateSubdivisionSchemeAttr(geom.Tokens.none)
     mesh.CreateFaceVertexCountsAttr().Set(np.full(len(first.faces), 3))
     mesh.CreateFaceVertexIndicesAttr().Set(first.faces.reshape(-1))
