@@ -212,6 +212,8 @@ class TestTables:
         page.write_text(text + "\n## The paper, 9: an old table\n\n| t |\n")
         made = published.printed("The paper, 4: new", ("x",), [("a", (1.0,), ())]) | {"run": RUN | {"commit": "d"}}
         report.write_page({"paper": [made]})
+        assert "## The paper, 4: new" in page.read_text() and "an old table" in page.read_text()
+        report.write_page({"paper": [made] * len(paper.TABLES)})
         assert "## The paper, 4: new" in page.read_text() and "an old table" not in page.read_text()
         assert text.startswith("# Measured\n") and "words" not in text and "Commit c, p, d" in text
         assert "Commit b" not in text and "## Moving meshes\n\nCommit a.\n\n| t |\n" in text and "| default" in text
@@ -472,3 +474,16 @@ def test_algorithm_2_and_the_codec_s_rule_keep_their_bounds(study):
     assert ended.any() and (np.sqrt(theirs.errors[ended]) <= high * 1.01).all()
     assert theirs.sizes.sum() <= ours.sizes.sum() * 1.2
     assert (np.abs(np.diff(theirs.sizes)) <= theirs.iterations[1:] - 1).all() and theirs.iterations.max() > 1
+
+
+def test_one_table_keeps_the_numbers_of_others(tmp_path, monkeypatch):
+    kept = tmp_path / "paper.json"
+    kept.write_text('{"runs": {"a": 1, "b": 2}, "numbers": {"a": {"x": "1"}, "b": {"y": "2"}}}')
+    monkeypatch.setattr(quotes, "KEPT", kept)
+    quotes.keep({"b": [{"run": 3, "numbers": {"y": "4"}}], "c": [{"run": 5, "numbers": {}}]})
+    found = json.loads(kept.read_text())
+    assert found == {"runs": {"a": 1, "b": 3, "c": 5}, "numbers": {"a": {"x": "1"}, "b": {"y": "4"}}}
+
+
+def test_abrupt_changes_are_those_over_a_quarter_of_the_mean():
+    assert dynamic.abrupt(np.array([10.0, 10.0, 13.0, 10.0, 7.0])) == 3

@@ -82,7 +82,7 @@ TOOLS: dict[str, Tool] = {
     "frames along normals": Tool(
         {}, [(coding, "local_frames", lambda places, _: UPRIGHT.repeat(len(places), axis=0))], decodes=False
     ),
-    "unfolding of faces": Tool({}, [(blocks, "turned", lambda _: None)]),
+    "unfolding of faces": Tool({}, [(blocks, "unfolded", lambda _: None)]),
     "overlap of 5 % (not in the default)": Tool({"overlap": 1.05}),
     "warm start": Tool({"key_interval": 1}),
     "springs and prediction": Tool({"predict": False}),

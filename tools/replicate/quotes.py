@@ -21,11 +21,13 @@ PASSAGES = {
 
 
 def keep(tables: dict[str, list[Row]]) -> None:
-    """Write the numbers that are quoted, and the run of each experiment."""
-    runs = {name: rows[0]["run"] for name, rows in tables.items()}
-    numbers = {name: {k: v for row in rows for k, v in row["numbers"].items()} for name, rows in tables.items()}
-    text = json.dumps({"runs": runs, "numbers": {name: own for name, own in numbers.items() if own}}, indent=1)
-    KEPT.write_text(text + "\n", encoding="utf-8")
+    """Write the numbers that are quoted, and the run of each experiment; those of others stay."""
+    kept = json.loads(KEPT.read_text(encoding="utf-8"))
+    for name, rows in tables.items():
+        kept["runs"][name] = rows[0]["run"]
+        if numbers := {k: v for row in rows for k, v in row["numbers"].items()}:
+            kept["numbers"][name] = numbers
+    KEPT.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
 
 
 def passage(name: str) -> str:

@@ -14,6 +14,7 @@ from tools.replicate.ablation import MOVING_TOOLS, TOOLS, ablation_note, ablatio
 from tools.replicate.denoising import denoising_note, denoising_table, pairs_table
 from tools.replicate.measures import MEASURES
 from tools.replicate.outside import PHOTOGRAPHED, SPREAD, outside_table, steadiness_table
+from tools.replicate.paper import TABLES
 from tools.replicate.rates import COLUMNS, CURVE, MESHOPT_BITS, PRESETS, Row, ratios, spread, summary, time_summary
 from tools.replicate.stages import git
 
@@ -221,7 +222,7 @@ def write_page(results: dict[str, list[Row]]) -> None:
     """Put the tables into docs/measured.md, each with its origin; what no run in this folder made stays."""
     page = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
     kept = {f"## {part.partition(chr(10))[0]}": part.partition("\n")[2].strip() for part in page.split("\n## ")[1:]}
-    if results.get("paper"):  # tables of earlier experiments go
+    if len(results.get("paper", ())) >= len(TABLES):  # all are made anew: tables of earlier experiments go
         kept = {title: text for title, text in kept.items() if not title.startswith("## The paper, ")}
     for name, entry in tables(results).items():
         stage, _, number = name.partition("-")

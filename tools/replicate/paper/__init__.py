@@ -20,6 +20,7 @@ TABLES: dict[str, Callable[[Study], Iterator[Row]]] = {
         compression.basis,
         compression.rate_and_error,
         compression.speed,
+        compression.better,
         dynamic.dynamic,
         iterations.warm_start,
         iterations.iterations_or_powers,

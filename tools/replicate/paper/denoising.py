@@ -113,24 +113,31 @@ def times(study: Study) -> Iterator[Row]:
             keep = share / 100
             seconds, single = (dictionary_seconds(blocks, keep, rules, repeats) for rules in (CHAINED, ONCE))
             once.append(svd / single)
-            errors = [level(solved), level(model.coarse(SEGMENTS[role], keep=keep, rules=CHAINED)(model.noisy, keep))]
-            ours = (*errors, errors[1] - errors[0], svd, seconds, svd / seconds)
+            filters = (model.coarse(SEGMENTS[role], keep=keep, rules=rules) for rules in (CHAINED, ONCE))
+            errors = [level(solved), *(level(filtered(model.noisy, keep)) for filtered in filters)]
+            ours = (*errors[:2], errors[1] - errors[0], svd, seconds, svd / seconds)
             there = published[share]
-            numbers = (*ours, (svd + before) / (seconds + before), once[-1], subset_seconds(blocks, keep) / seconds)
+            more = once[-1], errors[2] - errors[0], subset_seconds(blocks, keep) / seconds
+            numbers = (*ours, (svd + before) / (seconds + before), *more)
             rows.append((f"{share} %", numbers, (*there[:2], there[1] - there[0], *there[2:])))
-        gaps, speeds, whole = ([own[k] for _, own, _ in rows] for k in (2, 5, 6))
+        gaps, speeds, whole, apart = ([own[k] for _, own, _ in rows] for k in (2, 5, 6, 8))
         yield printed(
             f"The paper, 8.2 (Table 6): NMSVE and times, {role}",
             (
                 *("SVD, dB", "OI, dB", "OI less SVD, dB", "SVD, s", "OI, s", "speed-up", "with cutting"),
-                *("of R^3 once, one Onorm", "against eigh of c vectors"),
+                *("of R^3 once, one Onorm", "R^3 once less SVD, dB", "against eigh of c vectors"),
             ),
             rows,
             f"{model.name} in {blocks.count} blocks of {size}; the coarse step of denoising, R^3 twice, NMSVE as "
             "printed. Seconds of one thread for the dictionaries of all blocks. METIS, growth and the order of rows "
             f'take {before:.2f} s more on both sides: "with cutting" has them in both sums. Machine, libraries, files '
             "and samples of noise are others: ratios and distances in a row compare.",
-            claim("OI is close to SVD", max(gaps) < 0.2, f"within {max(map(abs, gaps)):.2f} dB.", model),
+            claim(
+                "OI is close to SVD",
+                max(*gaps, *apart) < 0.2,
+                f"within {max(map(abs, gaps)):.2f} dB, with R^3 once within {max(map(abs, apart)):.2f} dB.",
+                model,
+            ),
             claim(
                 f"OI is {published[25][4]} to {published[10][4]} times faster",
                 min(once) >= published[25][4],
@@ -141,6 +148,7 @@ def times(study: Study) -> Iterator[Row]:
             ),
             numbers={
                 f"{role} gap": f"{max(map(abs, gaps)):.2f}",
+                f"{role} apart": f"{max(map(abs, apart)):.2f}",
                 f"{role}": f"{min(speeds):.0f} to {max(speeds):.0f}",
                 f"{role} whole": f"{min(whole):.0f} to {max(whole):.0f}",
                 f"{role} once": f"{min(once):.0f} to {max(once):.0f}",
