@@ -159,7 +159,7 @@ class _Server:
         environment = known | _QUIET | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
         if not re.match("python|pypy", os.path.basename(sys.executable or "")):
             raise FileNotFoundError("sys.executable is not Python")  # but a program that has Python in it
-        # -P keeps the current folder out of sys.path: a file named numpy.py beside the mesh would be run otherwise.
+        # -P keeps the current folder out of sys.path: a file there called like a module would be run otherwise.
         command = [sys.executable, "-P", "-c", _COMMAND.format(number=there.fileno())]
         nothing: Any = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
         with there:

@@ -50,6 +50,7 @@ def runs(flat: Ints, shape: Callable[[Ints], tuple[int, slice]]) -> Iterator[Int
     at = 0
     while at < len(flat):
         width, same = shape(flat[at : at + 4])
+        # A window: comparing all that is left at every change of kind would take the square of the file.
         rows = flat[at : at + _WINDOW * width]
         table = rows[: len(rows) // width * width].reshape(-1, width)
         if not len(table):
@@ -75,8 +76,11 @@ def _sides(kind: str, table: Ints, cells: Ints, points: Doubles) -> list[_Side]:
         if is_solid:
             at = points[ring[:, ::step]].swapaxes(0, 1)
             ahead, middle = np.cross(at[2] - at[0], at[-1] - at[1]), points[table[:, :size]].mean(axis=1)
+            # Solvers differ in the order of corners, wedges above all, so where outside is follows from the cell's
+            # middle.
             inward = (ahead * (at.mean(axis=0) - middle)).sum(axis=1) < 0
             ring[inward] = np.roll(ring[inward, ::-1], 1, axis=1)
+        # A side is known by its corners, sorted: two cells run around the side between them in opposite directions.
         key = np.pad(np.sort(ring[:, ::step]), ((0, 0), (0, 4 - len(face))), constant_values=-1)
         pieces = [ring]
         if step == 2:
@@ -120,6 +124,7 @@ def skin(
         lost |= {} if of_kind else {f"cells of the type {kind} ({len(table)})": None}
         sides += of_kind
     numbers = row_numbers(np.concatenate([np.empty((0, 4), np.int64), *(key for _, key, _, _ in sides)]))
+    # A side of two cells lies inside.
     once = np.split(np.bincount(numbers)[numbers] == 1, np.cumsum([len(side[0]) for side in sides])[:-1])
     kept = [(side, alone | (not side[3])) for side, alone in zip(sides, once, strict=False)]
     pieces = [(cells[taken], table[taken]) for (cells, _, tables, _), taken in kept for table in tables]

@@ -42,6 +42,7 @@ NPY = b"\x93NUMPY"
 Kind = np.dtype[Any]
 
 
+# Not numpy's load: from a pipe it would read on and on, and it takes the memory that a header declares.
 def read_header(file: IO[bytes] | Input) -> tuple[tuple[int, ...], bool, Kind]:
     """Shape, whether the order is Fortran's, and type of an array of numbers; nothing is unpickled."""
     # The header declares its own length, in two bytes in version 1 and in four in those after it.
@@ -58,6 +59,7 @@ def read_header(file: IO[bytes] | Input) -> tuple[tuple[int, ...], bool, Kind]:
         shape, fortran, kind = read(known)
     except _NO_HEADER as error:
         raise CorruptError(f"not a valid npy header: {error}") from error
+    # Objects would be unpickled, which runs whatever the file says.
     if kind.hasobject or kind.kind not in "iuf":
         raise MeshError(f"an array of {kind} does not hold numbers")
     if any(type(side) is not int or side < 0 for side in shape):  # True is an int to numpy
@@ -143,6 +145,7 @@ class NpzArray:
 
     def entries(self) -> Iterator[Array]:
         """Yield the array entry by entry of the first index."""
+        # In that order a frame lies scattered over the whole array, which would have to be held.
         if self._fortran:
             raise MeshError(f"the array {self._name} is in Fortran's order; save it with numpy.ascontiguousarray")
         for _ in range(self.shape[0]):
@@ -225,6 +228,7 @@ def _beside(
                 require_inflated(frame, compressed, limits, vertices)
                 if len(found.moving) < limits.attributes:
                     found.moving[name.removeprefix("vertex/")] = found.left.pop()
+            # An archive may name a million arrays: only so many are opened.
             elif number <= 2 * limits.attributes and (
                 name == "metadata" or max(array.shape, default=0) <= max(vertices, 3 * len(mesh.faces))
             ):
@@ -319,6 +323,7 @@ def open_npz_sequence(
                 before = first.setdefault(name, values)
                 if name not in moved and (name == "positions" or values is not before):
                     moved[name] = waiting.enter_context(tempfile.TemporaryFile())
+                    # Until now the values were those of the first frame, and so they were for all frames before.
                     moved[name].writelines(before.tobytes() for _ in range(taken))
                 if name in moved:
                     moved[name].write(values.tobytes())
@@ -328,7 +333,10 @@ def open_npz_sequence(
         if taken != (count or taken):
             raise CorruptError(f"{taken} of {count} frames came")
         for name, values in {"faces": faces, **first, **_metadata_in(shared.metadata())}.items():
+            # Positions and faces are stored and the rest is deflated: an entry made with a ZipInfo is not compressed by
+            # default.
             named: Any = zipfile.ZipInfo(f"{name}.npy") if name in ("faces", "positions") else f"{name}.npy"
+            # The size is not known before, and zipfile cannot change to 64 bits while it writes.
             with archive.open(named, "w", force_zip64=name in moved) as entry:
                 if name in moved:
                     header = {"descr": values.dtype.str, "fortran_order": False, "shape": (taken, *values.shape)}

@@ -55,6 +55,8 @@ def read_obj(data: bytes, limits: Limits, seen: tuple[int, int, int] | None = No
     if (references.of(0) == 0).any():
         raise MeshError("a face refers to vertex 0, but OBJ files count from 1")
     numbers, most = int(points.counts.min(initial=100)), int(points.counts.max(initial=0))
+    # A fourth number alone is a weight. A color is only taken for one if all vertices have it, with or without an
+    # opacity.
     colored = 6 <= numbers == most <= 7
     columns = [color_column(points.columns(3, numbers - 3), "vertex")] if colored else []
     unread = b", ".join(sorted(lines.keywords - _KNOWN)[:_FEW]).decode(errors="replace")
@@ -121,6 +123,7 @@ class _References:
         joined = b" ".join(polygons)
         if re.search(rb"(?:^|\s)/", joined):
             raise MeshError("a face has a corner without a vertex")
+        # Made rows of numbers all at once: splitting each corner in Python takes much longer than all else.
         corners = re.sub(rb"/(?=[/\s]|\Z)", b"/0", joined).split()  # 0: what is not there
         self._rows = Rows([corner.replace(b"/", b" ") for corner in corners], "corner")
         if self._rows.counts.max(initial=0) > 3:
@@ -242,6 +245,8 @@ def _grouped(states: list[npt.NDArray[Any]], faces: int) -> Ints:
         table = np.column_stack(states[::-1])
         kinds, of_face = np.unique(table, axis=0, return_inverse=True)
         changes = np.count_nonzero(np.diff(of_face.reshape(-1)))
+        # A line before every few faces makes a file much longer; where there are fewer, the order of faces is worth
+        # more.
         if changes >= len(kinds) and _FEW * changes > faces:
             order = np.argsort(of_face.reshape(-1), kind="stable")
     return order
@@ -271,5 +276,6 @@ def _points(mesh: TriangleMesh, color: Attribute | None) -> str:
     row = point_row("v ", mesh.positions)
     if color is None:
         return text_table(row, mesh.positions).decode()
+    # Six digits: bytes and even words of 16 bits come back from shares with as many.
     row = row.replace("\n", " {:.6g}" * _COLORS + "\n")
     return text_table(row, np.hstack([mesh.positions, shares_of(color.values[:, :_COLORS])])).decode()

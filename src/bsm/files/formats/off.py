@@ -20,6 +20,7 @@ _OFF_HEADER = re.compile(
 
 
 def read_off(data: bytes, limits: Limits) -> Polygons:
+    # Comments may stand anywhere, and lines are counted from the header on.
     text = re.sub(rb"#[^\n\r]*", b"", data)
     header = _OFF_HEADER.match(text)
     if header is None:
@@ -74,6 +75,7 @@ def _are_whole(colors: Doubles, lines: Sequence[bytes]) -> bool:
         return False
     if colors.max() > 1 or colors.shape[1] == 4:  # with an opacity of 1 they are shares
         return bool(colors.max() > 1)
+    # A color "1 1 0" is yellow as shares and nearly black as bytes: only the point tells which is meant.
     return not any(b"." in b" ".join(line.split()[-colors.shape[1] :]) for line in lines)
 
 
@@ -104,6 +106,7 @@ def _row(attributes: Sequence[Attribute | None]) -> tuple[str, list[Doubles | In
         values = attribute.values
         if values.dtype == np.uint16:
             values = values / 65535
+        # "#" keeps the point in 1.0, by which readers tell shares from bytes.
         number = " {:.0f}" if values.dtype.kind in "iu" else " {:#.9g}" if values.dtype == np.float32 else " {!r}"
         row += number * attribute.components
         columns.append(values)

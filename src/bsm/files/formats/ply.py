@@ -142,6 +142,7 @@ def tables_of(header: PlyHeader, body: bytes) -> "dict[str, _Table]":
         lines = [line for line in body.splitlines() if line.strip()]
         require_lines(len(lines), sum(element.count for element in header.elements))
         text = Rows(lines, "row").values
+        # The numbers of a text as integers of eight bytes, so that one walk over rows serves binary files and texts.
         raw = np.where(text == np.rint(text), text, -1).clip(-1, _LONGEST).astype("<i8").view(np.uint8)
     for element in header.elements:
         tables[element.name] = table = _Table(element, header.order, raw, begin, text)
@@ -178,6 +179,7 @@ class _Table:
         if self.text is not None:
             return sizes, _typed(self.text[ranges(starts // 8, sizes)], kind.str)
         step = np.diff(starts[:2]).sum()
+        # A view of the bytes: indices of all of them would take eight times the memory of the file.
         if len(starts) and (np.diff(starts) == step).all() and (sizes == sizes[0]).all():  # as of most files
             shape, strides = (len(starts), int(sizes[0])), (int(step), kind.itemsize)
             values = np.ndarray(shape, kind, self.raw.data, int(starts[0]), strides).reshape(-1)
@@ -322,6 +324,8 @@ def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
     first = {texture.image for texture in shown if texture}  # which most readers show
     order = dict(sorted(library.images.items(), key=lambda image: image[0] not in first))
     images = [f"{IMAGE} {name}" for name in order.values()]
+    # Comments of other programs have no numbers, so images count from 0 in their order; ours are named where that
+    # fails.
     if [*order] != [*range(len(order))]:
         images += formats.remarks({f"image.{number}.name": name for number, name in order.items()})[0]
     texts = {word: text for word in COMMENTS if isinstance(text := mesh.metadata.get(word), str)}

@@ -39,6 +39,7 @@ class Column:
 
     def of_triangles(self, name: str, places: Ints, owner: Ints) -> Attribute:
         """The attribute of triangles whose corners are the polygons' at `places`, and which are of polygon `owner`."""
+        # Cut by bytes, as streams bound names so; a letter that is cut through is left out.
         name = name.encode()[:MOST_NAME_BYTES].decode(errors="ignore") or self.domain
         if self.domain == "vertex":
             return Attribute(name, self.values, semantic=self.semantic)
@@ -100,6 +101,7 @@ def _made_alike(parts: Sequence[Part], given: list[Column | None], notes: list[s
         given = [c and replace(c, values=np.pad(c.values, m, constant_values=_blank(c))) for c, m in zip(given, more)]
         if meanings - {"color", "texcoord"}:
             notes.append(f"parts whose {name} has fewer than {most} numbers were given zeros after them")
+    # Zeros would be black holes in every viewer.
     if meanings == {"normal"} and None in given:
         notes.append(f"parts without normals were given those of their faces: {given.count(None)}")
         given = [c or Column(name, part.normals(), "face", "normal") for part, c in zip(parts, given, strict=True)]
@@ -141,6 +143,8 @@ def polygon_normals(positions: Doubles, sizes: Ints, corners: Ints) -> Doubles:
     after = np.arange(1, len(corners) + 1)
     after[first[sizes > 0] + sizes[sizes > 0] - 1] = first[sizes > 0]
     with np.errstate(over="ignore", invalid="ignore"):  # a later check refuses infinite values
+        # From the first corner and not from the origin: far off, the products of coordinates would lose the area in
+        # rounding.
         points = positions[corners] - positions[corners[first[owner]]]
         vectors = np.cross(points, points[after]) if len(corners) else points
         return unit_rows(np.column_stack([np.bincount(owner, axis, len(sizes)) for axis in vectors.T]))
@@ -156,6 +160,7 @@ def unit_rows(vectors: Doubles, blank: Sequence[float] = (0.0, 0.0, 0.0)) -> Dou
 def turned_normals(normals: Doubles, linear: Doubles) -> Doubles:
     """Transform normals, shape (n, 3), by one matrix or by one each; mirrors turn the faces, not the normals."""
     rows = np.swapaxes(linear, -1, -2)
+    # The cofactors and not the inverse transposed: they also exist where a matrix flattens a part.
     cofactors = np.stack([np.cross(rows[..., (i + 1) % 3, :], rows[..., (i + 2) % 3, :]) for i in range(3)], axis=-1)
     side = np.where(np.linalg.det(linear) < 0, -1.0, 1.0)[..., None]
     return unit_rows(np.einsum("...ij,...j->...i", cofactors, normals) * side)
@@ -263,6 +268,7 @@ class Polygons:
         triangles = int(np.maximum(sizes - 2, 0).sum())
         require_counts(limits, vertices=len(positions), faces=triangles)
         memory = PER_TRIANGLE if (sizes == 3).all() else PER_CUT
+        # Before any triangle is made.
         limits.check_memory(memory * triangles + PER_CORNER * len(corners), len(positions), received)
         if not (sizes > 0).any():
             found = f"; it has {', '.join(self.dropped)}" if self.dropped else "; point clouds are not supported"
@@ -456,11 +462,14 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, I
         steps: Ints = np.column_stack([np.zeros_like(rows), step[rows] + 1, step[rows] + 2]) + turn
         return first[polygon][:, None] + steps % sizes[polygon][:, None]
 
+    # Fans first: nearly all polygons are quads or convex, and all of them are cut at once. Others try fans from their
+    # next corners, and only what is left is cut one by one.
     places: Ints = fans(np.arange(len(owner)), 0)
     vectors = _area_vectors(scaled, corners[places])
     normals: Doubles = np.column_stack([np.bincount(owner, weights=axis, minlength=len(sizes)) for axis in vectors.T])
 
     def folded(rows: Ints, candidates: Ints) -> Ints:
+        # A triangle whose normal is against that of its polygon lies outside of it, or over another triangle.
         against = (_area_vectors(scaled, corners[candidates]) * normals[owner[rows]]).sum(axis=1) < 0
         return np.unique(owner[rows[against]])
 
@@ -521,6 +530,7 @@ def cut_holes(points: Doubles, ends: Sequence[int]) -> Ints:
 
 def _flattened(points: Doubles, normals: Doubles) -> Doubles:
     """Return points without the axis along which their normals are longest, counterclockwise as seen from there."""
+    # Leaving out one axis rounds nothing, where a projection on the plane would.
     axis = np.argmax(np.abs(normals), axis=1)[:, None]
     kept = np.array([[1, 2], [0, 2], [0, 1]])[axis[:, 0]]
     sign = np.where((np.take_along_axis(normals, axis, 1) < 0) != (axis == 1), -1.0, 1.0)

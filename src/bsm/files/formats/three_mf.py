@@ -43,6 +43,7 @@ def read_3mf(data: bytes, limits: Limits) -> Polygons:
     with as_library_error("lib3mf", "this 3MF file"):
         _call(reader, "reader_readfrombuffer", ctypes.c_uint64(len(data)), given)
         found = (read := _Model(library, model, limits)).joined(len(data))
+    # lib3mf does not tell what it passes over, so the names in the package are looked at once more.
     with as_format_error("3MF"), zipfile.ZipFile(io.BytesIO(data)) as package:
         names = package.namelist()
         models = (package.read(name) for name in names if name.lower().endswith(".model"))
@@ -57,6 +58,7 @@ def _call(owner: Any, name: str, *arguments: Any) -> None:
 
 
 def _table(owner: Any, name: str, kind: Any) -> Array:
+    # Asked twice, as all of lib3mf: first for the size with no table, then with one of that size.
     needed = ctypes.c_uint64(0)
     _call(owner, name, ctypes.c_uint64(0), needed, None)
     table = (kind * needed.value)()
@@ -82,6 +84,7 @@ class _Model:
             ]
             for number, item in self._objects.items()
         }
+        # An object is often placed a thousand times: its tables are read once.
         self._made: dict[int, Part] = {}
         self._materials: dict[tuple[int, int], int] = {}
         self._words: dict[int, Material] = {}
@@ -109,6 +112,7 @@ class _Model:
 
     def _below(self, item: Any) -> Iterator[tuple[int, Doubles, str]]:
         """The meshes of an item of the build, each with its place and its name."""
+        # A stack and no recursion: a file may nest objects deeper than Python can call.
         waiting = [(item.GetObjectResource().GetUniqueResourceID(), _matrix(item.GetObjectTransform()), "")]
         while waiting:
             number, matrix, above = waiting.pop()
@@ -151,6 +155,8 @@ class _Model:
             if kind == "BaseMaterial":
                 group = self._model.GetBaseMaterialGroupByID(owner)
                 numbers = [self._number((owner, p), _material(group, p)) for p in used.tolist()]
+                # Corners of a triangle may have several base materials by the file, but the specification only lets the
+                # first count.
                 materials[rows] = np.array(numbers)[where.reshape(-1, 3)[:, 0]]
                 continue
             if kind in ("Composite", "Multi", "NoPropertyType"):
@@ -225,6 +231,7 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     model.SetUnit(library.ModelUnit(1 if unit is None else unit))
     if not single_suffices(positions := scale * mesh.positions @ place.turn.T):
         raise MeshError(NO_DOUBLES.format("3MF"))
+    # lib3mf would refuse the whole mesh with a number in place of a reason.
     if repeated := int((mesh.faces == np.roll(mesh.faces, 1, axis=1)).any(axis=1).sum()):
         raise MeshError(f"{counted(faces=repeated)} with one vertex twice, which 3MF does not have; {_ELSE}")
     held = {"up", "unit"} & ({*place.held} | ({"unit"} if size else set()))
@@ -260,6 +267,7 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
             held |= {key for key in (name, "provenance") if mesh.metadata.get(key) == value}
     writer = model.QueryWriter("3mf")
     largest = max(float(np.abs(positions).max(initial=0)), 1e-30)
+    # Coordinates become text. As many decimals as single precision has digits, counted from the largest coordinate.
     writer.SetDecimalPrecision(int(np.clip(8 - math.floor(math.log10(largest)), 0, 15)))  # more of them go wrong
     data = _table(writer, "writer_writetobuffer", ctypes.c_uint8).tobytes()
     shown = [numbers if materials else None, sorting, color]

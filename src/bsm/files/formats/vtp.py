@@ -39,6 +39,7 @@ _OTHERS = {"NumberOfVerts": "points", "NumberOfLines": "lines"}
 class _Builder(ElementTree.TreeBuilder):
     """Builds the tree of a file without a DOCTYPE, which could multiply its text, in whatever encoding."""
 
+    # Entities of a DOCTYPE may refer to each other, and ten lines of them become gigabytes.
     def doctype(self, *_: object) -> None:
         raise FormatError("a VTP file has no DOCTYPE")
 
@@ -73,6 +74,7 @@ class _Document:
         self._appended, self._raw = appended, raw
         offsets = (_COUNT.fullmatch(element.get("offset", "0")) for _, element in self.arrays)
         begins = {int(offset[0]) for offset in offsets if offset}  # others may be of arrays that are not read
+        # The file does not say where an array in base64 ends, but the next one begins there.
         self._ends = dict(pairwise([*sorted(begins), len(appended)]))
         self._limits, self._size, self._made = limits, size, 0
 
@@ -95,10 +97,13 @@ class _Document:
         return values.reshape(-1, components)
 
     def _of_text(self, text: str, kind: np.dtype) -> Array:
+        # A number and the space after it take two letters at least.
         self._require(AS_NUMBERS * (len(text) // 2))
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             try:
+                # Not float() of each word, which takes much longer. It only warns of what is no number, so warnings are
+                # errors.
                 values = np.fromstring(text, np.float64 if kind.kind == "f" else np.int64, sep=" ")
             except (ValueError, DeprecationWarning) as error:
                 raise MeshError(f"expected numbers: {error}") from error
@@ -117,6 +122,8 @@ class _Document:
         self._require(len(given))
         found = bytearray()
         try:
+            # VTK codes a header and the blocks apart, so that "=" may stand in the middle, where base64.b64decode would
+            # stop.
             for part in _PADDED.finditer(given.split(b"<", 1)[0]):
                 found += base64.b64decode(part[0][: len(part[0]) // 4 * 4])
         except binascii.Error as error:
@@ -139,6 +146,7 @@ class _Document:
         for length in sizes:
             unpacker = zlib.decompressobj()
             try:
+                # At most the size that the header says: a block of a few bytes may otherwise fill the memory.
                 blocks.append(unpacker.decompress(packed[at : at + length], max(size, 1)))
             except zlib.error as error:
                 raise CorruptError(f"a compressed block is damaged: {error}") from error
@@ -174,6 +182,7 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     at = data.find(b"<AppendedData")
     end = data.find(b">", at) if at >= 0 else -1
     found = _UNDERSCORE.match(data, end + 1) if end >= 0 else None
+    # Bytes after the XML are no XML. The parser gets what stands before them, closed by hand.
     text, appended = (data, b"") if found is None else (data[:at] + b"</VTKFile>", data[found.end() :])
     require_inflated(8 * len(text) + 2 * TAG * text.count(b"<"), len(data), limits)
     document = _Document(text, appended, b"raw" in data[at : end + 1], limits, len(data))
@@ -243,6 +252,7 @@ def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:
 
 def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
     """Return the VTP of a mesh, with arrays as bytes after the XML; ParaView colors by the first number of vertices."""
+    # VTK has values of points and of cells, and none of corners.
     mesh = split_by_attributes(mesh)
     kind = np.float32 if single_suffices(mesh.positions) else np.float64
     blocks: list[bytes] = []

@@ -44,6 +44,7 @@ class _Grids:
         xml = imported("lxml.etree", "XDMF is read with lxml", "simulation")
         self._folder, self._limits = Path(path).resolve().parent, limits
         with as_library_error("lxml"):
+            # A file must not make the parser open another one, nor the network.
             self.root = xml.fromstring(
                 data, xml.XMLParser(resolve_entities=False, no_network=True, remove_comments=True)
             )
@@ -57,6 +58,7 @@ class _Grids:
             if include.get("href"):
                 raise FormatError(f"this XDMF includes {include.get('href')}; {_WAY}")
             pointer = str(include.get("xpointer", "")).removeprefix("xpointer(").removesuffix(")")
+            # A copy, as an element of lxml has one parent only, and others may point to it, too.
             element.extend([child.__deepcopy__({}) for child in self.root.xpath(pointer)])
             element.remove(include)
         if reference := element.get("Reference"):
@@ -90,6 +92,7 @@ class _Grids:
     def _in_hdf(self, path: Path, place: str) -> Any:
         with as_library_error("h5py"), imported("h5py", "XDMF is read with h5py", "simulation").File(path, "r") as file:
             table = file[place]
+            # HDF5 knows the size of a table before it reads it; compressed tables may be huge.
             require_inflated(table.size * table.dtype.itemsize, path.stat().st_size, self._limits)
             return table[()]
 
