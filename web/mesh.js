@@ -7,7 +7,8 @@ import { readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 
 const USAGE = `usage: bsm-encode MESH.obj|ply|stl|glb MESH.bsm [BITS|lossless]
-       bsm-encode FOLDER SEQUENCE.bsm [BITS [FRAMES PER SECOND]]`;
+       bsm-encode FOLDER SEQUENCE.bsm [BITS [FRAMES PER SECOND]]
+In place of MESH.bsm, - writes the stream to the standard output.`;
 if (process.argv.includes("--help") || process.argv.includes("-h")) {
     console.log(USAGE);
     process.exit(0);
@@ -17,6 +18,7 @@ const [source = "", target, bits = "14", rate = "24", ...more] = process.argv.sl
 const isFolder = statSync(source, { throwIfNoEntry: false })?.isDirectory() ?? false;
 if (
     !target ||
+    /\.(?!bsm$)[a-z]\w*$/i.test(target) ||
     more.length > 0 ||
     !(isFolder ? /^\d+$/ : /^(\d+|lossless)$/).test(bits) ||
     !(isFolder || FILES.test(source)) ||
@@ -41,7 +43,7 @@ try {
     for (const note of notes) console.error(`bsm-encode: ${source}: ${note}`);
     const encoded =
         bits === "lossless" ? encodeHere(inSingle(mesh), { lossless: true }) : encodeHere(mesh, { bits: Number(bits) });
-    writeFileSync(target, await encoded);
+    writeFileSync(target === "-" ? 1 : target, await encoded);
 } catch (error) {
     console.error(`bsm-encode: ${source}: ${error.message}`);
     process.exit(1);

@@ -1,6 +1,6 @@
 // Everything that is committed as built, from sources: the kernels by `npm run kernels`, the rest by `npm run build`.
 // `npm run build -- --check` writes nothing and fails if what is committed is not what the sources build.
-import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
 import { build, transform } from "esbuild";
 import { minify } from "terser";
@@ -43,7 +43,8 @@ const STYLED = {
             const page = readFileSync(path, "utf8");
             const [, style] = /<style>([^]*?)<\/style>/.exec(page);
             const { code } = await transform(style, { loader: "css", minify: true, target: "es2022" });
-            return { contents: page.replace(style, () => code.trim()).replace(/\n\s+/g, "\n"), loader: "text" };
+            const brief = page.replace(style, () => code.trim()).replace(/\n\s+(?=<\/?(?:path|d[dt]|option)\b)/g, "");
+            return { contents: brief.replace(/\n\s+/g, "\n"), loader: "text" };
         });
     },
 };
@@ -66,6 +67,7 @@ const BESIDE = {
     index: "bsm.js",
     quick: "quick.js",
     pool: "pool.js",
+    scene: "scene.js",
     three: "three.js",
 };
 const beside = (...names) => ({
@@ -95,7 +97,7 @@ function privateNames() {
 }
 
 async function bundle(entry, options = {}) {
-    const result = await build({ ...OPTIONS, ...options, entryPoints: [entry] });
+    const result = await build({ ...OPTIONS, ...options, entryPoints: entry ? [entry] : undefined });
     return result.outputFiles[0].text;
 }
 
@@ -133,8 +135,12 @@ async function inlined() {
     };
 }
 
-/** A thread: the decoder, started as one. */
-const thread = (decoder) => `import{serve}from"./${decoder}";serve();\n`;
+/** A thread in one file, so that no request waits for another: all of a module, which then serves. */
+function thread(module, plugins = []) {
+    const contents = `import { serve } from "./${module}"; serve();`;
+    const mangleProps = new RegExp(`^(${privateNames().join("|")})$`);
+    return bundle(undefined, { stdin: { contents, resolveDir: SOURCES }, plugins, mangleProps });
+}
 
 function licenses(packages) {
     return packages
@@ -159,15 +165,15 @@ async function products() {
         "errors.js": await plain("errors.ts", []),
         "bsm.js": await plain("index.ts", [beside("errors")]),
         "small.js": await plain("small.ts", [BARE, beside("errors")]),
-        "moving.js": await plain("small.ts", [BARE, beside("errors")]),
         "quick.js": await plain("quick.ts", [TERSE, beside("errors"), BARE]),
-        "worker.js": thread("bsm.js"),
-        "small-worker.js": thread("small.js"),
-        "quick-worker.js": thread("quick.js"),
-        "moving-worker.js": thread("moving.js"),
+        "worker.js": await thread("index"),
+        "small-worker.js": await thread("small", [BARE]),
+        "quick-worker.js": await thread("quick", [TERSE, BARE]),
+        "moving-worker.js": await thread("small", [BARE]),
         "pool.js": await open("pool.ts", beside("errors", "index", "quick")),
         "main.js": await open("facade.ts", beside("errors", "index", "pool")),
-        "three.js": await open("three.ts", beside("errors", "index", "pool")),
+        "three.js": await open("three.ts", beside("errors", "index", "pool", "scene")),
+        "scene.js": await open("scene.ts", beside()),
         "gltf.js": await open("gltf.ts", beside("errors", "index", "pool", "three")),
         "gltf-transform.js": await open("transform.ts", beside("encode", "errors", "index", "pool")),
         "babylon.js": await open("babylon.ts", beside("errors", "index", "pool")),
@@ -175,8 +181,8 @@ async function products() {
         "reading.js": await open("together.ts", beside("content", "encode", "encoding", "errors", "gltf")),
         "content.js": await open("content.ts", beside("encoding")),
         "encoding.js": await plain("encoding.ts", []),
-        "encode-worker.js": thread("encoding.js"),
-        "player.js": await open("player.ts", beside("three")),
+        "encode-worker.js": await thread("encoding"),
+        "player.js": await open("player.ts", beside("scene", "three")),
         "player-three.js": await bundle(join(SOURCES, "player.ts"), {
             plugins: [beside("errors", "index", "pool", "quick")],
             mangleProps,
@@ -211,7 +217,14 @@ function staleKernels() {
 
 const check = process.argv.includes("--check");
 const stale = check ? staleKernels() : [];
-for (const [path, content] of await products()) {
+const made = await products();
+for (const name of readdirSync(join(WEB, "built"))) {
+    const path = join(WEB, "built", name);
+    if (!name.endsWith(".js") || made.some(([own]) => own === path)) continue;
+    if (check) stale.push(relative(WEB, path));
+    else rmSync(path);
+}
+for (const [path, content] of made) {
     if (check) {
         if (!existsSync(path) || !readFileSync(path).equals(Buffer.from(content))) stale.push(relative(WEB, path));
     } else {

@@ -37,8 +37,11 @@ export type Picture =
           index: Uint32Array;
           blocks: number;
       }
-    /** The whole mesh, or the first frame of a sequence; of a later run, that which the frames behind it have. */
-    | { type: "whole"; shape: Shape; run: number }
+    /**
+     * The whole mesh, or the first frame of a sequence; of a later run, that which the frames after it have. `growth`: the
+     * blocks of all vertices of a mesh that grew.
+     */
+    | { type: "whole"; shape: Shape; run: number; growth?: { origin: Int32Array; blocks: number } }
     | { type: "frame"; index: number; positions: Float32Array; normals: Int16Array; attributes: DrawnAttribute[] }
     /** It is there, and drawn once the mesh is whole. */
     | { type: "attribute"; name: string; semantic: Attribute["semantic"]; domain: Attribute["domain"] };
@@ -48,27 +51,24 @@ export type PictureOf<Type> = Extract<Picture, { type: Type }>;
 
 type Show = (picture: Picture, moved?: Transferable[]) => void;
 
-const PAUSE = 30;
+const PAUSE = 30; // milliseconds, at least, from one picture of what grows to the next
+const SHARE = 4; // times what such a picture takes
+/** What happens to vertices: they move or come, or a face at them is whole now. */
+const [MOVED, CAME, BESIDE] = [1, 2, 4];
 const MOST_NORMAL = 32767;
 
 export class Drawing {
     private readonly limits: Limits;
     private faces: Int32Array = new Int32Array(0);
     private points = new Float32Array(0);
-    private normals = new Float32Array(0);
     private origin: Int32Array = new Int32Array(0);
-    /** How many corners of each face are not there. */
-    private waiting = new Uint8Array(0);
-    private around: { starts: Int32Array; members: Int32Array } = {
-        starts: new Int32Array(1),
-        members: new Int32Array(0),
-    };
-    /** Vertices that have moved, or lie at a face that has, since the last picture, and which these are. */
-    private touched: number[] = [];
-    private isTouched = new Uint8Array(0);
-    private drawable: number[] = [];
+    /** What has happened to each vertex since the last picture. */
+    private news = new Uint8Array(0);
+    private isStale = false;
     private blocks = 0;
-    private shown = 0;
+    /** When there may be another picture of what grows. */
+    private due = 0;
+    private timer?: ReturnType<typeof setTimeout>;
     private readonly carried: Attribute[] = [];
     private shape?: Shape;
     /** Bytes of frames and shapes that are kept. */
@@ -107,7 +107,6 @@ export class Drawing {
                 this.flush();
                 return this.show(event);
             case "end":
-                this.flush();
                 if (event.positions) this.take(event.positions);
                 if (!this.shape) this.finish();
                 return this.show({ ...event, positions: undefined });
@@ -120,88 +119,75 @@ export class Drawing {
         this.flush();
         [this.run, this.growing] = [run, false];
         this.faces = new Int32Array(0);
-        [this.points, this.normals, this.origin] = [new Float32Array(0), new Float32Array(0), new Int32Array(0)];
+        [this.points, this.origin] = [new Float32Array(0), new Int32Array(0)];
         [this.carried.length, this.shape] = [0, undefined];
     }
 
+    /** No more bytes are there: show what has come, as soon as there may be another picture. */
+    pause(): void {
+        clearTimeout(this.timer);
+        if (this.growing) this.timer = setTimeout(() => this.flush(), this.due - performance.now());
+    }
+
+    /** Show what has come: its vertices, the faces that are whole by it, and the normals at these. */
     flush(): void {
-        if (!this.growing || this.touched.length + this.drawable.length === 0) return;
-        const vertices = Int32Array.from(this.touched);
-        this.touched = [];
-        vertices.forEach((vertex) => {
-            this.isTouched[vertex] = 0;
-            this.renewNormal(vertex);
-        });
-        const [positions, normals] = [this.points, this.normals].map((numbers) => spread(numbers, 3, vertices));
-        const origin = vertices.map((vertex) => this.origin[vertex]);
-        const index = cornersOf(this.faces, this.drawable);
-        this.drawable = [];
-        this.shown = performance.now();
-        this.show(
-            { type: "grown", vertices, positions, normals, origin, index, blocks: this.blocks },
-            [vertices, positions, normals, origin, index].map(({ buffer }) => buffer),
+        if (!this.growing || !this.isStale) return;
+        const begin = performance.now();
+        const { faces, news, origin, points } = this;
+        const corners: number[] = [];
+        for (let k = 0; k < faces.length; k += 3) {
+            const a = faces[k];
+            const b = faces[k + 1];
+            const c = faces[k + 2];
+            const what = (news[a] | news[b] | news[c]) & (MOVED | CAME);
+            if (what === 0 || origin[a] < 0 || origin[b] < 0 || origin[c] < 0) continue;
+            if (what & CAME) corners.push(a, b, c);
+            for (let d = k; d < k + 3; d++) news[faces[d]] |= BESIDE;
+        }
+        const all = new Int32Array(news.length);
+        let count = 0;
+        for (let vertex = 0; vertex < news.length; vertex++) if (news[vertex] > 0) all[count++] = vertex;
+        const vertices = all.slice(0, count);
+        news.fill(0);
+        this.isStale = false;
+        const [positions, normals] = [points, normalsOf(faces, origin, points)].map((each) =>
+            spread(each, 3, vertices),
         );
+        const [own, index] = [vertices.map((vertex) => origin[vertex]), new Uint32Array(corners)];
+        this.show(
+            { type: "grown", vertices, positions, normals, origin: own, index, blocks: this.blocks },
+            [vertices, positions, normals, own, index].map(({ buffer }) => buffer),
+        );
+        const now = performance.now();
+        this.due = now + Math.max(PAUSE, SHARE * (now - begin));
     }
 
     private begin({ faces, vertices: size, loose }: EventOf<"connectivity">): void {
         this.faces = faces;
         this.origin = new Int32Array(size).fill(-1);
         this.points = new Float32Array(3 * size);
-        this.normals = new Float32Array(3 * size);
         loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
-        if (!this.growing) return;
-        this.show({ type: "begun", vertices: size, corners: faces.length, loose });
-        this.isTouched = new Uint8Array(size);
-        this.waiting = new Uint8Array(faces.length / 3).fill(3);
-        this.around = inverse(faces, size);
-    }
-
-    private touch(vertex: number): void {
-        if (this.isTouched[vertex]) return;
-        this.isTouched[vertex] = 1;
-        this.touched.push(vertex);
+        this.news = new Uint8Array(size);
+        if (this.growing) this.show({ type: "begun", vertices: size, corners: faces.length, loose });
     }
 
     private grow(event: EventOf<"block" | "refinement">): void {
         const { vertices, positions } = event;
-        const { points, origin, growing } = this;
+        const { points, origin, news } = this;
         for (let row = 0; row < vertices.length; row++) {
             const vertex = vertices[row];
             for (let d = 0; d < 3; d++) points[3 * vertex + d] = positions[3 * row + d];
-            if (growing) this.settle(vertex);
-            else origin[vertex] = this.blocks;
+            news[vertex] |= origin[vertex] < 0 ? CAME : MOVED;
+            if (origin[vertex] < 0) origin[vertex] = this.blocks;
         }
+        this.isStale = true;
         if (event.type === "block") this.blocks++;
-        if (growing && performance.now() - this.shown > PAUSE) this.flush();
-    }
-
-    private settle(vertex: number): void {
-        const { faces, waiting, origin } = this;
-        const { starts, members } = this.around;
-        const isNew = origin[vertex] < 0;
-        if (isNew) origin[vertex] = this.blocks;
-        this.touch(vertex);
-        for (let k = starts[vertex]; k < starts[vertex + 1]; k++) {
-            const face = Math.floor(members[k] / 3);
-            if (isNew && --waiting[face] === 0) this.drawable.push(face);
-            for (let c = 3 * face; c < 3 * face + 3; c++) this.touch(faces[c]);
-        }
-    }
-
-    private renewNormal(vertex: number): void {
-        const { faces, waiting, normals, points } = this;
-        const { starts, members } = this.around;
-        normals.fill(0, 3 * vertex, 3 * vertex + 3);
-        for (let k = starts[vertex]; k < starts[vertex + 1]; k++) {
-            const face = Math.floor(members[k] / 3);
-            if (waiting[face] === 0) addNormal(normals, points, faces, 3 * face, vertex);
-        }
-        toLength1(normals, 3 * vertex);
+        if (performance.now() > this.due) this.flush();
     }
 
     private take(positions: Float64Array): void {
         this.points = new Float32Array(positions);
-        this.origin.fill(0);
+        this.origin = this.origin.map((block) => Math.max(block, 0));
     }
 
     private addFrame({ index, positions: points, attributes: moved }: EventOf<"frame">): void {
@@ -226,9 +212,7 @@ export class Drawing {
 
     /** The mesh is whole: part its vertices where its attributes do, and sort its faces by parts and materials. */
     private finish(): void {
-        this.flush();
-        this.growing = false; // nothing is "grown" after the whole picture
-        const { faces, origin, points, carried } = this;
+        const { faces, origin, points, carried, blocks } = this;
         const isThere = (corner: number): boolean => origin[faces[corner]] >= 0;
         const all = new Int32Array(faces.length / 3).map((_, face) => face);
         const whole = origin.includes(-1)
@@ -251,7 +235,9 @@ export class Drawing {
             ({ buffer }) => buffer,
         );
         if (this.run > 0) this.kept += buffers.reduce((sum, { byteLength }) => sum + byteLength, 0);
-        this.show({ type: "whole", shape, run: this.run }, buffers);
+        const growth = this.growing ? { origin, blocks } : undefined;
+        this.growing = false; // nothing is "grown" after the whole picture
+        this.show({ type: "whole", shape, run: this.run, growth }, buffers);
     }
 
     private bare(faces: Int32Array): DrawnFaces {
@@ -265,60 +251,46 @@ export class Drawing {
     }
 }
 
-/** Add the normal of a face, as long as twice its area, to those of its corners, or of one of them. */
-function addNormal(n: Float32Array, p: ArrayLike<number>, faces: Int32Array, corner: number, only = -1): void {
-    const [a, b, c] = [3 * faces[corner], 3 * faces[corner + 1], 3 * faces[corner + 2]];
-    const [ux, uy, uz] = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
-    const [vx, vy, vz] = [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
-    for (let k = 0; k < 3; k++) {
-        const to = only < 0 ? 3 * faces[corner + k] : 3 * only;
-        n[to] += uy * vz - uz * vy;
-        n[to + 1] += uz * vx - ux * vz;
-        n[to + 2] += ux * vy - uy * vx;
-        if (only >= 0) return;
+/** Normals of all vertices, shape (n, 3): sums of those of faces, as long as twice their areas; no face may lack a corner. */
+function normalsOf(faces: Int32Array, origin: Int32Array, p: ArrayLike<number>): Float32Array {
+    const n = new Float32Array(p.length);
+    for (let k = 0; k < faces.length; k += 3) {
+        if (origin[faces[k]] < 0 || origin[faces[k + 1]] < 0 || origin[faces[k + 2]] < 0) continue;
+        // One by one: lists of names take several times as long before this is compiled.
+        const a = 3 * faces[k];
+        const b = 3 * faces[k + 1];
+        const c = 3 * faces[k + 2];
+        const ux = p[b] - p[a];
+        const uy = p[b + 1] - p[a + 1];
+        const uz = p[b + 2] - p[a + 2];
+        const vx = p[c] - p[a];
+        const vy = p[c + 1] - p[a + 1];
+        const vz = p[c + 2] - p[a + 2];
+        for (let corner = k; corner < k + 3; corner++) {
+            const to = 3 * faces[corner];
+            n[to] += uy * vz - uz * vy;
+            n[to + 1] += uz * vx - ux * vz;
+            n[to + 2] += ux * vy - uy * vx;
+        }
     }
-}
-
-function toLength1(n: Float32Array, at: number): void {
-    const length = Math.sqrt(n[at] * n[at] + n[at + 1] * n[at + 1] + n[at + 2] * n[at + 2]) || 1;
-    for (let d = at; d < at + 3; d++) n[d] /= length;
-}
-
-/** Normals of all vertices, shape (n, 3); faces that lack a corner count for nothing. */
-function normalsOf(faces: Int32Array, origin: Int32Array, points: ArrayLike<number>): Float32Array {
-    const normals = new Float32Array(points.length);
-    for (let k = 0; k < faces.length; k += 3)
-        if (origin[faces[k]] >= 0 && origin[faces[k + 1]] >= 0 && origin[faces[k + 2]] >= 0)
-            addNormal(normals, points, faces, k);
-    for (let i = 0; i < normals.length; i += 3) toLength1(normals, i);
-    return normals;
+    for (let i = 0; i < n.length; i += 3) {
+        const length = Math.sqrt(n[i] * n[i] + n[i + 1] * n[i + 1] + n[i + 2] * n[i + 2]) || 1;
+        for (let d = i; d < i + 3; d++) n[d] /= length;
+    }
+    return n;
 }
 
 function boundsOf(p: Float32Array): Pick<Shape, "center" | "radius" | "low" | "high"> {
-    const [low, high] = [
-        [Infinity, Infinity, Infinity],
-        [-Infinity, -Infinity, -Infinity],
-    ];
-    for (let i = 0; i < p.length; i += 3) {
-        for (let d = 0; d < 3; d++) {
-            if (p[i + d] < low[d]) low[d] = p[i + d];
-            if (p[i + d] > high[d]) high[d] = p[i + d];
-        }
+    const low = [Infinity, Infinity, Infinity];
+    const high = [-Infinity, -Infinity, -Infinity];
+    for (let i = 0; i < p.length; i++) {
+        const d = i % 3;
+        if (p[i] < low[d]) low[d] = p[i];
+        if (p[i] > high[d]) high[d] = p[i];
     }
     const [x, y, z] = low.map((least, d) => (least + high[d]) / 2);
     let most = 0;
     for (let i = 0; i < p.length; i += 3)
         most = Math.max(most, (p[i] - x) ** 2 + (p[i + 1] - y) ** 2 + (p[i + 2] - z) ** 2);
     return { center: [x, y, z], radius: Math.sqrt(most), low, high };
-}
-
-/** Which places of `values` have each number below `count`. */
-function inverse(values: Int32Array, count: number): { starts: Int32Array; members: Int32Array } {
-    const starts = new Int32Array(count + 1);
-    for (const value of values) if (value >= 0) starts[value + 1]++;
-    for (let k = 0; k < count; k++) starts[k + 1] += starts[k];
-    const members = new Int32Array(starts[count]);
-    const filled = starts.slice();
-    values.forEach((value, place) => value >= 0 && (members[filled[value]++] = place));
-    return { starts, members };
 }

@@ -73,6 +73,7 @@ export class BSMGeometry extends BufferGeometry {
                 return this.grow(picture);
             case "whole":
                 this.coming = picture.shape;
+                Object.assign(this, picture.growth);
                 return picture.run === 0 ? this.take(picture.shape) : undefined;
             case "attribute":
                 return void this.carried.push(picture);

@@ -170,7 +170,7 @@ export class GridDecoder {
             });
         }
         this.places = this.light.decode(data, first, count);
-        const vertices = Int32Array.from({ length: count }, (_, i) => first + i);
+        const vertices = new Int32Array(count).map((_, i) => first + i);
         const positions = this.light.doubles(this.places + 24 * first, 3 * count);
         this.queue.push({
             type: "block",

@@ -16,7 +16,8 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Bar, BAR_STYLE } from "./bar";
 import { hang, redraw, takeDown } from "./easel";
 import type { BSMGeometry } from "./geometry";
-import { BSMLoader, BSMSequence, sceneOf } from "./three";
+import { sceneOf } from "./scene";
+import { BSMLoader, BSMSequence } from "./three";
 import { turnBy } from "./turning";
 
 /** Pages may style the element as they like; the text lies in front of the picture. */

@@ -1,10 +1,9 @@
 /** BSM streams in three.js: a loader that is used as DRACOLoader is, and one of whole scenes. */
-import { BufferGeometry, Group, Loader, Mesh, type MeshStandardMaterial } from "three";
+import { type Group, Loader } from "three";
 import { BsmError, errorLike } from "./errors";
 import { fetchPieces } from "./flights";
 import { BSMGeometry, type Progress } from "./geometry";
 import type { Limits } from "./index";
-import { materialsOf, nameOf, turnOf } from "./materials";
 import { placeOf, Pool, type Build, type StreamDecoding } from "./pool";
 import { BSMSequence, type SequenceEvents } from "./sequences";
 
@@ -109,7 +108,8 @@ export class BSMLoader extends Loader<BSMGeometry> {
 
     /** A group of meshes, one for each part and material, with their textures; y is up. */
     async loadScene(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<Group> {
-        const geometry = await this.loadAsync(url, onProgress, progress);
+        const loading = this.loadAsync(url, onProgress, progress);
+        const [geometry, { sceneOf }] = await Promise.all([loading, import("./scene")]);
         return sceneOf(geometry);
     }
 
@@ -232,39 +232,5 @@ export class BSMSceneLoader extends Loader<Group> {
 
 /** A whole geometry as a group of meshes: materials, textures, names of parts, and y up, as its metadata say. */
 export async function sceneOf(geometry: BSMGeometry): Promise<Group> {
-    const { metadata, pieces } = geometry;
-    const materials = await materialsOf(geometry);
-    const group = new Group();
-    group.name = String(metadata.get("name") ?? "");
-    group.userData = Object.fromEntries([...metadata].filter(([, value]) => !(value instanceof Uint8Array)));
-    const parts = new Set(pieces.map(({ part }) => part));
-    if (parts.size < 2)
-        group.add(
-            new Mesh<BSMGeometry, MeshStandardMaterial | MeshStandardMaterial[]>(
-                geometry,
-                materials.length > 1 ? materials : materials[0],
-            ),
-        );
-    else
-        for (const piece of pieces)
-            group.add(meshOf(geometry, piece, materials[piece.material], nameOf(metadata, "part", piece.part)));
-    group.rotation.set(...turnOf(metadata));
-    return group;
-}
-
-/** A mesh of some of the faces; the arrays are those of all. */
-function meshOf(
-    geometry: BSMGeometry,
-    { start, count }: { start: number; count: number },
-    material: MeshStandardMaterial,
-    name: string,
-): Mesh {
-    const piece = new BufferGeometry();
-    for (const key of Object.keys(geometry.attributes)) piece.setAttribute(key, geometry.getAttribute(key));
-    piece.setIndex(geometry.getIndex());
-    piece.setDrawRange(start, count);
-    [piece.boundingBox, piece.boundingSphere] = [geometry.boundingBox, geometry.boundingSphere];
-    const mesh = new Mesh(piece, material);
-    mesh.name = name;
-    return mesh;
+    return (await import("./scene")).sceneOf(geometry);
 }

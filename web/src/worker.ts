@@ -172,7 +172,7 @@ export class Reporter {
         for (;;) {
             const event = this.decoder.nextEvent();
             if (typeof event === "string") {
-                this.drawing?.flush();
+                this.drawing?.pause();
                 if (event === NEED_DATA) this.say({ taken: this.taken });
                 if (event === END_OF_STREAM) this.say({ over: true });
                 return event;
@@ -182,7 +182,7 @@ export class Reporter {
                 const positions = Float32Array.from(event.positions);
                 this.say({ event: { ...event, positions } }, [positions.buffer]);
             } else this.say({ event });
-            if (this.reported < 0) this.drawing?.flush();
+            if (this.reported === -1) this.drawing?.flush(); // what another decoder has shown is not shown again
             // Not every decoder tells blocks where the whole mesh alone is drawn.
             if (event.type !== "block" || this.start.drawing !== "whole") this.reported++;
         }

@@ -121,7 +121,7 @@ describe(
             };
             assert.equal(begun.length, 1);
             assert.ok(drawn[0] === 0 && drawn.every((count, i) => i === 0 || count >= drawn[i - 1]), `${drawn}`);
-            assert.equal(drawn.at(-1), begun.at(-1));
+            assert.ok(drawn.at(-1)! <= begun[0], `${drawn} of ${begun}`);
             assert.ok(radii[0] === 0 && radii[1] > 0, `${radii}`);
             assert.equal(early, 0);
             assert.ok(Number(seen.blocks) > 0 && Number(seen.bytes) > 0 && Number(seen.kept) > 1);

@@ -2,46 +2,42 @@
 import { colorColumn, meaningOf, PLURALS, type Column, type Polygons, type ColumnValues } from "./polygons";
 import { metadataIn, Rows, textOf, wordsOf } from "./text";
 
-type ReadNumber = (view: DataView, at: number, little: boolean) => number;
-interface NumberKind {
-    size: number;
-    read: ReadNumber;
-    array: { from(values: ArrayLike<number>): ColumnValues };
-}
-const big = (value: bigint): number => Number(value);
-const KINDS: Record<string, NumberKind> = {
-    i1: { size: 1, read: (view, at) => view.getInt8(at), array: Int8Array },
-    u1: { size: 1, read: (view, at) => view.getUint8(at), array: Uint8Array },
-    i2: { size: 2, read: (view, at, little) => view.getInt16(at, little), array: Int16Array },
-    u2: { size: 2, read: (view, at, little) => view.getUint16(at, little), array: Uint16Array },
-    i4: { size: 4, read: (view, at, little) => view.getInt32(at, little), array: Int32Array },
-    u4: { size: 4, read: (view, at, little) => view.getUint32(at, little), array: Uint32Array },
-    i8: { size: 8, read: (view, at, little) => big(view.getBigInt64(at, little)), array: Float64Array },
-    u8: { size: 8, read: (view, at, little) => big(view.getBigUint64(at, little)), array: Float64Array },
-    f4: { size: 4, read: (view, at, little) => view.getFloat32(at, little), array: Float32Array },
-    f8: { size: 8, read: (view, at, little) => view.getFloat64(at, little), array: Float64Array },
+/** Arrays of the numbers that a DataView reads, by the names of its methods. */
+const ARRAYS = {
+    Int8: Int8Array,
+    Uint8: Uint8Array,
+    Int16: Int16Array,
+    Uint16: Uint16Array,
+    Int32: Int32Array,
+    Uint32: Uint32Array,
+    Float32: Float32Array,
+    Float64: Float64Array,
+    BigInt64: Float64Array,
+    BigUint64: Float64Array,
 };
-const TYPES: Record<string, string> = {
-    char: "i1",
-    uchar: "u1",
-    short: "i2",
-    ushort: "u2",
-    int: "i4",
-    uint: "u4",
-    float: "f4",
-    double: "f8",
-    int8: "i1",
-    uint8: "u1",
-    int16: "i2",
-    uint16: "u2",
-    int32: "i4",
-    uint32: "u4",
-    float32: "f4",
-    float64: "f8",
-    int64: "i8",
-    uint64: "u8",
-    long: "i8",
-    ulong: "u8",
+type Kind = keyof typeof ARRAYS;
+type Read = (this: DataView, at: number, little: boolean) => number | bigint;
+const TYPES: Record<string, Kind> = {
+    char: "Int8",
+    uchar: "Uint8",
+    short: "Int16",
+    ushort: "Uint16",
+    int: "Int32",
+    uint: "Uint32",
+    float: "Float32",
+    double: "Float64",
+    int8: "Int8",
+    uint8: "Uint8",
+    int16: "Int16",
+    uint16: "Uint16",
+    int32: "Int32",
+    uint32: "Uint32",
+    float32: "Float32",
+    float64: "Float64",
+    int64: "BigInt64",
+    uint64: "BigUint64",
+    long: "BigInt64",
+    ulong: "BigUint64",
 };
 const ORDERS = ["ascii", "binary_little_endian", "binary_big_endian"];
 /** Properties that are one value together, the first of a meaning and a width. */
@@ -63,8 +59,8 @@ const MOST_HEADER = 2 ** 20;
 /** A column of an element: numbers, or lists after their length, of the type `length`. */
 interface PlyProperty {
     name: string;
-    type: string;
-    length?: string;
+    type: Kind;
+    length?: Kind;
 }
 
 interface PlyElement {
@@ -106,11 +102,11 @@ function headerOf(bytes: Uint8Array): PlyHeader {
         else if (keyword === "element" && words.length === 2 && /^\d{1,18}$/.test(words[1]))
             elements.push({ name: words[0], count: Number(words[1]), properties: [] });
         else if (keyword === "property") {
-            const [name = "", type = "", length = ""] = words.toReversed();
+            const [name = "", type, length] = words.toReversed();
             const isList = words[0] === "list";
             if (words.length !== (isList ? 4 : 2) || !TYPES[type] || (isList && !TYPES[length]) || !elements.length)
                 wrong();
-            elements.at(-1)!.properties.push({ name, type: TYPES[type], ...(isList && { length: TYPES[length] }) });
+            elements.at(-1)!.properties.push({ name, type: TYPES[type], length: isList ? TYPES[length] : undefined });
         } else if (keyword === "element") wrong();
         else if (keyword !== "") {
             const isOwn = keyword === "comment" || keyword === "obj_info";
@@ -148,81 +144,80 @@ function metadataOf(comments: PlyHeader["comments"]): Polygons["metadata"] {
     return found;
 }
 
-/** Where numbers come from: bytes, or the words of a text. */
-type NextNumber = (kind: string) => number;
+/** Where numbers come from, bytes or the words of a text: the next one, how many units are left, and those of a kind. */
+interface Source {
+    next: (kind: Kind) => number;
+    left: () => number;
+    size: (kind: Kind) => number;
+}
+const CUT = "the PLY file is cut short:";
 
 /** All properties of an element, which is at least as long as its numbers and the lengths of its lists. */
-function readElement(
-    { count, properties }: PlyElement,
-    next: NextNumber,
-    left: (least: number) => number,
-): ReadProperty[] {
-    const least = properties.reduce((sum, { type, length }) => sum + left0(length ?? type, left), 0);
-    const missing = count * least - left(-1);
+function readElement({ count, properties }: PlyElement, { next, left, size }: Source): ReadProperty[] {
+    const missing = properties.reduce((sum, { type, length }) => sum + count * size(length ?? type), -left());
     if (properties.length > 0 && missing > 0)
-        throw new Error(`the PLY file is cut short: its header claims ${missing} bytes more than there are`);
-    const found = properties.map((): ReadProperty => ({
-        sizes: new Uint32Array(properties.length > 0 ? count : 0).fill(1),
-        values: [],
-    }));
-    for (let row = 0; row < (properties.length > 0 ? count : 0); row++)
+        throw new Error(`${CUT} its header claims ${missing} bytes more than there are`);
+    const found = properties.map((): ReadProperty => ({ sizes: new Uint32Array(count).fill(1), values: [] }));
+    for (let row = 0; properties.length > 0 && row < count; row++)
         properties.forEach(({ type, length }, p) => {
-            const size = length ? next(length) : 1;
-            if (size < 0 || size !== Math.floor(size)) throw new Error(`row ${row} has a list of ${size} items`);
-            found[p].sizes[row] = size;
-            for (let i = 0; i < size; i++) found[p].values.push(next(type));
+            const items = length ? next(length) : 1;
+            if (items < 0 || items !== Math.floor(items)) throw new Error(`row ${row} has a list of ${items} items`);
+            found[p].sizes[row] = items;
+            for (let i = 0; i < items; i++) found[p].values.push(next(type));
         });
     return found;
 }
 
-const left0 = (kind: string, left: (least: number) => number): number => left(KINDS[kind].size);
-
 /** The rows of all elements, by the names of these. */
 function tablesOf({ elements, order, size }: PlyHeader, bytes: Uint8Array): Map<string, ReadProperty[]> {
+    const readAll = (source: Source): Map<string, ReadProperty[]> =>
+        new Map(elements.map((element) => [element.name, readElement(element, source)]));
+    let at = 0;
+    const most = (end: number): void => {
+        if (at > end) throw new Error(`${CUT} a list runs over its end`);
+    };
     if (order !== "ascii") {
         const view = new DataView(bytes.buffer, bytes.byteOffset + size, bytes.byteLength - size);
-        const little = order === "binary_little_endian";
-        let at = 0;
-        const next = (kind: string): number => {
-            const { read, size } = KINDS[kind];
-            if (at + size > view.byteLength) throw new Error("the PLY file is cut short: a list runs over its end");
-            at += size;
-            return read(view, at - size, little);
+        const isLittle = order === "binary_little_endian";
+        const [reads, sizes] = [{} as Record<Kind, Read>, {} as Record<Kind, number>];
+        for (const kind of Object.keys(ARRAYS) as Kind[])
+            [reads[kind], sizes[kind]] = [view[`get${kind}`], Number(/\d+/.exec(kind)) / 8];
+        const next = (kind: Kind): number => {
+            const from = at;
+            at += sizes[kind];
+            most(view.byteLength);
+            return Number(reads[kind].call(view, from, isLittle));
         };
-        const left = (least: number): number => (least < 0 ? view.byteLength - at : least);
-        return new Map(elements.map((element) => [element.name, readElement(element, next, left)]));
+        return readAll({ next, left: () => view.byteLength - at, size: (kind) => sizes[kind] });
     }
-    const [rows, lines] = [
-        new Rows("row"),
-        textOf(bytes.slice(size))
-            .split(/\r\n|\r|\n/)
-            .map(wordsOf),
-    ];
-    for (const words of lines) if (words.length > 0) rows.add(words);
+    const rows = new Rows("row");
+    for (const line of textOf(bytes.slice(size)).split(/\r\n|\r|\n/)) {
+        const words = wordsOf(line);
+        if (words.length > 0) rows.add(words);
+    }
+    const { counts, values } = rows;
     const claimed = elements.reduce((sum, { count }) => sum + count, 0);
-    if (rows.counts.length < claimed)
+    if (counts.length < claimed)
         throw new Error(
-            `the file is cut short: its header claims ${claimed} vertices and faces, ${rows.counts.length} follow`,
+            `the file is cut short: its header claims ${claimed} vertices and faces, ${counts.length} follow`,
         );
-    let at = 0;
     const next = (): number => {
-        if (at >= rows.values.length) throw new Error("the PLY file is cut short: a list runs over its end");
-        return rows.values[at++];
+        most(values.length - 1);
+        return values[at++];
     };
-    const left = (least: number): number => (least < 0 ? rows.values.length - at : 1);
-    const tables = new Map(elements.map((element) => [element.name, readElement(element, next, left)]));
-    if (at < rows.values.length)
-        throw new Error(`the rows of this PLY file have ${rows.values.length - at} numbers more than its header says`);
+    const tables = readAll({ next, left: () => values.length - at, size: () => 1 });
+    if (at < values.length)
+        throw new Error(`the rows of this PLY file have ${values.length - at} numbers more than its header says`);
     return tables;
 }
 
 /** Numbers in the type that the header declares, if they fit into it, as those of a text may not. */
-function typed(values: number[], type: string): ColumnValues {
-    const made = KINDS[type].array.from(values);
-    return type.startsWith("f") || values.every((value, i) => made[i] === value) ? made : Float64Array.from(values);
+function typed(values: number[], type: Kind): ColumnValues {
+    const made: ColumnValues = ARRAYS[type].from(values);
+    return type.startsWith("F") || values.every((value, i) => made[i] === value) ? made : Float64Array.from(values);
 }
 
-/** ReadProperty a PLY with points and faces, of any byte order, and whatever numbers they have. */
+/** Read a PLY with points and faces, of any byte order, and whatever numbers they have. */
 export function readPly(data: ArrayBuffer): Polygons {
     const bytes = new Uint8Array(data);
     const header = headerOf(bytes);
@@ -308,7 +303,7 @@ function columnsOf({ properties }: PlyElement, tables: ReadProperty[], domain: "
     return columns;
 }
 
-/** ColumnValues of corners: lists as long as that of the vertices, or twice, and so on; the lists that are not; and notes. */
+/** Values of corners: lists as long as that of the vertices, or twice, and so on; the lists that are not; and notes. */
 function wedgesOf(
     properties: PlyProperty[],
     tables: ReadProperty[],

@@ -143,6 +143,25 @@ export function picked<Table extends ColumnValues>(values: Table, width: number,
     return found;
 }
 
+/** The first vertex that is where each one is in every frame, of which there are `size` numbers, by a table of their bits. */
+export function firstsOf(positions: Float32Array | Float64Array, size = positions.length): Int32Array {
+    const bits = new Uint32Array(Float64Array.from(positions.subarray(0, size), (number) => number + 0).buffer); // -0 is 0
+    const table = new Int32Array(2 ** Math.ceil(Math.log2(size + 2))).fill(-1);
+    const isSame = (a: number, b: number): boolean => {
+        for (let i = 0; i < positions.length; i += size)
+            for (let d = 0; d < 3; d++) if (positions[i + 3 * a + d] !== positions[i + 3 * b + d]) return false;
+        return true;
+    };
+    return new Int32Array(size / 3).map((_, vertex) => {
+        let hash = 0;
+        for (let k = 6 * vertex; k < 6 * vertex + 6; k++) hash = Math.imul(hash ^ bits[k] ^ (hash >>> 15), 0x9e3779b1);
+        let slot = (hash ^ (hash >>> 13)) & (table.length - 1);
+        while (table[slot] >= 0 && !isSame(table[slot], vertex)) slot = (slot + 1) & (table.length - 1);
+        if (table[slot] < 0) table[slot] = vertex;
+        return table[slot];
+    });
+}
+
 /** Floats in single precision where that moves none by more than a millionth of their range. */
 export function compact(values: Float64Array, width: number): Float32Array | Float64Array {
     const low = new Float64Array(width).fill(Infinity);

@@ -1,5 +1,5 @@
 /** STL: triangles without common vertices, binary or text. */
-import { named, type Column, type Polygons } from "./polygons";
+import { firstsOf, named, picked, type Column, type Polygons } from "./polygons";
 import { Rows, textOf, wordsOf } from "./text";
 
 const [HEAD, RECORD] = [84, 50]; // bytes before the first triangle, and of one
@@ -20,9 +20,13 @@ export function readStl(data: ArrayBuffer): Polygons {
     const claimed = bytes.length >= HEAD ? view.getUint32(HEAD - 4, true) : -1;
     const read = isText(bytes, claimed) ? ofText(textOf(bytes)) : ofBytes(bytes, view, claimed);
     const { soup, columns = [], metadata = {}, dropped = [] } = read;
-    const { corners, positions } = joined(soup);
+    const firsts = firstsOf(soup);
+    const own = firsts.filter((first, corner) => first === corner);
+    const ranks = new Int32Array(firsts.length);
+    own.forEach((first, rank) => (ranks[first] = rank));
+    const [corners, positions] = [firsts.map((first) => ranks[first]), picked(soup, 3, own)];
     const notes = [
-        `STL knows no vertices: ${corners.length} corners with equal coordinates were joined to ${positions.length / 3} vertices`,
+        `STL knows no vertices: ${corners.length} corners with equal coordinates were joined to ${own.length} vertices`,
     ];
     return { positions, sizes: new Uint8Array(corners.length / 3).fill(3), corners, columns, metadata, notes, dropped };
 }
@@ -85,33 +89,4 @@ function ofText(given: string): Soup {
     const columns: Column[] = used.length > 1 ? [{ name: "group", values, components: 1, domain: "face" }] : [];
     const called = used.map((solid) => names[solid]);
     return { soup: corners.columns(0, 3), columns, metadata: called.some(Boolean) ? named(called, "group") : {} };
-}
-
-/** Corners with the same coordinates as one vertex each, found by a table of their bits. */
-function joined(soup: Float64Array): { corners: Uint32Array; positions: Float64Array } {
-    const count = soup.length / 3;
-    const whole = soup.map((number) => number + 0); // -0 is 0
-    const bits = new Uint32Array(whole.buffer);
-    const size = 2 ** Math.ceil(Math.log2(2 * count + 2));
-    const [table, corners] = [new Int32Array(size).fill(-1), new Uint32Array(count)];
-    const firsts: number[] = [];
-    for (let i = 0; i < count; i++) {
-        let hash = 0;
-        for (let k = 6 * i; k < 6 * i + 6; k++) hash = Math.imul(hash ^ bits[k] ^ (hash >>> 15), 0x9e3779b1);
-        let slot = (hash ^ (hash >>> 13)) & (size - 1);
-        const isSame = (first: number): boolean => {
-            for (let d = 0; d < 3; d++) if (whole[3 * first + d] !== whole[3 * i + d]) return false;
-            return true;
-        };
-        while (table[slot] >= 0 && !isSame(firsts[table[slot]])) slot = (slot + 1) & (size - 1);
-        if (table[slot] < 0) table[slot] = firsts.push(i) - 1;
-        corners[i] = table[slot];
-    }
-    return {
-        corners,
-        positions: Float64Array.from(
-            { length: 3 * firsts.length },
-            (_, i) => soup[3 * firsts[Math.floor(i / 3)] + (i % 3)],
-        ),
-    };
 }

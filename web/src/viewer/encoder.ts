@@ -1,6 +1,7 @@
 /** A thread of a page without a server: it reads files with the loaders of three.js, and encodes what they hold. */
 import { Drawing, type Picture } from "../drawing";
 import { EncodeError, kindOf, type EncodeOptions } from "../encoding";
+import { firstsOf } from "../files/polygons";
 import type { Header } from "../header";
 import { openDesk } from "../index";
 import { Pool } from "../pool";
@@ -18,23 +19,6 @@ export interface Job {
     kernels: WebAssembly.Module;
 }
 export type Status = { stage: string; share: number } | { error: string } | { content: Content };
-
-/** The first vertex that is where each one is in every frame, of which there are `size` numbers. */
-function firstsOf(positions: Reading["mesh"]["positions"], size: number): Int32Array {
-    const found = new Map<string, number[]>();
-    const isSame = (a: number, b: number): boolean => {
-        for (let i = 0; i < positions.length; i += size)
-            for (let d = 0; d < 3; d++) if (positions[i + a + d] !== positions[i + b + d]) return false;
-        return true;
-    };
-    return Int32Array.from({ length: size / 3 }, (_, vertex) => {
-        const place = positions.subarray(3 * vertex, 3 * vertex + 3).join();
-        const there = found.get(place) ?? [];
-        const first = there.find((other) => isSame(3 * other, 3 * vertex)) ?? vertex;
-        if (first === vertex) found.set(place, [...there, vertex]);
-        return first;
-    });
-}
 
 /** A mesh or sequence as it is drawn, and what of it can change hands. */
 function drawn({ positions, faces, frames = 0, attributes = [], metadata = {} }: Reading["mesh"]): {

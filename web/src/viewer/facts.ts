@@ -110,10 +110,13 @@ function filesOf(label: string, paths: string[] = []): Row[] {
 export type Tone = "good" | "fair" | "poor" | "";
 
 /** What was measured, in words, of looks only where they were; figures are in the rows below. */
-function verdictOf({ look, farthest, diagonal = 1 }: Content["facts"], unit: unknown): [words: string, tone: Tone] {
+function verdictOf(
+    { look, farthest, diagonal = 1, unshown }: Content["facts"],
+    unit: unknown,
+): [words: string, tone: Tone] {
     if (look !== undefined)
         return look <= 1
-            ? ["Looks the same", "good"]
+            ? [unshown ? "The rest looks the same" : "Looks the same", "good"]
             : look <= CLOSE
               ? ["Close: differences show side by side", "fair"]
               : ["A preview: differences show at a glance", "poor"];

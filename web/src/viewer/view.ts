@@ -28,8 +28,7 @@ import { Upload, type Encode } from "./upload";
 import template from "./view.html";
 
 const RULER = 120; // pixels of the longest bar
-const LOST =
-    "The picture is gone: the graphics card has dropped it (WebGL context lost). If it stays so, load the page again.";
+const LOST = "The graphics card has dropped the picture (WebGL context lost). Load the page again.";
 const NARROW = 480; // pixels of a page that has no room for it
 
 /** Middle and diagonal of the box that a mesh fills, about, in its own unit. */
