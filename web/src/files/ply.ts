@@ -15,9 +15,9 @@ const ARRAYS = {
     BigInt64: Float64Array,
     BigUint64: Float64Array,
 };
-type Kind = keyof typeof ARRAYS;
+type NumberKind = keyof typeof ARRAYS;
 type Read = (this: DataView, at: number, little: boolean) => number | bigint;
-const TYPES: Record<string, Kind> = {
+const TYPES: Record<string, NumberKind> = {
     char: "Int8",
     uchar: "Uint8",
     short: "Int16",
@@ -59,8 +59,8 @@ const MOST_HEADER = 2 ** 20;
 /** A column of an element: numbers, or lists after their length, of the type `length`. */
 interface PlyProperty {
     name: string;
-    type: Kind;
-    length?: Kind;
+    type: NumberKind;
+    length?: NumberKind;
 }
 
 interface PlyElement {
@@ -145,15 +145,15 @@ function metadataOf(comments: PlyHeader["comments"]): Polygons["metadata"] {
 }
 
 /** Where numbers come from, bytes or the words of a text: the next one, how many units are left, and those of a kind. */
-interface Source {
-    next: (kind: Kind) => number;
+interface Supply {
+    next: (kind: NumberKind) => number;
     left: () => number;
-    size: (kind: Kind) => number;
+    size: (kind: NumberKind) => number;
 }
 const CUT = "the PLY file is cut short:";
 
 /** All properties of an element, which is at least as long as its numbers and the lengths of its lists. */
-function readElement({ count, properties }: PlyElement, { next, left, size }: Source): ReadProperty[] {
+function readElement({ count, properties }: PlyElement, { next, left, size }: Supply): ReadProperty[] {
     const missing = properties.reduce((sum, { type, length }) => sum + count * size(length ?? type), -left());
     if (properties.length > 0 && missing > 0)
         throw new Error(`${CUT} its header claims ${missing} bytes more than there are`);
@@ -170,7 +170,7 @@ function readElement({ count, properties }: PlyElement, { next, left, size }: So
 
 /** The rows of all elements, by the names of these. */
 function tablesOf({ elements, order, size }: PlyHeader, bytes: Uint8Array): Map<string, ReadProperty[]> {
-    const readAll = (source: Source): Map<string, ReadProperty[]> =>
+    const readAll = (source: Supply): Map<string, ReadProperty[]> =>
         new Map(elements.map((element) => [element.name, readElement(element, source)]));
     let at = 0;
     const most = (end: number): void => {
@@ -179,10 +179,10 @@ function tablesOf({ elements, order, size }: PlyHeader, bytes: Uint8Array): Map<
     if (order !== "ascii") {
         const view = new DataView(bytes.buffer, bytes.byteOffset + size, bytes.byteLength - size);
         const isLittle = order === "binary_little_endian";
-        const [reads, sizes] = [{} as Record<Kind, Read>, {} as Record<Kind, number>];
-        for (const kind of Object.keys(ARRAYS) as Kind[])
+        const [reads, sizes] = [{} as Record<NumberKind, Read>, {} as Record<NumberKind, number>];
+        for (const kind of Object.keys(ARRAYS) as NumberKind[])
             [reads[kind], sizes[kind]] = [view[`get${kind}`], Number(/\d+/.exec(kind)) / 8];
-        const next = (kind: Kind): number => {
+        const next = (kind: NumberKind): number => {
             const from = at;
             at += sizes[kind];
             most(view.byteLength);
@@ -212,7 +212,7 @@ function tablesOf({ elements, order, size }: PlyHeader, bytes: Uint8Array): Map<
 }
 
 /** Numbers in the type that the header declares, if they fit into it, as those of a text may not. */
-function typed(values: number[], type: Kind): ColumnValues {
+function typed(values: number[], type: NumberKind): ColumnValues {
     const made: ColumnValues = ARRAYS[type].from(values);
     return type.startsWith("F") || values.every((value, i) => made[i] === value) ? made : Float64Array.from(values);
 }
