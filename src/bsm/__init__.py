@@ -37,6 +37,7 @@ try:
     _built = importlib.import_module("bsm._core").version
 except ImportError:
     _built = "missing"
+# Kernels of another version would mostly work, and now and then decode other bits.
 if _built != __version__:
     raise ImportError(
         f"BSM {__version__} needs its compiled kernels, and they are {_built}: install both together, with "
@@ -51,6 +52,8 @@ _HOMES = {name: module for _, module, _, name, *_ in _imports}
 __all__ = ["__version__", *_HOMES]
 
 
+# Importing trimesh with every `import bsm` would take most of its time. So its import is watched for, and the watch
+# ends with it.
 class _Trimesh:
     """Let trimesh read and write .bsm from its import on."""
 
@@ -80,6 +83,7 @@ else:
 def __getattr__(name: str) -> object:
     if name not in _HOMES:
         raise AttributeError(f"module 'bsm' has no attribute {name!r}")
+    # Kept, so that the second use of a name does not come here.
     value = globals()[name] = getattr(importlib.import_module(_HOMES[name]), name)
     return value
 

@@ -96,8 +96,10 @@ def encode(
     >>> len(small) <= 3000
     True
     """
+    # Here and below, imports stand in the functions: whoever only decodes shall not wait for the encoder to load.
     from bsm.encoding.given import given_mesh
 
+    # Before the mesh is read: a wrong keyword is said at once, and not after minutes of reading.
     wishes = _wishes(mesh, options, keywords, metadata, provenance, simplify=simplify)
     with watched("encoding", progress) as reported:
         given = given_mesh(as_mesh(mesh), wishes)
@@ -186,15 +188,18 @@ def encode_many(
     from bsm.jobs.plan import plan
     from bsm.jobs.run import Batch, run_many
 
+    # A path is iterable, too: each of its letters would be taken for a file.
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
         raise ArgumentError(f"sources must be a list of paths, not {sources!r}")
     checked_whole("jobs", jobs, 0)
     entries = checked_metadata(metadata)
     Wishes(keywords=keywords, metadata=entries).check()
     run = Batch(jobs=jobs, dask=dask, report=None if report is None else named(report), resume=resume)
+    # With a slash, so that the plan takes it for a folder even if it is not there yet.
     folder = None if target is None else named(target).rstrip("/") + "/"
     planned = plan([named(source) for source in sources], folder, lambda _: ".bsm")
     options: dict[str, Any] = {**keywords}
+    # Processes side by side with all threads each would fight for the cores.
     threads = options.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
     more: dict[str, Any] = {"metadata": entries, "options": options, "simplify": simplify, "provenance": provenance}
     job = EncodeJob(force=overwrite, quiet=True, threads=threads, **more)
@@ -530,6 +535,7 @@ def save(
     try:
         return save_written(path, written, overwrite=overwrite)
     except FileExistsError as error:
+        # The message of the command line names its option -f, which Python does not have.
         error.strerror = "the file exists already; overwrite=True replaces it"
         raise
 

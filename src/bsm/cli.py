@@ -51,6 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             words = [*words[1:2], "--help"]
         if not words or words[0] not in COMMANDS:
             return _no_command(words)
+        # The parser of one command: those of all would import all commands, and take longer than encoding a small mesh.
         parser = command_parser(words[0])
         args = parser.parse_command(words[1:])
         as_json = getattr(args, "json", False)
@@ -60,9 +61,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         refuse_collisions(*named)
         options = frozenset(parser._option_string_actions)
         code: int | None = args.run(args, Console(quiet=args.quiet, json=as_json, options=options))
+        # Flushed here, where a closed pipe is an error with an exit code; at the end of Python it would print a
+        # traceback.
         if sys.stdout is not None:  # closed by the shell
             sys.stdout.flush()
         return code or 0
+    # Libraries wrap errors of ours and interrupts in their own: the one behind tells which exit code is meant.
     except (Exception, KeyboardInterrupt, Terminated) as raised:
         error = behind(raised)
         if not is_expected(error):
@@ -191,6 +195,7 @@ class Parser(argparse.ArgumentParser):
     def parse_command(self, words: Sequence[str]) -> argparse.Namespace:
         for word in words[: words.index("--") if "--" in words else None]:
             known = {word[:2], word.partition("=")[0]} & self._option_string_actions.keys()
+            # A glob such as *.ply may give a file that begins with a dash.
             if word.startswith("-") and not known and os.path.exists(word):
                 self.error(f"{word} looks like an option; name the file as {shlex.quote(f'./{word}')}")
             if word in OPTIONS and word not in self._option_string_actions:
@@ -208,6 +213,7 @@ class Parser(argparse.ArgumentParser):
             self.error(f"unknown option {name}{f'; did you mean {instead[similar]}?' if similar else ''}")
         return args
 
+    # argparse writes choices with the quotes and words of Python, which differ between its versions.
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
             known = [str(choice) for choice in action.choices]

@@ -26,6 +26,7 @@ def to_openmesh(mesh: Any) -> Any:
     openmesh = imported("openmesh", "such meshes are made with openmesh", "openmesh")
     mesh = split_by_attributes(as_mesh(mesh))
     made = openmesh.TriMesh(mesh.positions, mesh.faces)
+    # OpenMesh leaves such faces out without a word, as its halfedges only hold manifold surfaces.
     if lost := len(mesh.faces) - made.n_faces():
         raise MeshError(
             f"openmesh cannot hold {lost} of {len(mesh.faces)} faces: more than two meet at an edge, or neighbors are "

@@ -32,6 +32,7 @@ def to_pyvista(mesh: Any) -> Any:
     Vertices are split where corners differ, in texture coordinates for instance. Normals and texture coordinates are
     the active ones.
     """
+    # Here and not above: without pyvista the module can be imported, and this call says what is missing.
     pyvista = imported("pyvista", "pyvista is not installed", "pyvista")
     from bsm.vtk import fill
 
@@ -39,6 +40,7 @@ def to_pyvista(mesh: Any) -> Any:
     found = pyvista.PolyData()
     fill(found, mesh)
     for name, value in mesh.metadata.items():
+        # Numbers, as an array of bytes would be a text to numpy, which loses zeros at its end.
         found.field_data[name] = np.frombuffer(value, np.uint8) if isinstance(value, bytes) else [value]
     return found
 

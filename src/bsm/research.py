@@ -139,8 +139,11 @@ def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
     draft = _draft(prepared, idea, options)
     stream = b"".join(draft.frames)
     if idea.dictionary is not None or idea.predictor is not None:
+        # Asked twice for everything: a decoder computes the same arrays anew, and a function with a random start would
+        # give it others.
         if b"".join(_draft(prepared, idea, options).frames) != stream:
             raise OptionError("the dictionary or predictor returns different values for the same site")
+        # Without a dictionary or predictor of the idea, the stream is an ordinary one, as a partition is sent.
         stream = MARK + stream
     return Encoded(stream, _decoded(prepared, draft, options))
 
@@ -221,6 +224,8 @@ class PartCoder:
         if stream == data or header.blocks != 1 or not law.bits or block is None or FrameType.ORDER in sections:
             raise FormatError("this is not a part: it needs a mark, one block with packed coefficients, and no order")
         end = block.offset + block.length - checksum_size(block.type, block.payload)
+        # The decoder checks each block's sum before it makes the basis, which is the dear part; here only its faces are
+        # wanted.
         spoiled = stream[:end] + bytes([stream[end] ^ 1]) + stream[end + 1 :]  # so that its decoder makes no basis
         with Decoder(self._limits, 1, tolerant=True) as decoder:
             faces = next(found.faces for found in decoder.events([spoiled]) if isinstance(found, ConnectivityEvent))
@@ -241,6 +246,8 @@ class PartCoder:
         self, blocks: Blocks, rules: ChainRules
     ) -> tuple[tuple[Integers, Floats, Floats], Callable[[int], Basis]]:
         """What `Chain.begin` returns of a part, and its dictionary by width: that of a chain with the part before."""
+        # The chain of blocks passes a basis on from block to block. So the part before and this one are two blocks,
+        # with the same graph, of one chain.
         size, edges, members = blocks.graph.size, np.tile(blocks.edges, 2), np.tile(blocks.members, 2)
         chain = Chain(rules, Blocks(blocks.graph, np.tile(blocks.cores, 2), size * np.arange(3), edges, members))
         begun = chain.begin(0)
@@ -268,6 +275,7 @@ def _tried(idea: Idea, options: EncodeOptions) -> Any:
         prepared = _prepared(mesh, idea, options)
         draft, place = _draft(prepared, idea, options), np.argsort(prepared.vertex_order)
         stream = b"".join(draft.frames)
+        # Decoding would need the idea, so what it gives is kept by its stream.
         meshes[stream] = _decoded(prepared, draft, options)
         return stream, lambda decoded: decoded.positions[place]
 

@@ -75,6 +75,7 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
     shown = {attribute.name for attribute in (normal, color, texcoord, of_faces) if attribute is not None}
     others = [attribute for attribute in mesh.attributes if attribute.name not in shown]
     plain = [(name, value) for name, value in mesh.metadata.items() if not name.startswith(("material.", "image."))]
+    # What trimesh calls it; its functions for units look there.
     metadata = {"units" if name == "unit" else name: value for name, value in plain}
     arguments: dict[str, Any] = {
         "vertices": mesh.positions,
@@ -84,6 +85,7 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
         "vertex_attributes": {a.name: _flat(a.values) for a in others if a.domain == "vertex"},
         "face_attributes": {a.name: _flat(a.values) for a in others if a.domain == "face"},
         "metadata": metadata,
+        # trimesh merges vertices otherwise, and values of vertices would no longer be theirs.
         "process": False,
     }
     return {name: value for name, value in arguments.items() if value is not None}
@@ -152,4 +154,5 @@ def _load(file_obj: IO[bytes], file_type: str | None = None, **keywords: Any) ->
 
 
 _library.exchange.load.mesh_loaders["bsm"] = _load
+# trimesh has a public table of loaders, and none of exporters.
 _library.exchange.export._mesh_exporters["bsm"] = lambda mesh, **keywords: encode(from_trimesh(mesh), **keywords)

@@ -55,6 +55,7 @@ class Playback:
         """Positions of a frame of a sequence, shape (n, 3), in the stream's order."""
         if not 0 <= number < self.count:
             raise OptionError(f"frame {number} does not exist; the stream has {self.count}")
+        # Groups of frames before the one with this frame are passed over, and not decoded.
         if number < self._shown:
             self._stream, self._frames = self._opened(number)
         if number != self._shown:
@@ -66,6 +67,7 @@ class Playback:
         if self._mesh is not None:
             return self._mesh
         positions, stream = self.positions(number), self._stream
+        # Splitting vertices takes longer than decoding a frame, and only depends on faces and corners.
         if stream.faces is not self._faces:
             self._faces = stream.faces
             mesh = TriangleMesh(positions, stream.faces, stream.attributes, stream.metadata)
@@ -88,6 +90,7 @@ def fill(output: Any, mesh: TriangleMesh) -> None:
     cells = vtkCellArray()
     offsets = np.arange(0, 3 * len(mesh.faces) + 1, 3, dtype=np.int64)
     corners = np.ascontiguousarray(mesh.faces.reshape(-1), np.int64)
+    # Offsets and corners, as VTK 9 holds cells; its older form would be converted on every use.
     cells.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(corners, deep=True))
     output.SetPoints(points)
     output.SetPolys(cells)
@@ -127,6 +130,7 @@ class StreamSource(VTKPythonAlgorithmBase):  # type: ignore[misc]
     def RequestInformation(self, request: Any, inputs: Any, outputs: Any) -> int:
         """Tell the times."""
         executive, about = self.GetExecutive(), outputs.GetInformationObject(0)
+        # ParaView keeps the times of the file before otherwise.
         for key in (executive.TIME_STEPS(), executive.TIME_RANGE()):
             about.Remove(key)
         if times := self.GetTimestepValues():

@@ -37,6 +37,8 @@ def drawing(panels: Sequence[Panel], original: TriangleMesh, console: Console, *
     top, largest = last_color(every), float(every.max(initial=0.0))
     pictures, titles = [], []
     for view in views:
+        # Those of the original for all panels: a decoded mesh with one stray vertex would be drawn smaller than its
+        # pair.
         bounds = bounds_of(original.positions, view)
         for panel in panels:
             colors = surface_colors(panel.mesh) if panel.far is None else heat(panel, top)
@@ -85,12 +87,14 @@ def _sampled(look: Appearance, mesh: TriangleMesh, places: Matrix) -> Matrix:
     """Colors of a material at texture coordinates, shape (k, 2), which count from the bottom."""
     data = images_in(mesh.metadata).get(look.color_texture.image if look.color_texture else -1, ("", b""))[1]
     image = None
+    # Without Pillow the plain color is better than no picture.
     with suppress(DependencyError):
         image = opened(data)
     if image is None:
         return np.broadcast_to(np.array(look.color), (len(places), 3))
     pixels = np.asarray(image.convert("RGB"), np.float64) / 255.0
     high, wide = pixels.shape[:2]
+    # Textures repeat, the usual rule of formats, and a place of exactly 1 is that of 0.
     across, up = ((places % 1.0) * (wide, high)).astype(int).clip(0, (wide - 1, high - 1)).T
     found: Matrix = pixels[high - 1 - up, across]
     return found
