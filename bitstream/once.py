@@ -36,7 +36,7 @@ def with_results(instance: Self, **known: Any) -> Self:
     """Return a copy with other fields and results of cached properties; all else that was computed stays."""
     other = copy(instance)
     for name, value in known.items():
-        if not hasattr(type(instance), name):
+        if name not in vars(instance) and not hasattr(type(instance), name):
             raise AttributeError(name)
         # Not setattr, which a frozen class refuses: this copy is still ours alone.
         object.__setattr__(other, name, value)
