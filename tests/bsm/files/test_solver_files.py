@@ -259,9 +259,11 @@ def test_files_of_pynastran(tmp_path):
     bdf = pytest.importorskip("pyNastran.bdf.bdf", reason="files are written with pyNastran: pip install pyNastran")
     model, rng = bdf.BDF(debug=None), np.random.default_rng(3)
     model.add_cord2r(5, [10.0, 1.0, 2.0], [10.0, 1.0, 3.0], [10.0, 2.0, 2.0])
+    model.add_cord2c(6, [1.0, 40.0, 2.0], [1.0, 50.0, 3.0], [1.0, 2.0, 2.0], rid=5)
+    model.add_cord1s(9, 4, 8, 12)
     places = rng.normal(size=(20, 3)).round(3)
     for number, place in enumerate(places.tolist(), 1):
-        model.add_grid(number, place, cp=5 * (number % 2))
+        model.add_grid(number, place, cp=(0, 5, 6, 9)[number % 4])
     for number in range(1, 16):
         model.add_ctria3(number, 7, [number, number + 1, number + 4], theta_mcid=30.0 * (number % 3))
     model.add_chexa(99, 8, [*range(1, 9)])
