@@ -10,7 +10,6 @@ import pickle
 import subprocess
 import sys
 from contextlib import suppress
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from threading import Lock
@@ -18,8 +17,8 @@ from typing import Any, TypeAlias
 
 from bsm.bitstream.errors import BsmError, FormatError, UnsupportedError, imported
 from bsm.bitstream.limits import Limits
-from bsm.files.formats.polygons import CutAlike, MeshFile, Polygons
-from bsm.files.motion.folder import read_files
+from bsm.files.formats.polygons import Polygons
+from bsm.files.motion.folder import read_steps
 from bsm.files.motion.frames import Frames, Wanted
 
 _COMMAND = "from bsm.files.apart import serve; serve()"
@@ -53,12 +52,8 @@ def surface_of(path: str, kind: str, limits: Limits, step: int = 0, *, here: boo
 def frames_of(path: str, kind: str, wanted: Wanted, limits: Limits, *, here: bool = False) -> Frames | None:
     """The steps in a file of VTK as frames; None if it has fewer than two."""
     _, times = surface_of(path, kind, limits, here=here)
-    cut, size = CutAlike(), os.path.getsize(path)
-
-    def read(name: str) -> MeshFile:
-        return surface_of(path, kind, limits, int(name), here=here)[0].checked(limits, size, cut)
-
-    return read_files([*map(str, range(len(times)))], read, replace(wanted, times=times)) if times[1:] else None
+    size = os.path.getsize(path)
+    return read_steps(lambda step: surface_of(path, kind, limits, step, here=here)[0], times, size, wanted, limits)
 
 
 @cache

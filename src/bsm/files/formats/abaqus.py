@@ -7,6 +7,7 @@ model, a part or an instance. Keywords in keywords.csv are harmless; all others 
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -48,40 +49,28 @@ class _Keyword:
     rows: list[str]
 
 
-def _keywords(lines: list[str]) -> Iterator[_Keyword]:
-    """The keywords of a file with the lines of data after them."""
-    open_ = None
-    for number, row in enumerate(lines, 1):
-        line = row.strip()
-        if not line or line.startswith("**"):
-            continue
-        if line.startswith("*"):
-            if open_ is not None:
-                yield open_
-            open_ = _Keyword("", {}, number, [line])
-        elif open_ is None:
-            raise FormatError(f"line {number}: {line[:40]!r} is not a keyword: this is not a file of Abaqus")
-        elif open_.rows[0].endswith(",") and open_.rows[0].startswith("*") and len(open_.rows) == 1:
-            open_.rows[0] += line
-        else:
-            open_.rows.append(line)
-    if open_ is not None:
-        yield open_
-
-
-def _said(keyword: _Keyword) -> _Keyword:
-    """A keyword with its name and parameters."""
-    name, *words = (word.strip() for word in keyword.rows[0][1:].split(","))
-    pairs = (word.partition("=") for word in words if word)
-    given = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
-    return _Keyword(" ".join(name.upper().split()), given, keyword.line, keyword.rows[1:])
+def _keywords(text: str) -> Iterator[_Keyword]:
+    """The keywords of a file with their parameters and the lines of data after them."""
+    lines = ["" if row.lstrip().startswith("**") else row.strip() for row in text.splitlines()]
+    starts = [number for number, line in enumerate(lines) if line.startswith("*")]
+    first = next((number for number, line in enumerate(lines) if line), 0)
+    if starts[:1] != [first]:
+        raise FormatError(f"line {first + 1}: {lines[first][:40]!r} is not a keyword: this is not a file of Abaqus")
+    for begin, end in pairwise([*starts, len(lines)]):
+        head, *rows = filter(None, lines[begin:end])
+        while head.endswith(",") and rows:
+            head += rows.pop(0)
+        name, *words = (word.strip() for word in head[1:].split(","))
+        pairs = (word.partition("=") for word in words if word)
+        given = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
+        yield _Keyword(" ".join(name.upper().split()), given, begin + 1, rows)
 
 
 def read_abaqus(data: bytes, path: str | None, limits: Limits) -> Polygons:
     table = Keywords("abaqus", _WAY)
     model, parts, instances = _Scope(""), dict[str, _Scope](), list[_Scope]()
     scope, assembly = model, False
-    for keyword in map(_said, _keywords(included(data.decode("latin-1"), _INCLUDE, path).splitlines())):
+    for keyword in _keywords(included(data.decode("latin-1"), _INCLUDE, path)):
         name, given, line = keyword.name, keyword.given, keyword.line
         if name == "PART":
             scope = parts[given.get("NAME", "").upper()] = _Scope(given.get("NAME", ""))

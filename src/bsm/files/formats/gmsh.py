@@ -9,7 +9,6 @@ import io
 import re
 from collections.abc import Sequence
 from contextlib import redirect_stderr, redirect_stdout
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -21,8 +20,8 @@ from bsm.codec.geometry.welding import row_numbers
 from bsm.files.formats.cells import skin
 from bsm.files.formats.lines import Keywords, by_number
 from bsm.files.formats.metadata import named
-from bsm.files.formats.polygons import CutAlike, MeshFile, Polygons
-from bsm.files.motion.folder import read_files
+from bsm.files.formats.polygons import Polygons
+from bsm.files.motion.folder import read_steps
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.parsing import Ints, as_library_error, in_words
 
@@ -107,14 +106,8 @@ def read_gmsh_mesh(data: bytes, path: str | None, limits: Limits) -> Polygons:
 
 def read_gmsh(path: str, wanted: Wanted, limits: Limits) -> Frames | None:
     """The times of values as frames; None if there is one."""
-    data, cut = Path(path).read_bytes(), CutAlike()
-    model = _Gmsh(data, path)
-
-    def read(step: str) -> MeshFile:
-        return model.surface(int(step)).checked(limits, len(data), cut)
-
-    steps, asked = [*map(str, range(len(model.times)))], replace(wanted, times=model.times)
-    return read_files(steps, read, asked) if steps[1:] else None
+    model = _Gmsh(data := Path(path).read_bytes(), path)
+    return read_steps(model.surface, model.times, len(data), wanted, limits)
 
 
 def _values(section: bytes) -> tuple[str, float, Ints, Any]:

@@ -15,8 +15,8 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError, imported
 from bsm.bitstream.limits import Limits
 from bsm.files.formats.cells import runs, skin
-from bsm.files.formats.polygons import CutAlike, MeshFile, Polygons, joined_parts, part_of
-from bsm.files.motion.folder import read_files
+from bsm.files.formats.polygons import Polygons, joined_parts, part_of
+from bsm.files.motion.folder import read_steps
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.parsing import Ints, as_library_error, require_inflated
 from bsm.files.pipes import about, file_beside
@@ -245,14 +245,13 @@ def read_xdmf_mesh(data: bytes, path: str | None, limits: Limits) -> Polygons:
 
 def read_xdmf(path: str, wanted: Wanted, limits: Limits) -> Frames | None:
     """The steps of an XDMF as frames; None if it has none."""
-    data, cut = Path(path).read_bytes(), CutAlike()
+    data = Path(path).read_bytes()
     with as_library_error("lxml"):
         document = _Grids(data, path, limits)
         steps = document.steps()
 
-    def read(name: str) -> MeshFile:
+    def surface(step: int) -> Polygons:
         with as_library_error("lxml"):
-            return document.surface(steps[int(name)][1], len(data)).checked(limits, len(data), cut)
+            return document.surface(steps[step][1], len(data))
 
-    asked = replace(wanted, times=[time for time, _ in steps])
-    return read_files([*map(str, range(len(steps)))], read, asked) if steps[1:] else None
+    return read_steps(surface, [time for time, _ in steps], len(data), wanted, limits)

@@ -21,7 +21,7 @@ from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
 from bsm.codec.sequence.runs import EMPTY, SHOWN, can_move, empty_frame, is_empty, moved_to, other_faces
 from bsm.files.conventions import TIME_VALUE
 from bsm.files.formats.metadata import Written
-from bsm.files.formats.polygons import CutAlike, MeshFile
+from bsm.files.formats.polygons import CutAlike, MeshFile, Polygons
 from bsm.files.formats.vtp import elements_of
 from bsm.files.mesh import read_cut, save_written, written_mesh
 from bsm.files.motion.frames import Frames, Wanted, rate_of_times, timing_of
@@ -242,6 +242,18 @@ def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], want
 
     shared = kept, tuple(notes), rate, {**metadata, **(timing or {})}
     return Frames(first.faces, count, (mesh.positions for mesh in meshes()), *shared, meshes() if changes else None)
+
+
+def read_steps(
+    surface: Callable[[int], Polygons], times: Sequence[float], size: int, wanted: Wanted, limits: Limits
+) -> Frames | None:
+    """The steps in a file of so many bytes as frames; None if it has fewer than two."""
+    cut = CutAlike()
+
+    def read(step: str) -> MeshFile:
+        return surface(int(step)).checked(limits, size, cut)
+
+    return read_files([*map(str, range(len(times)))], read, replace(wanted, times=times)) if times[1:] else None
 
 
 def _with_faces_of(
