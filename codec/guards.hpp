@@ -177,8 +177,17 @@ inline bool prolong(ConstInts offsets, ConstInts neighbors, ConstInts own, Const
     return edges(offsets, neighbors) && below(own, places.rows);
 }
 inline bool fit_cells(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstInts links, ConstInts linked,
-    ConstDoubles2, int64_t, int64_t, Singles, Doubles2) {
+    ConstDoubles2, int64_t, double, int64_t, Singles, Doubles2, Doubles2) {
     return edges(offsets, neighbors) && edges(links, linked) && below(own, links.size - 1);
+}
+inline bool couple_cells(ConstInts offsets, ConstInts neighbors, ConstInts bounds, ConstInts order, ConstInts links,
+    ConstInts linked, int64_t, double, Singles, Ints, Ints, Singles, Doubles, Longs, Ints, Singles) {
+    return edges(offsets, neighbors) && edges(links, linked)
+        && fits_rows(bounds, order, links.size - 1, offsets.size - 1);
+}
+inline bool level_cells(ConstLongs starts, ConstInts ends, ConstSingles values, ConstDoubles weights, ConstDoubles2,
+    ConstDoubles2, int64_t, Doubles2, Ints2) {
+    return values.size == ends.size && graph(Lists{starts, ends}, weights.size, weights.size);
 }
 inline bool local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2) { return below(faces, positions.rows); }
 inline bool tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double, double, Doubles2, Doubles) {

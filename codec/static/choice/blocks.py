@@ -16,7 +16,6 @@ from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.grid import encode_layer
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
 from bsm.codec.static.ways.in_cells import SPREADS, InCells
 
@@ -36,23 +35,14 @@ class OnCells:
     """Blocks on the cells of a mesh, spread as takes the fewest bytes."""
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
-        self._faces, self._measures = prepared.mesh.faces, bounds.measures
+        self._measures = bounds.measures
         self._spread = [InCells(prepared, options, BROADEST, spread) for spread in SPREADS]
 
     def __call__(self, step: float) -> RefinementBase:
-        within = self._measures.near.within()
-        found = self._spread[0].base(step, within)
-        for wider in self._spread[1:] if step > SPARSE * self._measures.shaper.mean_edge else ():
-            other = wider.base(step, within)
-            if self._bytes(other, step) > self._bytes(found, step):
-                break
-            found = other
-        return found
-
-    def _bytes(self, base: RefinementBase, step: float) -> int:
-        """About the bytes of cells, and of levels at a step."""
-        levels, _ = base.wanted(base.expected_steps(Layer(single(step), RATIO)))
-        return base.coded + sum(len(packet.data) for packet in encode_layer(self._faces, levels))
+        within, layer = self._measures.near.within(), Layer(single(step), RATIO)
+        many = step > SPARSE * self._measures.shaper.mean_edge
+        found, *others = (base for spread in self._spread[: None if many else 1] for base in spread.bases(step, within))
+        return min([found, *others], key=lambda base: base.about(layer)) if others else found
 
 
 class OnVertices:

@@ -59,7 +59,13 @@ int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 l
     ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most, Bytes wrong, Bytes open);
 
 int64_t fit_cells(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstInts links, ConstInts linked,
-    ConstDoubles2 positions, int64_t rounds, int64_t steps, Singles scratch, Doubles2 places);
+    ConstDoubles2 positions, int64_t rounds, double bent, int64_t steps, Singles scratch, Doubles2 places,
+    Doubles2 pulls);
+int64_t couple_cells(ConstInts offsets, ConstInts neighbors, ConstInts bounds, ConstInts order, ConstInts links,
+    ConstInts linked, int64_t rounds, double bent, Singles scratch, Ints listed, Ints below, Singles half,
+    Doubles weights, Longs starts, Ints ends, Singles values);
+int64_t level_cells(ConstLongs starts, ConstInts ends, ConstSingles values, ConstDoubles weights, ConstDoubles2 frames,
+    ConstDoubles2 steps, int64_t first, Doubles2 pulls, Ints2 levels);
 
 int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts degrees, double worth, Ints heads, Ints links,
     Bytes covered, Doubles room, Doubles2 found);

@@ -61,6 +61,10 @@ class RefinementBase:
         aside = tangent_steps(upright, self.prepared.mesh.faces, layer.step, layer.ratio)
         return np.column_stack([np.full(len(aside), layer.step), aside, aside])
 
+    def about(self, layer: Layer) -> float:
+        """About the bytes of blocks, cells and levels of a layer, by the sizes of levels."""
+        return self.coded + float(np.log2(1.0 + (2.0 * self.offsets / self.expected_steps(layer)) ** 2).sum()) / 16.0
+
     def known_steps(self, layer: Layer, levels: Levels) -> Matrix:
         """What levels of a layer move each vertex, shape (n, 3), if its heights are those of `levels`, shape (n, 3)."""
         return self._known_steps(layer, levels[:, 0].tobytes())

@@ -1,6 +1,7 @@
 """Blocks and a first layer on the cells of a mesh, which smoothing spreads to all vertices."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,7 +10,7 @@ from bsm.bitstream.container.header import Layer
 from bsm.bitstream.container.packets import Refinement
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Matrix
-from bsm.codec.blocks.cells import CellMesh, cells_of, fitted, prolonged
+from bsm.codec.blocks.cells import CellMesh, Fit, cells_of, prolonged
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
 from bsm.codec.progress import Progress
 from bsm.codec.signal.transform import smallest_step
@@ -21,7 +22,8 @@ from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
 BLOCK, OVERLAP = 450, 1.0
 """CellMesh of a block: fewer take more bytes, more take decoders longer; and how far blocks are grown."""
 RATIO = 3.0  # of the steps of cells along tangents, over those along normals
-FARTHEST = 2.0**18  # steps that levels may be away, and bends of surfaces some more
+FARTHEST, LEAST = 2.0**18, 1e-9  # steps that levels may be away, and bends of surfaces some more; and places may be
+APART = 1.67  # steps of cells that may be best, over the usual one, up and down: one or two powers of two
 
 
 @dataclass(frozen=True)
@@ -32,11 +34,11 @@ class Spread:
 
     reach: int = 2
     rounds: int = 8
-    levels: float = 8.0
+    levels: float = 10.0
     coefficients: float = 160.0
 
 
-SPREADS = Spread(), Spread(3, 14, 4.0, 48.0), Spread(3, 14, 2.5, 24.0)
+SPREADS = Spread(), Spread(3, 14, 6.0, 48.0), Spread(3, 14, 4.0, 24.0)
 """From fine levels of vertices to coarse ones, most of which are 0."""
 
 
@@ -72,23 +74,26 @@ class InCells:
     def _coarse(self) -> Prepared:
         """The cells, as a mesh that blocks can be on."""
         prepared, cells = self._prepared, self.cells
-        places = fitted(cells, prepared.graph, prepared.positions, self._spread.rounds)
-        mesh = _Places(prepared.units.back(places), cells.faces)
+        mesh = _Places(prepared.units.back(self._fit.places), cells.faces)
         return replace(prepared, mesh=mesh, graph=cells.graph, parts=self.parts)
 
-    def base(self, step: float, progress: Progress | None = None) -> RefinementBase:
-        """The cells for levels of vertices at about a step, and their places prolonged."""
-        prepared, coarse = self._prepared, self._coarse
-        # Steps of cells are powers of two, so that the header needs only their exponent.
-        halvings = min(max(round(-math.log2(self._spread.levels * step)), 1), 40)
+    @cached_property
+    def _fit(self) -> Fit:
+        return Fit(self.cells, self._prepared.graph, self._prepared.positions, self._spread.rounds)
+
+    def bases(self, step: float, progress: Progress | None = None) -> Iterator[RefinementBase]:
+        """The cells for levels of vertices at about a step, and their places prolonged, for all steps of cells."""
+        coarse, cells = self._coarse, self._spread.levels * step
         rough = max(self._spread.coefficients * step, 1.01 * smallest_step(coarse.size))
         blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5), progress)
         farthest = float(np.abs(blocks.offsets).max(initial=0.0))
-        # Levels beyond would not fit. Such meshes have outliers, and a coarser step costs them little.
-        while farthest > FARTHEST * 0.5**halvings:
-            halvings -= 1
+        finest, coarsest = (math.ceil(-math.log2(cells * apart)) for apart in (1.0 / APART, APART))
+        for halvings in range(coarsest, finest):
+            yield self._base(blocks, max(min(halvings, 40, int(math.log2(FARTHEST / max(farthest, LEAST)))), 1))
+
+    def _base(self, blocks: RefinementBase, halvings: int) -> RefinementBase:
+        prepared, coarse = self._prepared, self._coarse
         places, levels = self._leveled(blocks, Layer(0.5**halvings, RATIO))
-        # By the decoder's own function: what it gives is what the levels of vertices start from.
         positions = prolonged(self.cells, prepared.graph, places, self._spread.rounds)
         base = coarse.graph.size, self._spread.reach, self._spread.rounds, halvings
         header = replace(blocks.draft.header, vertices=prepared.graph.size, faces=len(prepared.mesh.faces), base=base)
@@ -96,11 +101,13 @@ class InCells:
         coded = blocks.coded + sum(len(packet.data) for packet in levels)
         return RefinementBase(prepared, draft, positions, coded)
 
-    @staticmethod
-    def _leveled(blocks: RefinementBase, layer: Layer) -> tuple[Matrix, list[Refinement]]:
-        """Where the nearest levels bring cells, and their packets."""
+    def _leveled(self, blocks: RefinementBase, layer: Layer) -> tuple[Matrix, list[Refinement]]:
+        """Where levels bring cells that leave little to vertices, and their packets."""
         levels = np.zeros(blocks.positions.shape, np.int32)
         levels[:, 0] = np.rint(blocks.offsets[:, 0] / layer.step)
         known = blocks.known_steps(layer, levels)
         levels[:, 1:] = np.rint(blocks.offsets[:, 1:] / known[:, 1:])
+        for first in (0, 1):  # steps along tangents follow from heights, which stay the second time
+            self._fit.level(blocks.frames, known, blocks.moved(layer, levels, known), levels, first)
+            known = blocks.known_steps(layer, levels)
         return blocks.moved(layer, levels, known), encode_layer(blocks.prepared.mesh.faces, levels)

@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm.codec.blocks.cells import cells_of, fitted, prolonged
+from bsm.codec.arrays import Matrix
+from bsm.codec.blocks.cells import BENT, Fit, cells_of, prolonged
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from tools.vectors.good_base import bowtie, cylinder, flipped, loose, pages, strip
@@ -60,13 +61,45 @@ def test_a_hub_with_many_legs_takes_no_longer_for_its_many_centers() -> None:
     assert found.graph.size == legs
 
 
-def test_fitted_places_come_nearer_than_means() -> None:
-    mesh = torus(120, 80)
+def fit_of(mesh: TriangleMesh) -> Fit:
     graph = graph_of(mesh)
-    cells = cells_of(graph, mesh.faces, 2)
-    sums = np.zeros((cells.graph.size, 3))
-    np.add.at(sums, cells.own, mesh.positions)
-    means = sums / np.bincount(cells.own)[:, None]
-    places = fitted(cells, graph, mesh.positions, 8)
-    errors = [float(np.square(prolonged(cells, graph, given, 8) - mesh.positions).mean()) for given in (means, places)]
-    assert errors[1] < errors[0] / 16.0
+    return Fit(cells_of(graph, mesh.faces, 2), graph, mesh.positions, 8)
+
+
+def error_of(fit: Fit, places: Matrix) -> float:
+    return float(np.square(prolonged(fit.cells, fit.graph, places, fit.rounds) - fit.positions).mean())
+
+
+def test_fitted_places_come_nearer_than_means() -> None:
+    fit = fit_of(torus(120, 80))
+    own = fit.cells.own
+    means = np.column_stack([np.bincount(own, column) for column in fit.positions.T]) / np.bincount(own)[:, None]
+    assert error_of(fit, fit.places) < error_of(fit, means) / 16.0
+
+
+def test_coupled_cells_are_those_of_the_definition() -> None:
+    fit = fit_of(torus(60, 40))
+    size, coarse = fit.cells.graph.size, fit.cells.graph
+    columns = [prolonged(fit.cells, fit.graph, np.tile(row, (3, 1)).T.copy(), 8)[:, 0] for row in np.eye(size)]
+    bends = -np.eye(size)
+    for cell in range(size):
+        around = coarse.neighbors[coarse.offsets[cell] : coarse.offsets[cell + 1]]
+        bends[cell, around] = 1.0 / len(around)
+    exact = np.array(columns) @ np.array(columns).T + BENT * bends.T @ bends
+    starts, ends, values, weights = fit._coupling
+    found = np.diag(weights)
+    found[np.repeat(np.arange(size), np.diff(starts)), ends] = values
+    assert np.array_equal(found, found.T)
+    assert np.abs(found - exact).max() < 0.05 * weights.mean()
+
+
+def test_levels_chosen_together_bring_vertices_nearer() -> None:
+    fit = fit_of(torus(120, 80))
+    step, frames = 0.01, np.tile(np.eye(3).ravel(), (len(fit.places), 1))
+    levels = np.rint(fit.places / step).astype(np.int32)
+    rounded, steps = levels.copy(), np.full(levels.shape, step)
+    fit.level(frames, steps, step * levels, levels, first=1)
+    assert np.array_equal(levels[:, 0], rounded[:, 0])
+    fit.level(frames, steps, step * levels, levels)
+    kept = error_of(fit, fit.places)
+    assert error_of(fit, step * levels) - kept < 0.6 * (error_of(fit, step * rounded) - kept)
