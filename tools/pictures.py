@@ -12,6 +12,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 from unittest.mock import patch
@@ -23,7 +24,10 @@ from scipy.spatial import KDTree
 
 import bsm
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.blocks.cells import cells_of
+from bsm.codec.blocks.overlap import derive_partition
 from bsm.codec.denoise import FrameDenoiser
+from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.bounds import Bounds, Trial
 from bsm.codec.static.choice.congruence import motions_between
@@ -39,8 +43,9 @@ ROOT = Path(__file__).parents[1]
 FRONT, MOTION, STREAMING = "tools/front.png", "docs/gallery/motion.webp", "docs/guides/streaming.png"
 SCANS, ASSETS = "docs/gallery/scans.jpg", "docs/guides/assets.jpg"
 TWINS, TRIALS, STEADY = "docs/gallery/twins.png", "docs/gallery/trials.png", "docs/guides/steady.png"
+CELLED = "docs/gallery/cells.webp"
 PAGES = ("docs/guides/page-scan.jpg", "docs/guides/page-errors.jpg", "docs/guides/page-phone.jpg")
-PICTURES = (FRONT, MOTION, STREAMING, SCANS, ASSETS, TWINS, TRIALS, STEADY, *PAGES)
+PICTURES = (FRONT, MOTION, STREAMING, SCANS, ASSETS, TWINS, TRIALS, STEADY, CELLED, *PAGES)
 """All pictures of the documents."""
 SCANNED = {
     "static/armadillo_20002_derived.ply": 20,
@@ -62,11 +67,15 @@ KEY_BITS = 9  # of Draco's frames
 
 def main(args: argparse.Namespace, console: Console) -> None:
     """Write all pictures."""
+    from PIL import Image as Pictures
+
     folder = Path(args.folder)
     pictures, figures = scan(folder / "static" / "bunny_34834.ply")
     titles, images = zip(*pictures, *part(folder), strict=True)
     (ROOT / FRONT).write_bytes(with_titles(images, titles, figures=figures))
     (ROOT / TWINS).write_bytes(png(twins(bsm.load(folder / "assets" / "featuretype.STL"))))
+    titles, images = zip(*celled(bsm.load(folder / "static" / "bunny_34834.ply")), strict=True)
+    Pictures.open(BytesIO(with_titles(images, titles))).convert("RGB").save(ROOT / CELLED, quality=80)
     (ROOT / STEADY).write_bytes(png(steady(folder / "dynamic" / "horse_gallop.npz")))
     trials(bsm.load(folder / "static" / "bunny_34834.ply"), ROOT / TRIALS)
     console.note(motion(folder / "dynamic" / "samba.npz", ROOT / MOTION))
@@ -94,6 +103,26 @@ def twins(mesh: TriangleMesh) -> Image:
     colors = 0.45 + 0.55 * ((mesh.positions[first] - low) / (high - low))[of][mesh.faces].mean(axis=1)
     colors[(alike[of] == 1)[mesh.faces].any(axis=1)] = 0.75
     return render(mesh.positions, mesh.faces, PIXELS, view=view_matrix(-60.0, 50.0), colors=colors)
+
+
+def celled(mesh: TriangleMesh) -> list[tuple[str, Image]]:
+    """The cells of a scan, their blocks, and the shape that these give, with titles."""
+    data = bsm.encode(mesh, threads=1)
+    with bsm.Decoder(threads=1, layers=1) as decoder:
+        events = [*decoder.events([data])]
+    header = next(event.header for event in events if isinstance(event, bsm.HeaderEvent))
+    shape = next(event for event in reversed(events) if isinstance(event, bsm.BlockEvent))
+    base, whole = np.empty((header.vertices, 3)), bsm.decode(data, threads=1)
+    base[shape.vertices] = shape.positions
+    cells = cells_of(graph_of_faces(whole.faces, header.vertices), whole.faces, header.base[1])
+    parts = derive_partition(cells.graph, header.blocks).labels
+    own = cells.own[whole.faces[:, 0]]
+    shades = np.random.default_rng(1).uniform(0.35, 1.0, (len(parts), 3))
+    hues = np.random.default_rng(3).uniform(0.35, 1.0, (header.blocks, 3))[parts]
+    titles = f"{len(parts)} cells", f"{header.blocks} blocks of cells", "prolonged to all vertices", "with levels"
+    drawn = (whole.positions, shades[own]), (whole.positions, hues[own]), (base, None), (whole.positions, None)
+    images = [render(at @ UPRIGHT.T, whole.faces, SIDE, view=VIEW, colors=colors) for at, colors in drawn]
+    return list(zip(titles, images, strict=True))
 
 
 def trials(mesh: TriangleMesh, target: Path) -> None:
