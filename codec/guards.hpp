@@ -196,7 +196,7 @@ inline bool tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double, dou
 inline bool collect_flaps(ConstInts2 faces, ConstInts starts, ConstInts members, Ints, Ints2) {
     return edges(starts, members) && below(faces, starts.size - 1);
 }
-inline bool count_folds(ConstDoubles2 positions, ConstInts2 flaps) { return below(flaps, positions.rows); }
+inline bool count_folds(ConstDoubles2 positions, ConstInts2 flaps, Bytes) { return below(flaps, positions.rows); }
 inline bool wanted(const Wanted &given) {
     int64_t n = given.positions.rows;
     return below(given.faces, n) && graph(Lists{given.around_starts, given.around}, n, given.faces.rows)

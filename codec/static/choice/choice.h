@@ -54,7 +54,7 @@ int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels, Const
     ConstDoubles scales, double pull, Bytes open);
 int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double step, ConstInts2 flaps,
     ConstInts starts, ConstInts members, Ints2 bends, ConstDoubles rates, Bytes open);
-int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps);
+int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps, Bytes folded);
 int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
     ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most, Bytes wrong, Bytes open);
 

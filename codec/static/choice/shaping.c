@@ -252,12 +252,14 @@ INLINE bool is_folded(const double *positions, const int32_t *flap, int32_t v, c
     return dot3(n, m) < 0.0;
 }
 
-/* How many edges between faces are folded by more than 90 degrees. */
-int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps) {
+/* How many edges between faces are folded by more than 90 degrees, and which. */
+int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps, Bytes folded) {
     int64_t count = 0;
-    if (positions.columns != 3 || flaps.columns != 4) return MISUSED;
-    for (int64_t f = 0; f < flaps.rows; f++)
-        count += is_folded(positions.data, flaps.data + 4 * f, -1, positions.data);
+    if (positions.columns != 3 || flaps.columns != 4 || folded.size != flaps.rows) return MISUSED;
+    for (int64_t f = 0; f < flaps.rows; f++) {
+        folded.data[f] = is_folded(positions.data, flaps.data + 4 * f, -1, positions.data);
+        count += folded.data[f];
+    }
     return count;
 }
 

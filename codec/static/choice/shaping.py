@@ -77,16 +77,20 @@ class Shaper:
         """The vertices of edges that are folded over and were not; none if few edges are folded, or most."""
         if not self.most_folded < self.folded(positions) <= FOLDED * len(self._original.faces):
             return np.empty(0, np.int32)
-        flaps = self._flaps[0]
-        return np.unique(flaps[_over(positions, flaps) & ~self._were])
+        return np.unique(self._flaps[0][self._over(positions)[1] & ~self._were])
 
     @cached_property
     def _were(self) -> npt.NDArray[np.bool_]:
-        return _over(self._original.positions, self._flaps[0])
+        return self._over(self._original.positions)[1]
 
     def folded(self, positions: Positions) -> int:
         """How many edges are folded by more than 90 degrees."""
-        return _kernels.count_folds(positions, self._flaps[0])
+        return self._over(positions)[0]
+
+    def _over(self, positions: Positions) -> tuple[int, npt.NDArray[np.bool_]]:
+        """How many edges between faces are folded by more than 90 degrees, and which, shape (k,)."""
+        folded = np.empty(len(self._flaps[0]), np.uint8)
+        return _kernels.count_folds(positions, self._flaps[0], folded), folded.view(np.bool_)
 
     @cached_property
     def most_folded(self) -> int:
@@ -103,9 +107,3 @@ class Shaper:
         starts, members = vertex_faces(flaps, graph.size)
         own, (c, d) = np.repeat(np.arange(graph.size, dtype=np.int32), np.diff(starts)), flaps.T[2:].copy()
         return flaps, starts.astype(np.int32), 2 * members + ((c[members] == own) | (d[members] == own))
-
-
-def _over(positions: Positions, flaps: Indices) -> npt.NDArray[np.bool_]:
-    """Which edges between faces are folded by more than 90 degrees, shape (k,)."""
-    a, b, c, d = (positions[flaps[:, corner]] for corner in range(4))
-    return np.asarray((np.cross(b - a, c - a) * np.cross(a - b, d - b)).sum(axis=1) < 0.0)
