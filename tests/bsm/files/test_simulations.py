@@ -268,3 +268,12 @@ def test_a_folder_and_a_pattern_find_every_format_that_is_read(tmp_path):
     for name in (str(tmp_path), str(tmp_path / "s_*.vtu")):
         frames = open_sequence(name)
         assert [frame[:, 2].min() for frame in frames.frames] == [0, 1, 2]
+
+
+def test_an_order_of_nodes_in_xdmf_is_refused(tmp_path):
+    meshio.write(tmp_path / "a.xdmf", meshio.Mesh(POINTS, {"hexahedron": CUBES}), "xdmf", data_format="XML")
+    text = (tmp_path / "a.xdmf").read_text()
+    assert len(bsm.read_mesh(tmp_path / "a.xdmf").mesh.faces) == 20
+    (tmp_path / "a.xdmf").write_text(text.replace("<Topology ", '<Topology Order="1 0 2 3 4 5 6 7" ', 1))
+    with pytest.raises(bsm.FormatError, match=r"order of nodes.*\.vtu"):
+        bsm.read_mesh(tmp_path / "a.xdmf")

@@ -182,6 +182,8 @@ class _Grids:
             for number, words in _CELLS.items()
             for word in words.split()
         }
+        if topology.get("Order"):
+            raise FormatError(f"this XDMF has an order of nodes of its own; {_WAY}")
         if name not in known:
             raise FormatError(f"this XDMF has cells of the kind {name}; {_WAY}")
         width = int(re.sub(r"\D", "", known[name]) or topology.get("NodesPerElement", flat.shape[-1]))
