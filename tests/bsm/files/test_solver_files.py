@@ -133,6 +133,13 @@ def test_sets_of_elements_are_groups(tmp_path):
     assert found.attributes[0].values[:, 0].tolist() == [0, 0, 1]
 
 
+ELEMENTS = "$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n$EndElements\n"
+TWICE = (
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n"
+    + "".join(f"{n} {x} {y} {z}\n" for n, x, y, z in SQUARE)
+    + f"$EndNodes\n{ELEMENTS}{ELEMENTS}"
+    + '$ElementData\n1\n"x"\n1\n0\n3\n0\n1\n2\n1 5\n2 6\n$EndElementData\n'
+)
 REFUSED = {
     "a.bdf": (
         ("INCLUDE 'b.bdf'\n", "b.bdf: no such file beside the mesh"),
@@ -169,6 +176,7 @@ REFUSED = {
     ),
     "a.msh": (
         ("$Nodes\n$EndNodes\n$Nodes\n1\n$EndNodes\n", "another .Nodes is not read here"),
+        (TWICE, "meshio cannot read"),
         ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Faces\n$EndFaces\n", "Faces is not read here"),
         ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n$EndNodes\n", "meshio|cut short"),
     ),
