@@ -51,7 +51,7 @@ export type PictureOf<Type> = Extract<Picture, { type: Type }>;
 
 type Show = (picture: Picture, moved?: Transferable[]) => void;
 
-const PAUSE = 30; // milliseconds, at least, from one picture of what grows to the next
+const PAUSE = 30; // milliseconds, at least, before each picture of what grows
 const SHARE = 4; // times what such a picture takes
 /** What happens to vertices: they move or come, or a face at them is whole now. */
 const [MOVED, CAME, BESIDE] = [1, 2, 4];
@@ -168,6 +168,7 @@ export class Drawing {
         this.points = new Float32Array(3 * size);
         loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
         this.news = new Uint8Array(size);
+        this.due = performance.now() + PAUSE; // what is whole until then needs no picture before
         if (this.growing) this.show({ type: "begun", vertices: size, corners: faces.length, loose });
     }
 

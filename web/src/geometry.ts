@@ -73,8 +73,10 @@ export class BSMGeometry extends BufferGeometry {
                 return this.grow(picture);
             case "whole":
                 this.coming = picture.shape;
+                if (picture.run === 0) this.take(picture.shape);
+                if (!picture.growth) return;
                 Object.assign(this, picture.growth);
-                return picture.run === 0 ? this.take(picture.shape) : undefined;
+                return this.progress.onBlock?.(this);
             case "attribute":
                 return void this.carried.push(picture);
             case "frame":

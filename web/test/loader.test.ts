@@ -121,7 +121,7 @@ describe(
             };
             assert.equal(begun.length, 1);
             assert.ok(drawn[0] === 0 && drawn.every((count, i) => i === 0 || count >= drawn[i - 1]), `${drawn}`);
-            assert.ok(drawn.at(-1)! <= begun[0], `${drawn} of ${begun}`);
+            assert.equal(drawn.at(-1), begun.at(-1));
             assert.ok(radii[0] === 0 && radii[1] > 0, `${radii}`);
             assert.equal(early, 0);
             assert.ok(Number(seen.blocks) > 0 && Number(seen.bytes) > 0 && Number(seen.kept) > 1);
@@ -211,7 +211,6 @@ describe(
                         expected.filter((type) => type === "header" || type === "frame"),
                     );
                 assert.equal(pictures.heard.filter((type) => type === "begun").length, 1);
-                assert.ok(pictures.heard.includes("grown"));
             });
         }
 
