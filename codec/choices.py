@@ -1,6 +1,5 @@
 """Choices that go by a name, and options with a range."""
 
-import difflib
 import types
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
@@ -26,6 +25,8 @@ def suggestion(word: str, known: Iterable[str]) -> str:
     names = list(known)
     # The beginning of a single name is meant, even if another name is more alike by letters.
     begun = [name for name in names if name.startswith(word)]
+    import difflib  # for errors only
+
     found = begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=0.6)
     return f"; did you mean {found[0]}?" if found else ""
 

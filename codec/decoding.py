@@ -10,8 +10,7 @@ import numpy.typing as npt
 
 from bsm._core import Decoder as Engine
 from bsm._core import DecoderState
-from bsm.bitstream.container.header import Header, values_of
-from bsm.bitstream.container.packets import MetadataValue
+from bsm.bitstream.container.header import Header, MetadataValue, values_of
 from bsm.bitstream.container.wire import PREAMBLE_BYTES
 from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, OptionError, UnsupportedError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits

@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 from bsm._core.bitstream import fields as table_of
 
 Kind: TypeAlias = type[Any]
+MetadataValue: TypeAlias = str | int | float | bytes
 MOST_GRID = 2**20 - 1
 MOST_ATTRIBUTES = 255
 # The table itself is in C, for the decoder is the judge of what a header may hold. Python reads it and has no copy.

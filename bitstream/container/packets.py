@@ -11,12 +11,10 @@ import numpy as np
 from bsm.bitstream.container import wire
 from bsm.bitstream.container.header import Declaration as Declaration
 from bsm.bitstream.container.header import Header as Header
-from bsm.bitstream.container.header import entries_of
+from bsm.bitstream.container.header import MetadataValue, entries_of
 from bsm.bitstream.container.wire import MAX_ENTRIES, FrameType, write_frame, write_map, write_preamble, write_varint
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS
-
-MetadataValue: TypeAlias = str | int | float | bytes
 
 
 @dataclass(frozen=True)

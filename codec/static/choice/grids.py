@@ -95,8 +95,8 @@ def made_on(positions: Matrix, within: float) -> float | None:
     extent = float(extent_of(positions).max())
     noise = max(4.0 * float(np.spacing(np.float32(np.abs(positions).max()))), within) / extent
     for some in (positions[:: 1 + len(positions) // SAMPLE], positions):
-        values = np.unique((some - some.min(axis=0)) / extent)
-        values = values[values > noise]
+        values = np.sort((some - some.min(axis=0)) / extent, axis=None)  # np.unique would load numpy.ma
+        values = values[np.append(values[1:] != values[:-1], True) & (values > noise)]
         step = reach = float(values.min(initial=math.inf))
         while len(values) and reach < 4.0 * values[-1]:
             near = values[values <= reach]

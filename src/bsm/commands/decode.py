@@ -21,15 +21,12 @@ from bsm.files.images import is_link, with_linked_images
 from bsm.files.inspection import inspect_stream
 from bsm.files.libraries import as_decoded
 from bsm.files.mesh import save_written, unheard, unknown_suffix, written_mesh
-from bsm.files.motion.folder import is_numbered, mesh_files, names_many
-from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, no_link, output_inside, refuse_collisions, refuse_to_overwrite
 from bsm.files.parsing import PRECISION
 from bsm.files.partial import decode_blocks, decode_what_is_left
 from bsm.files.pipes import about, read_chunks, size_of
-from bsm.files.sequence import SEQUENCE_FORMATS, sequence_kind, sequence_writer
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
-from bsm.files.table import MESH_SUFFIXES, ONE_FILE, WRITTEN_FORMATS, by_name, format_of_name
+from bsm.files.table import MESH_SUFFIXES, ONE_FILE, SEQUENCE_FORMATS, WRITTEN_FORMATS, by_name, format_of_name
 from bsm.ground.console import Console, printable
 from bsm.ground.lengths import known_unit, metres, unit_of
 from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees
@@ -226,6 +223,10 @@ def _saved(
 
 def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) -> Facts:
     """Decode one sequence; write each frame as soon as it is decoded."""
+    from bsm.files.motion.folder import mesh_files, names_many  # modules that meshes do without
+    from bsm.files.motion.frames import Shared, describe_runs
+    from bsm.files.sequence import sequence_kind, sequence_writer
+
     if args.blocks is not None or args.layers is not None:
         raise OptionError("--blocks and --layers are for single meshes; this is a sequence")
     output, (first, last) = _sequence_output(args), _range(args.frames)
@@ -280,6 +281,8 @@ def _opened(args: DecodeJob, console: Console, chunks: Iterator[bytes], start: i
 
 
 def _is_of_one_frame(output: str, file_format: str | None) -> bool:
+    from bsm.files.motion.folder import is_numbered
+
     kind = file_format or format_of_name(output)
     return kind in WRITTEN_FORMATS and kind not in ONE_FILE and not is_numbered(output) and not Path(output).is_dir()
 

@@ -14,8 +14,15 @@ from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name, look_like_frames
 from bsm.files.output import refuse_collisions
 from bsm.files.pipes import is_url
-from bsm.files.sequence import SEQUENCE_FORMATS
-from bsm.files.table import FORMATS, GLTF, MESH_SUFFIXES, SEQUENCES_READ, WRITTEN_FORMATS, format_of_name
+from bsm.files.table import (
+    FORMATS,
+    GLTF,
+    MESH_SUFFIXES,
+    SEQUENCE_FORMATS,
+    SEQUENCES_READ,
+    WRITTEN_FORMATS,
+    format_of_name,
+)
 from bsm.ground.console import Console
 from bsm.jobs.encode import EncodeJob, encode_one, shared_images
 from bsm.jobs.plan import plan, plan_trees

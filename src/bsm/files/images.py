@@ -4,7 +4,6 @@ import io
 import re
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from hashlib import sha256
 from pathlib import Path, PurePath
 from typing import Any, Self
 
@@ -115,6 +114,8 @@ def largest_side(metadata: Metadata) -> int:
 
 
 def _digest(data: bytes) -> str:
+    from hashlib import sha256  # which loads OpenSSL
+
     # Half of it, 128 bits: names stay short, and equal names of two images are still out of reach.
     return sha256(data).hexdigest()[:32]
 

@@ -8,8 +8,7 @@ from itertools import chain
 import numpy as np
 
 from bsm._core import Decoder, SkimmedPacket
-from bsm.bitstream.container.header import Header, values_of
-from bsm.bitstream.container.packets import MetadataValue
+from bsm.bitstream.container.header import Header, MetadataValue, values_of
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import DOMAINS, KINDS, SEMANTICS

@@ -1,5 +1,6 @@
 """What other libraries call a mesh, as ours."""
 
+import importlib
 import os
 import sys
 import warnings
@@ -16,10 +17,8 @@ from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.arrays import as_array
 from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files.formats.cells import columns_of, of_meshio
 from bsm.files.formats.metadata import plain_fields
 from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, compact, named_column
-from bsm.files.formats.with_trimesh import joined, polygons_of
 from bsm.files.images import with_linked_images
 from bsm.files.mesh import read_mesh
 from bsm.files.parsing import Ints, ranges
@@ -143,6 +142,8 @@ def _split(flat: Ints) -> tuple[Ints, Ints]:
 
 
 def _of_pyvista(mesh: Any) -> Polygons:
+    from bsm.files.formats.cells import columns_of
+
     left = {name: None for name in ("verts", "lines", "strips") if getattr(mesh, f"n_{name}")}
     first, last = mesh.n_verts + mesh.n_lines, mesh.n_cells - mesh.n_strips  # cells are points and lines, too
     cells = {name: values[first:last] for name, values in mesh.cell_data.items()}
@@ -194,11 +195,16 @@ def _shown(*given: tuple[Semantic, Domain, Any]) -> list[Column]:
     return [named_column(meaning, compact(table), domain, meaning) for meaning, domain, table in tables if table.size]
 
 
+def _by(module: str, name: str) -> Callable[[Any], Polygons]:
+    """A reader of a module of formats, which is loaded when a mesh needs it."""
+    return lambda mesh: getattr(importlib.import_module(f"bsm.files.formats.{module}"), name)(mesh)
+
+
 _LIBRARIES: tuple[tuple[str, str, Callable[[Any], Polygons]], ...] = (
-    ("visual", "vertex_attributes", polygons_of),
+    ("visual", "vertex_attributes", _by("with_trimesh", "polygons_of")),
     ("fv_indices", "halfedge_to_vertex_indices", _of_openmesh),
-    ("graph", "geometry", lambda scene: joined(scene, DEFAULT_LIMITS)),
-    ("cells", "cell_sets", of_meshio),
+    ("graph", "geometry", _by("with_trimesh", "joined")),
+    ("cells", "cell_sets", _by("cells", "of_meshio")),
     ("point_data", "n_lines", _of_pyvista),
     ("triangle_uvs", "vertex_colors", _of_open3d),
 )

@@ -29,12 +29,20 @@ from bsm.files.motion.caches import CACHES, mesh_beside, mesh_of, read_cache, wr
 from bsm.files.motion.frames import USUAL_RATE, Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
 from bsm.files.pipes import Input, Source, as_input, files_behind, is_pipe, is_url, size_of
-from bsm.files.table import FORMATS, GLTF, ONE_FILE, RATE, SEQUENCES_READ, TIMES, WRITTEN_FORMATS, by_name
+from bsm.files.table import (
+    FORMATS,
+    GLTF,
+    ONE_FILE,
+    RATE,
+    SEQUENCE_FORMATS,
+    SEQUENCES_READ,
+    TIMES,
+    WRITTEN_FORMATS,
+    by_name,
+)
 
 _ISOLATED = ("bsm.files.isolation", "frames_isolated")  # it loads this module
 ZIP = b"PK\x03\x04"
-SEQUENCE_FORMATS = (*ONE_FILE, *(name for name in WRITTEN_FORMATS if name not in ONE_FILE))
-"""What `bsm decode` can make of a sequence; a form of a mesh is a file for each frame."""
 
 
 def open_sequence(

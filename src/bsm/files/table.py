@@ -113,6 +113,8 @@ MESH_FORMATS = tuple(kind for kind, row in FORMATS.items() if row.own and row.re
 WRITTEN_FORMATS = tuple(sorted(kind for kind, row in FORMATS.items() if row.writer))
 SEQUENCES_READ, ONE_FILE = (tuple(kind for kind, row in FORMATS.items() if how in row.frames) for how in "rw")
 """Formats whose files hold a whole sequence, in and out."""
+SEQUENCE_FORMATS = (*ONE_FILE, *(name for name in WRITTEN_FORMATS if name not in ONE_FILE))
+"""What `bsm decode` can make of a sequence; a form of a mesh is a file for each frame."""
 MESH_SUFFIXES = tuple(f".{kind}" for kind, row in FORMATS.items() if row.reader and kind not in USD_FORMATS)
 """Suffixes of the mesh files that are found in folders and by patterns."""
 

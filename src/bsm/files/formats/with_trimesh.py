@@ -22,7 +22,7 @@ _OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "
 """Metadata that trimesh has added."""
 
 
-def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:
+def joined(scene: Any, limits: Limits = DEFAULT_LIMITS, received: int = 1 << 62) -> Polygons:
     """Join the surfaces of a scene, each as often and where the scene places it; `received` is the size of the file."""
     order = {name: place for place, name in enumerate(scene.geometry)}  # that of the file; the graph has none
     places = sorted((scene.graph[node] for node in scene.graph.nodes_geometry), key=lambda place: order[place[1]])

@@ -22,7 +22,6 @@ from bsm.codec.sequence.runs import EMPTY, SHOWN, can_move, empty_frame, is_empt
 from bsm.files.conventions import TIME_VALUE
 from bsm.files.formats.metadata import Written
 from bsm.files.formats.polygons import CutAlike, MeshFile, Polygons
-from bsm.files.formats.vtp import elements_of
 from bsm.files.mesh import read_cut, save_written, written_mesh
 from bsm.files.motion.frames import Frames, Wanted, rate_of_times, timing_of
 from bsm.files.pipes import about, file_beside, is_pipe, is_url
@@ -287,6 +286,8 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
         if kind == "series":
             rows = [(float(entry["time"]), str(entry["name"])) for entry in json.loads(data)["files"]]
         else:
+            from bsm.files.formats.vtp import elements_of  # which loads a parser of XML
+
             found = (element.attrib for element in elements_of(data) if element.tag == "DataSet")
             rows = [(float(entry.get("timestep", 0.0)), entry["file"]) for entry in found]
         if not all(math.isfinite(time) for time, _ in rows):
