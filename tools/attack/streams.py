@@ -22,9 +22,11 @@ from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.attributes.encoding import Surface, carry, field_of, write_values
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.ways.grid import levels_field
+from bsm.codec.static.ways.in_cells import Spread
 from tools.gridded import gridded
 from tools.payloads import still_levels
-from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
+from tools.surgery import Frames, first_entries, frames_of, header_entries, header_frame, stream_of, with_header
+from tools.vectors.good_base import based
 from tools.vectors.meshes import torus
 
 Faces = npt.NDArray[np.int32]
@@ -185,6 +187,13 @@ def _layers(rows: int, columns: int, chunk: int) -> bytes:
         place = write_varint(first) + write_varint(count)
         frames.append((FrameType.REFINEMENT, place + encoder.write(count)[0]))
     return stream_of(frames)
+
+
+def _cells(rows: int, columns: int, reach: int) -> bytes:
+    """A layer on cells, whose places are spread as often as they may be."""
+    stream = based(torus(rows, columns), Spread(reach), 0.01)
+    cells, _, _, halvings = first_entries(stream)[HEADER_FIELDS["base"].key]
+    return with_header(stream, base=[cells, reach, 64, halvings])
 
 
 def _copies(rows: int, columns: int, count: int) -> bytes:
@@ -488,6 +497,8 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     # Vertices with very many corners, by the small model
     "light-repeated": lambda: _grid(("repeated", 15000), 1, light=1),
     "layers": lambda: _layers(512, 512, 1 << 15),  # a layer
+    "cells": lambda: _cells(400, 400, 1),  # a layer on nearly as many cells as there may be, spread 64 times
+    "cells-far": lambda: _cells(400, 400, 8),  # the same on few cells
     "layers-chunks": lambda: _layers(50, 50, 1),  # the same, vertex by vertex
     "metadata": lambda: _metadata(256),  # 256 names and 100,000 frames to skip
     "metadata-long": lambda: _long_metadata(256, 32000),  # eight MiB of metadata
