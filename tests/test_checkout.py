@@ -1,5 +1,6 @@
 """A checkout without symbolic links, as git makes it on Windows, builds a package that has everything."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -32,7 +33,7 @@ def checkout(tmp_path_factory):
 def wheel_of(checkout, output, *settings):
     given = [word for setting in settings for word in ("-C", setting)]
     command = [sys.executable, "-m", "pip", "wheel", "-q", "--no-build-isolation", "--no-deps", *given, "-w", output]
-    subprocess.run([*command, checkout], check=True)
+    subprocess.run([*command, checkout], check=True, env={**os.environ, "SOURCE_DATE_EPOCH": "1700000000"})
     (wheel,) = output.iterdir()
     return wheel
 
