@@ -59,9 +59,8 @@ def read_vtk(path: str, kind: str, limits: Limits, step: int = 0) -> tuple[Polyg
         reader.Update()
         data, words = reader.GetOutputDataObject(0), _SAID.split(said.GetOutput())
         if "ERROR" in words or data is None:
-            raise FormatError(
-                " ".join(words[words.index("ERROR") + 1].split()) if "ERROR" in words else "there is none"
-            )
+            why = words[words.index("ERROR") + 1] if "ERROR" in words else "there is nothing in it"
+            raise FormatError(f"VTK cannot read this file, or one that it names: {' '.join(why.split())}")
         left = dict.fromkeys(" ".join(text.split()) for text in words[2::2])
         leaves = [*_leaves(data, "")]
         parts = [part for leaf, name in leaves if (part := _part(leaf, name, left)) is not None]
