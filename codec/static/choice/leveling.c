@@ -1,13 +1,13 @@
 /* Levels of cells, chosen together. Encoder only: decoders see levels.
  *
- * Vertices see cells only smoothed (M 18.7): the errors of neighboring cells cancel where their signs differ, and add up
- * where they agree, so that rounding is not best. Let H = F^T F + BENT K^T K, as fitting.c has it: an error e of the
+ * Vertices see cells only smoothed (M 18.7): the errors of neighboring cells cancel where their signs differ, and add
+ * up where they agree, so that rounding is not best. Let H = F^T F + BENT K^T K, as fitting.c has it: an error e of the
  * cells costs e^T H e. Coordinate descent, cell after cell and axis after axis, takes the level that costs least beside
  * the errors of the others, and its bits. With steps twice as wide as if levels were rounded, vertices come as near.
  *
- * H has a row for each cell, of those within about four cells. A column of F is found by smoothing a cell alone. What is
- * small is dropped from it in every round; since the rows of F add up to 1, few columns reach any vertex, and the work
- * is linear. */
+ * H has a row for each cell, of those within about four cells. A column of F is found by smoothing a cell alone. Small
+ * entries are dropped from it in every round; since the rows of F add up to 1, few columns reach any vertex, and the
+ * work is linear. */
 #include "codec/geometry/geometry.h"
 #include "codec/static/choice/choice.h"
 

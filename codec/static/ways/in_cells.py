@@ -21,6 +21,7 @@ from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
 
 BLOCK, OVERLAP = 450, 1.0
 """CellMesh of a block: fewer take more bytes, more take decoders longer; and how far blocks are grown."""
+CHAIN = 4  # blocks that depend on each other: a lost one loses at most so many, or about 16,000 vertices
 RATIO = 3.0  # of the steps of cells along tangents, over those along normals
 FARTHEST, LEAST = 2.0**18, 1e-9  # steps that levels may be away, and bends of surfaces some more; and places may be
 APART = 1.67  # steps of cells that may be best, over the usual one, up and down: one or two powers of two
@@ -64,7 +65,8 @@ class InCells:
     parts = Parts(BLOCK, OVERLAP)
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float, spread: Spread) -> None:
-        self._prepared, self._options, self._widest, self._spread = prepared, options, widest, spread
+        self._prepared, self._widest, self._spread = prepared, widest, spread
+        self._options = replace(options, key_interval=min(options.key_interval, CHAIN))
 
     @cached_property
     def cells(self) -> CellMesh:

@@ -69,6 +69,19 @@ def test_damage_is_bounded_and_named(kind: FrameType, which: int) -> None:
     assert np.abs(shown - whole.positions)[~missing].max(initial=0.0) < 1.0  # of 2.7
 
 
+def test_a_lost_block_loses_no_more_than_its_chain() -> None:
+    bare = torus(260, 200)
+    noise = np.random.default_rng(2).normal(scale=1e-3, size=bare.positions.shape)
+    data = encode(TriangleMesh(bare.positions + noise, bare.faces), threads=1)
+    first = next(span for span in spans_of(data) if span.type == FrameType.BLOCK)
+    damaged = bytearray(data)
+    damaged[first.offset + first.length // 2] ^= 255
+    events = events_of(bytes(damaged), tolerant=True)
+    header, end = events[0].header, events[-1]
+    assert header.blocks > 12 and header.key_interval <= 4
+    assert 0 < len(end.losses.missing) < 0.4 * header.vertices
+
+
 def test_another_number_of_cells_is_refused() -> None:
     base = events_of(stream())[0].header.base
     with pytest.raises(ValueError, match="cells where the header has"):
