@@ -138,9 +138,9 @@ static bool smooth_some(bsmdec *decoder, ConstInts vertices, Doubles2 smoothed) 
         return false;
     filter_polynomial(decoder->mesh.header.smoothing, powers);
     for (int64_t i = 0; i < count; i++) changes->number.data[changes->ringed.data[i]] = (int32_t)i;
-    filter_rows(graph->offsets, graph->neighbors, const_ints(changes->number), const_doubles2(changes->blended),
-        (ConstDoubles){powers, POWERS}, (ConstInts){changes->ringed.data, count},
-        (ConstLongs){starts.data, starts.size}, current, following, smoothed);
+    Rings rings = {const_ints(changes->number), {changes->ringed.data, count}, {starts.data, starts.size}};
+    filter_rows(graph->offsets, graph->neighbors, rings, const_doubles2(changes->blended),
+        (ConstDoubles){powers, POWERS}, current, following, smoothed);
     forget_rings(changes, count);
     return true;
 }

@@ -143,8 +143,14 @@ INLINE int64_t magnitude_at(const int32_t *data, int64_t rows, int64_t columns, 
 }
 
 extern INSIDE const BankPlan MATRIX_BANK;
-void code_matrix(RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
-    int64_t stair, int64_t bend, int64_t few, Longs slow);
+/* Where levels are: in `rows`, of the first `lead` columns, of each next one `stair` more, and from row `bend` on of no
+ * more than `few` (S 4.2). */
+typedef struct {
+    int64_t rows, lead, stair, bend, few;
+} Stairs;
+
+void code_matrix(
+    RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInts2 reference, const Stairs *stairs, Longs slow);
 
 /* Choosing levels. See nearest.c. */
 enum { TARGET_UNIT = 256 }; /* targets are in 1 / TARGET_UNIT of a step */

@@ -32,12 +32,16 @@ INLINE int64_t sum_of(const int32_t *data, int64_t rows, int64_t columns, int64_
     return sum;
 }
 
+/* The place of a row as a context, and its set of weights (S 4.2). */
+INLINE int64_t row_place(int64_t j) { return j < 20 ? j : least(PLACES - 1, 20 + (j - 20) / 8); }
+INLINE int64_t row_weights(int64_t j) { return SPAN * (j == 0 ? 0 : j < 12 ? 1 : 2); }
+
 INLINE int zero_node(int grid) { return grid ? OTHER_ZERO : 0; }
 INLINE int one_node(int grid) { return grid ? OTHER_ONE : 2; }
 
 /* Code whether row j or a later one has levels (S 4.2); `behind` is the sum of the reference from row j on. */
 INLINE int code_more(RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInts2 reference, int64_t j,
-    int64_t behind, int64_t place, int64_t selector, int more) {
+    int64_t behind, int more) {
     int64_t lately = class_of(sum_of(levels.data, levels.rows, levels.columns, j - TOGETHER, j));
     int64_t next = class_of(sum_of(reference.data, reference.rows, reference.columns, j, j + TOGETHER));
     int64_t left = class_of(behind);
@@ -47,9 +51,9 @@ INLINE int code_more(RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInt
         2 * TABLE + SPAN * (CLASSES * left + lately),
         3 * TABLE + SPAN * (CLASSES * left + next),
         4 * TABLE + SPAN * (CLASSES * next + lately),
-        5 * TABLE + SPAN * (PLACES * left + place),
+        5 * TABLE + SPAN * (PLACES * left + row_place(j)),
     };
-    return code_mixed_bit(coder, bank, INPUTS, contexts, MORE, selector, more);
+    return code_mixed_bit(coder, bank, INPUTS, contexts, MORE, row_weights(j), more);
 }
 
 /* Code one level of a grid (S 4.2). */
@@ -65,11 +69,10 @@ INLINE int32_t code_level(
     return (int32_t)(negative ? -magnitude : magnitude);
 }
 
-/* Code rows, as many together as it takes to reach the last of `rows`. Of the first row `lead` columns are coded, of
- * each next one `stair` more; if row `bend` is coded, also how many columns, `few`, it and the following ones have (S
- * 4.2). The others are 0. `slow` is scratch, an entry a column. */
-void code_matrix(RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
-    int64_t stair, int64_t bend, int64_t few, Longs slow) {
+/* Code rows, as many together as it takes to reach the last one with levels; `few` is only coded with row `bend`. What
+ * is not coded is 0. `slow` is scratch, an entry a column. */
+void code_matrix(
+    RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInts2 reference, const Stairs *stairs, Longs slow) {
     int64_t columns = levels.columns;
     for (int64_t i = 0; i < columns; i++) slow.data[i] = 0;
     int64_t behind = sum_of(reference.data, reference.rows, columns, 0, reference.rows), most = columns;
@@ -77,14 +80,14 @@ void code_matrix(RangeCoder *coder, const Bank *bank, Ints2 levels, ConstInts2 r
     for (int64_t j = 0; j < levels.rows && !overran(coder); j++) {
 #define A(row, column) magnitude_at(levels.data, levels.rows, columns, row, column)
 #define B(row, column) magnitude_at(reference.data, reference.rows, columns, row, column)
-        int64_t band = octave(j), selector = SPAN * (j == 0 ? 0 : j < 12 ? 1 : 2), mean = 0;
-        int64_t place = j < 20 ? j : least(PLACES - 1, 20 + (j - 20) / 8), whole = least(columns, lead + stair * j);
+        int64_t band = octave(j), selector = row_weights(j), mean = 0, place = row_place(j);
+        int64_t whole = least(columns, stairs->lead + stairs->stair * j);
         if (j % TOGETHER == 0) {
-            int more = code_more(coder, bank, levels, reference, j, behind, place, selector, j < rows);
+            int more = code_more(coder, bank, levels, reference, j, behind, j < stairs->rows);
             behind -= sum_of(reference.data, reference.rows, columns, j, j + TOGETHER);
             if (!more) break;
         }
-        if (j == bend) most = code_uniform(coder, few, columns + 1);
+        if (j == stairs->bend) most = code_uniform(coder, stairs->few, columns + 1);
         int64_t end = least(whole, most);
         for (int64_t i = 0; i < end; i++) {
             int64_t above = 2 * A(j - 1, i) + A(j - 2, i) + A(j - 3, i);

@@ -34,7 +34,8 @@ static bool code_column(Coding *coding, Arena *scratch, Ints values, int64_t use
     Longs slow;
     if (!make_bank(scratch, MATRIX_BANK, &bank) || !take_longs(scratch, 1, &slow)) return false;
     Ints2 column = {values.data, values.size, 1};
-    code_matrix(&coding->coder, &bank, column, (ConstInts2){values.data, 0, 1}, used, 1, 0, values.size, 1, slow);
+    Stairs stairs = {used, 1, 0, values.size, 1};
+    code_matrix(&coding->coder, &bank, column, (ConstInts2){values.data, 0, 1}, &stairs, slow);
     return !overran(&coding->coder) || nonsense(coding, "");
 }
 

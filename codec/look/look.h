@@ -10,6 +10,14 @@ typedef struct {
     int64_t most;
 } Shading;
 
+/* `farthest` has a number for each tile of the picture. `owner` gets the face that each pixel shows, or -1, if it has
+ * any rows. Outside of `drawn` (its first row, the one after its last, and columns), `depth` and `picture` are empty. */
+typedef struct {
+    Singles2 depth, farthest, picture;
+    Ints2 owner;
+    Ints drawn;
+} Canvas;
+
 /* Whether all numbers are from 0 to below `limit`; without a branch, so that many are looked at at once. */
 INLINE bool all_below(const int32_t *numbers, int64_t count, int64_t limit) {
     int32_t outside = 0, last = (int32_t)least(limit - 1, INT32_MAX);
@@ -23,7 +31,7 @@ int64_t contrast(ConstSingles2 first, ConstSingles2 second, ConstSingles half, d
 int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 joined, Lists around, Shading shading,
     Doubles2 crosses, Singles2 normals);
 int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
-    Doubles2 placed, Ints away, Singles2 depth, Singles2 farthest, Singles2 picture, Ints2 owner, Ints drawn);
+    Doubles2 placed, Ints away, Canvas on);
 int64_t paint_colors(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,
     ConstSingles2 picture, Singles2 painted);
 int64_t paint_checker(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,

@@ -94,8 +94,8 @@ class Canvas:
         """Draw a mesh, lit alike on both sides; if `owned`, `owner` is the face that each sample shows, or -1."""
         self._placed = np.empty(positions.shape)
         self.owner = np.empty(self.samples.shape if owned else (0, 0), np.int32)
-        room = self._placed, np.empty(len(faces), np.int32), self._depth, self._tiles
-        _kernels.draw_shaded(positions, faces, normals, camera, *room, self.samples, self.owner, self._drawn)
+        room, on = np.empty(len(faces), np.int32), (self._depth, self._tiles, self.samples, self.owner, self._drawn)
+        _kernels.draw_shaded(positions, faces, normals, camera, self._placed, room, on)
         return averaged(self.samples)
 
     def in_colors(self, faces: Faces, colors: Matrix) -> list[Picture]:

@@ -77,11 +77,6 @@ INLINE bool hidden(Face face, ConstSingles2 farthest) {
     return behind;
 }
 
-typedef struct {
-    Singles2 depth, picture;
-    Ints2 owner;
-} Canvas;
-
 /* Faces side by side: their edges from the upper ends, so that faces on both sides of one cross each row at the same
  * place, and the rows and columns that they have pixels in. */
 typedef struct {
@@ -292,15 +287,15 @@ INLINE void find_farthest(Singles2 depth, const int32_t *drawn, Singles2 farthes
 }
 
 /* `camera` takes a position to column, row and depth (larger is nearer), four numbers each, and holds the light; of
- * faces about as near, the brightest is shown. `placed` is room for all positions, `away` for all faces, `depth` for a
- * picture, `farthest` for one number of each tile. `owner` gets the face that each pixel shows, or -1, if it has any
- * rows. Outside of `drawn` (its first row, the one after its last, and columns), `depth` and `picture` are empty.
+ * faces about as near, the brightest is shown. `placed` is room for all positions, `away` for all faces.
  *
  * Of a closed surface one half faces the camera, and hides the other: that half comes first, and most of the other one
  * need not be drawn. */
 KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
-                           Doubles2 placed, Ints away, Singles2 depth, Singles2 farthest, Singles2 picture,
-                           Ints2 owner, Ints drawn) {
+                           Doubles2 placed, Ints away, Canvas on) {
+    Singles2 depth = on.depth, farthest = on.farthest, picture = on.picture;
+    Ints2 owner = on.owner;
+    Ints drawn = on.drawn;
     int64_t pixels = picture.rows * picture.columns;
     if (positions.columns != 3 || placed.columns != 3 || placed.rows < positions.rows || faces.columns != 3 ||
         away.size < faces.rows || normals.columns != 9 || normals.rows < faces.rows || camera.size != CAMERA ||
@@ -338,7 +333,6 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
         ahead += face.area * (face.a[2] + face.b[2] + face.c[2]);
     }
     ConstSingles2 behind = {farthest.data, farthest.rows, farthest.columns};
-    Canvas on = {depth, picture, owner};
     int32_t numbers[LANES] = {0};
     int64_t count = 0, others = 0;
     for (int pass = 0; pass < 2; pass++) {

@@ -207,10 +207,9 @@ static bool code_matrices(Context *context, const Bank *bank, Span payload, cons
         int64_t few = 0, bend = (m->rows + 1) / 2, coded = CHOOSES ? find_levels(const_ints2(levels), 0, &few) : 0;
         if (CHOOSES) find_levels(const_ints2(levels), bend, &few);
         if (!room_to_write(&coding, 16 * m->rows * columns + 64)) return false;
-        if (m->lead > 0)
-            code_matrix(&coding.coder, bank, levels, reference, coded, least(m->lead, columns), least(stair, columns),
-                m->rows, columns, slow);
-        else code_matrix(&coding.coder, bank, levels, reference, coded, columns, 0, bend, few, slow);
+        Stairs whole = {coded, columns, 0, bend, few};
+        Stairs cut = {coded, least(m->lead, columns), least(stair, columns), m->rows, columns};
+        code_matrix(&coding.coder, bank, levels, reference, m->lead > 0 ? &cut : &whole, slow);
     }
     return finish_coding(&coding);
 }

@@ -5,7 +5,6 @@
 #include "codec/signal/signal.h"
 #include "bitstream/payloads/payloads.h"
 
-static const double STIFFNESS = 8; /* half of it costs 1.0 %, twice 1.6 % */
 enum { LEVEL_BYTES = 64 }; /* more than a level can take */
 enum { PRIOR_WEIGHTS = EXPECTATIONS * SITUATIONS * NEIGHBORS, PRIOR_MIXES = SELECTORS * NODES * EXPECTATIONS };
 
@@ -120,8 +119,7 @@ static bool suspend_block(Chains *chains, Arena *scratch, Suspended *block) {
         return false;
     if (chains->knows)
         look_around(chains->graph->offsets, chains->graph->neighbors, patch->vertices, chains->inside,
-            const_doubles2(chains->known.sums), const_doubles(chains->known.weights), STIFFNESS, block->springs,
-            block->pulls);
+            const_doubles2(chains->known.sums), const_doubles(chains->known.weights), block->springs, block->pulls);
     if (!factorize_patch(patch, const_doubles(block->springs), chains->header->paper.shift, scratch, &block->factor))
         return false;
     continue_known(patch->fronts, block->factor.values, const_singles(block->factor.inverse),

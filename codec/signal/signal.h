@@ -10,7 +10,7 @@ typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_ali
 void ISA(project)(ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients);
 void ISA(reconstruct)(ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values);
 void look_around(ConstInts offsets, ConstInts neighbors, ConstInts vertices, Bytes inside, ConstDoubles2 sums,
-                 ConstDoubles weights, double stiffness, Doubles springs, Doubles2 pulls);
+                 ConstDoubles weights, Doubles springs, Doubles2 pulls);
 void continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles springs, ConstDoubles2 pulls,
     Singles scratch, Doubles2 continued);
 void place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step,
@@ -25,8 +25,14 @@ int64_t prolong(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstDoub
 enum { DEGREE = 5, POWERS = DEGREE - 1 };
 void filter_polynomial(double amount, double *powers);
 int64_t find_rings(ConstInts offsets, ConstInts neighbors, Ints number, ConstInts vertices, Ints rows, Longs starts);
-void filter_rows(ConstInts offsets, ConstInts neighbors, ConstInts number, ConstDoubles2 positions,
-    ConstDoubles weights, ConstInts rows, ConstLongs starts, Doubles2 current, Doubles2 following, Doubles2 smoothed);
+/* Rows of vertices, ring by ring around the first of them, where each ring begins, and the rows of all vertices. */
+typedef struct {
+    ConstInts number, rows;
+    ConstLongs starts;
+} Rings;
+
+void filter_rows(ConstInts offsets, ConstInts neighbors, Rings rings, ConstDoubles2 positions, ConstDoubles weights,
+    Doubles2 current, Doubles2 following, Doubles2 smoothed);
 int64_t local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2 frames);
 int64_t tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double step, double ratio, Doubles2 scratch,
                       Doubles steps);

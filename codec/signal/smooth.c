@@ -95,19 +95,20 @@ int64_t find_rings(ConstInts offsets, ConstInts neighbors, Ints number, ConstInt
 
 /* The filter on the innermost of the rings `rows`; each power of K is known on one ring less than the last. `current`
  * has a row for each of `rows`, `following` for all but those of the outermost ring. */
-void filter_rows(ConstInts offsets, ConstInts neighbors, ConstInts number, ConstDoubles2 positions,
-    ConstDoubles weights, ConstInts rows, ConstLongs starts, Doubles2 current, Doubles2 following, Doubles2 smoothed) {
-    int64_t degree = starts.size - 1, inner = starts.data[0];
+void filter_rows(ConstInts offsets, ConstInts neighbors, Rings rings, ConstDoubles2 positions, ConstDoubles weights,
+    Doubles2 current, Doubles2 following, Doubles2 smoothed) {
+    ConstInts rows = rings.rows;
+    const int64_t *starts = rings.starts.data, degree = rings.starts.size - 1, inner = starts[0];
     for (int64_t r = 0; r < rows.size; r++)
         for (int d = 0; d < 3; d++) current.data[3 * r + d] = positions.data[3 * (int64_t)rows.data[r] + d];
     for (int64_t i = 0; i < 3 * inner; i++) smoothed.data[i] = current.data[i];
     double *from = current.data, *to = following.data;
     for (int64_t k = 0; k < degree; k++) {
-        for (int64_t r = 0; r < starts.data[degree - 1 - k]; r++) {
+        for (int64_t r = 0; r < starts[degree - 1 - k]; r++) {
             int64_t first = offsets.data[rows.data[r]], last = offsets.data[rows.data[r] + 1];
             double x = 0.0, y = 0.0, z = 0.0;
             for (int64_t i = first; i < last; i++) {
-                const double *beside = from + 3 * (int64_t)number.data[neighbors.data[i]];
+                const double *beside = from + 3 * (int64_t)rings.number.data[neighbors.data[i]];
                 x += beside[0];
                 y += beside[1];
                 z += beside[2];

@@ -20,7 +20,9 @@ class BSMReader(StreamSource):
         """Name the stream."""
         super().SetFileName(name)
 
-    @smproperty.doublevector(name="TimestepValues", information_only="1", si_class="vtkSITimeStepsProperty")  # type: ignore[untyped-decorator]
+    @smproperty.doublevector(  # type: ignore[untyped-decorator]
+        name="TimestepValues", information_only="1", si_class="vtkSITimeStepsProperty"
+    )
     def GetTimestepValues(self) -> list[float] | None:
         """The times of a sequence."""
         return super().GetTimestepValues()

@@ -1,5 +1,5 @@
 /* Fewer triangles: edges that cost least become points, by quadric errors, many of them in each pass. */
-#include "codec/geometry/geometry.h"
+#include "src/bsm/encoding/simplification.h"
 
 enum { TERMS = 10, BUCKETS = 1 << 15, PASSES = 64, TOUCHED = 1, SEAM = 2, FIXED = 4, STEADY = 8 };
 static const double TURN = 0.2; /* The least cosine between what a triangle was and becomes. */
@@ -84,10 +84,14 @@ INLINE bool corners_now(const WorkingMesh *surface, int64_t face, int32_t *corne
     return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
 }
 
-/* Whether the triangles around `a` keep their sides when it goes to `p`; counts those with `b`, and neighbors that have
- * one mark, which get the other. */
+/* Triangles around a vertex with another one and without, and corners that have a mark. */
+typedef struct {
+    int shared, others, common;
+} FanCount;
+
+/* Whether a triangle around `a` turns around when that goes to `p`; corners that have one mark get the other. */
 static bool turns_around(WorkingMesh *surface, int32_t a, int32_t b, const double *p, int32_t had, int32_t given,
-    int *shared, int *others, int *common) {
+    FanCount *found) {
     for (int64_t k = surface->starts[a]; k < surface->starts[a + 1]; k++) {
         int32_t corners[3];
         if (!corners_now(surface, surface->around[k], corners)) continue;
@@ -99,15 +103,15 @@ static bool turns_around(WorkingMesh *surface, int32_t a, int32_t b, const doubl
             if (corner == a) {
                 after[i] = p;
             } else if (corner != b) {
-                *common += surface->marks[corner] == had;
+                found->common += surface->marks[corner] == had;
                 surface->marks[corner] = given;
             }
         }
         if (with) {
-            ++*shared;
+            found->shared++;
             continue;
         }
-        ++*others;
+        found->others++;
         double old[3], new[3];
         cross3(before[0], before[1], before[2], old);
         cross3(after[0], after[1], after[2], new);
@@ -119,12 +123,11 @@ static bool turns_around(WorkingMesh *surface, int32_t a, int32_t b, const doubl
 
 /* Whether an edge of two triangles may become a point: what was a surface is one, and none of it turns around. */
 static bool may_collapse(WorkingMesh *surface, int32_t a, int32_t b, const double *p) {
-    int shared = 0, others = 0, common = 0, none = 0;
+    FanCount of_a = {0}, of_b = {0};
     surface->mark += 2;
-    if (turns_around(surface, a, b, p, -1, surface->mark, &shared, &others, &none)) return false;
-    if (shared != 2) return false;
-    if (turns_around(surface, b, a, p, surface->mark, surface->mark + 1, &none, &others, &common)) return false;
-    return common == 2 && others > 2;
+    if (turns_around(surface, a, b, p, -1, surface->mark, &of_a) || of_a.shared != 2) return false;
+    if (turns_around(surface, b, a, p, surface->mark, surface->mark + 1, &of_b)) return false;
+    return of_b.common == 2 && of_a.others + of_b.others > 2;
 }
 
 /* Whether each wedge of a vertex that goes has one to become at the vertex that stays; if so, notes which. */
@@ -241,13 +244,15 @@ static int64_t drop_faces(WorkingMesh *surface, int64_t count) {
  * stay where they are, and STEADY for all if none may move. Returns how many triangles there are, which stand first;
  * `owners` are what vertices have become. Scratch: quadrics, `ends` and `marks` for each vertex, one more of
  * `starts`, three of `around` for each triangle, `joins` for each wedge, a cost for each edge. */
-int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Doubles2 quadrics, Longs starts,
-                 Ints around, Ints ends, Ints marks, Ints joins, Ints owners, Singles costs, Ints buckets,
-                 int64_t target, double along, double uneven) {
+int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, WorkingRoom room, int64_t target,
+                 double along, double uneven) {
+    Doubles2 quadrics = room.quadrics;
+    Longs starts = room.starts;
+    Ints around = room.around, ends = room.ends, marks = room.marks, joins = room.joins, owners = room.owners;
     int64_t size = positions.rows, count = faces.rows, made = 0;
     if (states.size != size || quadrics.rows != size || quadrics.columns != TERMS || starts.size != size + 1 ||
         around.size < 3 * count || ends.size != size || marks.size != size || owners.size != size ||
-        buckets.size != BUCKETS || positions.columns != 3 || faces.columns != 3 || wedges.rows != count ||
+        room.buckets.size != BUCKETS || positions.columns != 3 || faces.columns != 3 || wedges.rows != count ||
         wedges.columns != 3)
         return MISUSED;
     for (int64_t k = 0; k < 3 * count; k++)
@@ -268,7 +273,7 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Do
             states.data[v] &= ~TOUCHED;
         }
         for (int64_t w = 0; w < joins.size; w++) joins.data[w] = (int32_t)w;
-        made = collapse_edges(&surface, count, (count - target + 2 * part - 1) / (2 * part), costs, buckets);
+        made = collapse_edges(&surface, count, (count - target + 2 * part - 1) / (2 * part), room.costs, room.buckets);
         for (int64_t v = 0; v < size; v++) owners.data[v] = ends.data[owners.data[v]];
         count = drop_faces(&surface, count);
     }

@@ -283,13 +283,14 @@ def collapsed(
         stay[np.bincount(vertices, minlength=count) > 1] |= _SEAM
     moved, left, own = np.array(positions, np.float64), np.array(faces, np.int32), np.array(own, np.int32)
     ends, marks, owners = np.empty((3, count), np.int32)
-    scratch = np.empty((count, _TERMS)), np.empty(count + 1, np.int64), np.empty(sides, np.int32), ends, marks
-    joins = np.empty(int(own.max(initial=-1)) + 1, np.int32)
-    buckets = np.empty(sides // 2, np.float32), np.empty(_BUCKETS, np.int32)
-    size = _kernels.simplify(moved, left, own, stay, *scratch, joins, owners, *buckets, target, *costs)
+    joins, quadrics = np.empty(int(own.max(initial=-1)) + 1, np.int32), np.empty((count, _TERMS))
+    around = np.empty(count + 1, np.int64), np.empty(sides, np.int32)
+    edges = np.empty(sides // 2, np.float32), np.empty(_BUCKETS, np.int32)
+    room = quadrics, *around, ends, marks, joins, owners, *edges
+    size = _kernels.simplify(moved, left, own, stay, room, target, *costs)
     kept, corners, numbers = compact(moved, left[:size])
-    scratch[0][stay & _FIXED > 0] = 0.0
-    return kept, corners, numbers[owners], own[:size], scratch[0][numbers >= 0]
+    quadrics[stay & _FIXED > 0] = 0.0
+    return kept, corners, numbers[owners], own[:size], quadrics[numbers >= 0]
 
 
 def compact(rows: npt.NDArray[Any], faces: Faces) -> tuple[npt.NDArray[Any], Faces, Indices]:

@@ -20,7 +20,8 @@ LOCK, NOTE = ".tile.lock", "asked"
 _BEGIN = "({'triangles'"  # of the note of a run
 # Only files with these names are ever removed: the folder is named by the user, and may hold anything.
 _MADE = re.compile(
-    rf"({LOCK}|{NOTE}|plan\.json|tiles\.json|positions|faces|color|normal|cut|codes|outside|texcoord|texture\.\d+|r[0-7]*\.(mesh|bsm|atlas))"
+    rf"({LOCK}|{NOTE}|plan\.json|tiles\.json|positions|faces|color|normal|cut|codes|outside|texcoord|texture\.\d+"
+    r"|r[0-7]*\.(mesh|bsm|atlas))"
     r"|\.(plan|tiles|r[0-7]*)\.(json|mesh|bsm|atlas)\.\w{8}\.part"
 )
 
