@@ -48,6 +48,7 @@ bool code_whole(RangeCoder *coder, Twins *t, const Corners *corners, const Ints2
     int32_t v, const int32_t *base, const int32_t *near, const int32_t *largest) {
     int32_t *x = values->data + AXES * (int64_t)v;
     t->misses = 0;
+    if (!is_reading(coder) && t->wanted) mend_place(corners, *values, t->wanted, largest, v);
     if (t->candidates == 0) return false;
     const Flap *f = around->flap;
     int32_t hits = around->flaps > 0 ? (t->hit[f->a] * 3 + t->hit[f->b]) * 3 + t->hit[f->c] : 0;

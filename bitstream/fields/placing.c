@@ -1,9 +1,9 @@
 /* Where writers put vertices on a grid: faces keep an area, and edges do not fold (encoder only).
  *
- * A vertex that breaks this is put into the cell beside its own that has fewest such faults. While a grid is coded, a
- * vertex goes to the cell of an image, which costs one decision. It does so if it has no more faults there, and stays
- * near the planes of its faces. None comes farther from where it would be than it may. What has no area or is folded in
- * the first place does not count. */
+ * A vertex that breaks this is put into the cell beside its own that has fewest such faults: before a grid is coded,
+ * and again when its turn comes, for others have moved by then. A vertex then goes to the cell of an image, which costs
+ * one decision. It does so if it has no more faults there, and stays near the planes of its faces. None comes farther
+ * from where it would be than it may. What has no area or is folded in the first place does not count. */
 #include "bitstream/fields/fields.h"
 
 enum { AXES = 3, WANTED = 4, FOLD = 256 /* what a folded edge counts */, SWEEPS = 2 };
@@ -119,6 +119,11 @@ static void mend_vertex(const Sides *s, int32_t *place, const int32_t *most, int
         put(best, cell);
     }
     put(place, best);
+}
+
+void mend_place(const Corners *corners, Ints2 places, const double *wanted, const int32_t *most, int32_t v) {
+    Sides s = {corners, places.data, wanted};
+    mend_vertex(&s, places.data + AXES * (int64_t)v, most, v);
 }
 
 void mend_places(const Corners *corners, Ints2 places, const double *wanted, const int32_t *most) {

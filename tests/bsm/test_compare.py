@@ -278,3 +278,13 @@ def test_vertices_that_single_precision_makes_one_are_compared():
     found = bsm.compare(given, bsm.encode(given, preset="lossless"))
     assert 0.0 < found.max_error_relative < 1e-7
     assert found.attributes["color"].max_error == 0
+
+
+def test_the_line_of_encode_counts_faces_without_area_as_compare_does(files, capsys):
+    found = run_json("encode", files / "a.ply", "-o", files / "flat.bsm", "--grid", "3")
+    assert found["flattened"] == run_json("compare", files / "a.ply", files / "flat.bsm")["flattened"] > 0
+    assert main(["encode", str(files / "a.ply"), "-o", str(files / "flat.bsm"), "-f", "--grid", "3"]) == 0
+    assert f", {found['flattened']} triangles flattened by rounding" in capsys.readouterr().err
+    assert run_json("encode", files / "a.ply", "-o", files / "kept.bsm")["flattened"] == 0
+    assert main(["encode", str(files / "a.ply"), "-o", str(files / "kept.bsm"), "-f"]) == 0
+    assert "flattened" not in capsys.readouterr().err

@@ -163,22 +163,30 @@ class Bounds:
     @cached_property
     def first_step(self) -> float:
         """Return a step at which rounding uses up about the whole bound, in BSM units."""
-        step, positions, metric = COARSEST, self.measures.prepared.positions, self.metric
-        for _ in range(3 if metric is None else 0):  # of errors, or of their squares
+        if self.metric is not None:
+            return min(self.usual_step * self.contract.look / self._aim, COARSEST)
+        step, positions = COARSEST, self.measures.prepared.positions
+        for _ in range(3):  # of errors, or of their squares
             step /= math.sqrt(max(*self._measured(np.rint(positions / step) * step), LEAST))
-        if metric is None:
-            return min(step, COARSEST)
-        # From one step for all looks, so that a stricter one begins with a finer step; but a mesh that stands for
-        # another one looks different without any step.
-        aim = self.contract.look if self.measures.shown else 1.0
+        return min(step, COARSEST)
+
+    @cached_property
+    def usual_step(self) -> float:
+        """About the step at which rounding has a look of 1, in BSM units, whatever is promised."""
         step, light = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.measures.prepared.light
-        for _ in range(2):
-            placed = self.measures.prepared.units.back(np.rint(positions / step) * step)
-            wider = aim / max(metric.glance(placed) if light else metric.with_room(placed), LEAST)
+        for _ in range(2 if self.metric is not None else 0):
+            placed = self.measures.prepared.units.back(np.rint(self.measures.prepared.positions / step) * step)
+            wider = self._aim / max(self.metric.glance(placed) if light else self.metric.with_room(placed), LEAST)
             step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
             if 0.5 < wider < 2.0:
                 break
-        return min(step * self.contract.look / aim, COARSEST)
+        return step
+
+    @property
+    def _aim(self) -> float:
+        """From one step for all looks, so that a stricter one begins with a finer step; but a mesh that stands for
+        another one looks different without any step."""
+        return self.contract.look if self.measures.shown else 1.0
 
     @property
     def had(self) -> str:

@@ -20,14 +20,14 @@ FINER = 0.5  # over the step of a grid: vertices that are not rounded are nearer
 
 def transforms_of(prepared: Prepared, grid: Raster) -> Levels:
     """The transforms of a mesh on a grid, shape (k, 8), as they are coded; sought once for like steps."""
-    (turns, shifts, _), origin = _motions(prepared, grid.step, grid.turn), np.array(grid.origin)
+    (turns, shifts, _), origin = motions_of(prepared, grid.step, grid.turn), np.array(grid.origin)
     return coded_transforms(turns, (turns @ origin + shifts - origin) / grid.step, grid.largest)
 
 
 def lattice(prepared: Prepared, origin: Matrix, step: float, least: float, turn: Turn) -> tuple[float, Matrix]:
     """The step of single precision near a wanted one, and the origin, at most a cell lower, for which transforms take
     most places to places: those that exchange axes or turn them back, all at once."""
-    turns, shifts, shares = _motions(prepared, step, turn)
+    turns, shifts, shares = motions_of(prepared, step, turn)
     own = np.abs(turns - np.rint(turns)).max(axis=(1, 2)) * extent_of(prepared.mesh.positions).max() < step / 4.0
     nearness = np.linspace(-0.5, 0.5, 241)
     steps = np.maximum(step * np.exp(SLACK * nearness), least).astype(np.float32).astype(np.float64)
@@ -48,14 +48,15 @@ def lattice(prepared: Prepared, origin: Matrix, step: float, least: float, turn:
     return float(steps[best]), origins[best]
 
 
-def _motions(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Matrix, Matrix]:
+def motions_of(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Matrix, Matrix]:
     """Turns, shape (k, 3, 3), and shifts, shape (k, 3), between parts, in turned axes, and the share of vertices that
-    each takes to others; sought once for like steps."""
-    known = min(prepared.motions, key=lambda other: abs(math.log2(other / step)), default=math.inf)
-    if abs(math.log2(known / step)) > 1.0:  # anew for each step, bytes would jump from one to the next
-        known, cell = step, FINER * step
-        prepared.motions[step] = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
-        prepared.motions[step][:, 9:12] *= cell
+    each takes to others; sought once for like steps, on a ladder from the first step on."""
+    first = next(iter(prepared.motions), step)
+    known = first * 4.0 ** round(math.log(step / first, 4.0))  # for each step, bytes would jump from one to the next
+    if known not in prepared.motions:
+        cell = FINER * known
+        prepared.motions[known] = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
+        prepared.motions[known][:, 9:12] *= cell
     turns, shifts, shares = np.split(prepared.motions[known], [9, 12], axis=1)
     axes = turned_by(np.eye(3), turn) if any(turn) else np.eye(3)
     return axes @ turns.reshape(-1, 3, 3) @ axes.T, shifts @ axes.T, shares[:, 0]

@@ -15,7 +15,7 @@ from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import box_around, extent_of, squares_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
 from bsm.codec.static.choice.bounds import COARSEST, SEEN, SPIKE, Bounds, Trial
-from bsm.codec.static.choice.congruence import lattice, transforms_of
+from bsm.codec.static.choice.congruence import lattice, motions_of, transforms_of
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import SLACK
 from bsm.codec.static.units import single
@@ -145,6 +145,8 @@ class Gridded:
         unit = self._prepared.units.scale
         held, origin = single(max(step, self.least) * unit), self._origin
         if mirrored and may_repeat(self._prepared):
+            if not self._prepared.motions:  # the same ladder for all looks
+                motions_of(self._prepared, self._bounds.usual_step * unit, self.turn)
             held, moved = lattice(self._prepared, origin, held, self.least * unit, self.turn)
             origin = np.array([self._hold(value) for value in moved])
         low = self._prepared.units.into(origin)
@@ -184,11 +186,22 @@ class Gridded:
 
     def repeat(self, first: Trial) -> Trial:
         """Predict by congruent parts from now on if that pays in the first trial; return it so."""
-        if first.congruent.size >= (1.0 - SLACK) * first.draft.size:
-            return first
-        self.repeats = True
-        self.at.cache_clear()
-        return self.at(first.step)
+        prepared = self._prepared
+        if may_repeat(prepared) and len(motions_of(prepared, first.step * prepared.units.scale, self.turn)[0]):
+            self.repeats = True
+            made = self._made(first.step)
+            self.repeats = made.draft.size < (1.0 - SLACK) * first.draft.size
+            if self.repeats:
+                self.at.cache_clear()
+                return made
+        return first
+
+    def usual(self) -> Iterator[Trial]:
+        """The trial with which the search for a look of 1 begins, if that is a stricter one and parts repeat: there,
+        bytes hardly depend on steps, but on luck."""
+        step = self._bounds.usual_step
+        if self.repeats and step < self.first:
+            yield self.at(max(step, self.least))
 
     def made(self) -> Iterator[Trial]:
         """The grids that the mesh was made on, or about, in single precision."""

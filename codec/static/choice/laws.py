@@ -122,7 +122,7 @@ class Hopes:
         low, bound, closed = self.low, self.bound, self.left == 0
         safe = int(np.where(closed, math.inf, np.abs(bound.mean + bound.spread)).argmin())
         if least == math.inf:  # until a bound is kept, nothing else counts
-            at = min(self.coded, default=safe)
+            at = min(self.coded, key=lambda at: abs(at - safe), default=safe)
             return -float(low.mean[at]), at
         chance = np.exp(-np.logaddexp(0.0, bound.mean / bound.spread))
         paid = least - price / np.maximum(chance, LEAST)

@@ -195,6 +195,9 @@ class Search:
         hopes = Hopes(way, steps, taken, Law(steps, first, 0.0, rise, DOUBT, luck))
         if begun:
             hopes.begin(like, size)
+            if isinstance(way, Gridded):
+                for made in way.usual():
+                    hopes.begin(made, aim.bytes(way, made))
         return hopes
 
     def seen(self, draft: Draft) -> str:

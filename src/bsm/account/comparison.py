@@ -259,10 +259,14 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
 def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) -> MeshComparison:
     first, second, faces = paired.original.positions, paired.positions, paired.original.faces
     positions = compare(first, second, faces)  # refuses sizes that overflow below
-    flattened = int((_flat_faces(second, faces) & ~_flat_faces(first, faces)).sum())
     places = [len(first_of(group_rows(np.ascontiguousarray(points, np.float64)))) for points in (first, second)]
-    counts = {"flattened": flattened, "merged": max(0, places[0] - places[1])}
+    counts = {"flattened": flattened(first, second, faces), "merged": max(0, places[0] - places[1])}
     return MeshComparison(**asdict(positions), attributes=compare_attributes(original, decoded, paired), **counts)
+
+
+def flattened(before: Positions, after: Positions, faces: Faces) -> int:
+    """How many faces lose their area."""
+    return int((_flat_faces(after, faces) & ~_flat_faces(before, faces)).sum())
 
 
 def compare_attributes(

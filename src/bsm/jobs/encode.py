@@ -11,7 +11,7 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from bsm.account.comparison import Errors, lost_attributes, worded_errors, write_permutation
+from bsm.account.comparison import Errors, flattened, lost_attributes, worded_errors, write_permutation
 from bsm.account.images import changed, compare_images
 from bsm.bitstream.errors import HarmError, OptionError, counted
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
@@ -228,7 +228,10 @@ def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[s
         facts["faces_before"] = len(found.original.faces)
         return f"{facts['faces_before']} faces before simplifying, surfaces {words} apart where measured", facts
     facts |= {name: finite(getattr(error, name)) for name in ("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db")}
+    mesh = found.encoder.mesh
+    facts["flattened"] = flattened(mesh.positions, found.attempt.draft.decoded, mesh.faces)
     kept = "; all triangles are kept" if simplify else ""
+    kept += f", {counted(triangles=facts['flattened'])} flattened by rounding" if facts["flattened"] else ""
     return f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees{kept}", facts
 
 

@@ -121,7 +121,7 @@ def test_faces_keep_their_areas(options: EncodeOptions) -> None:
 def test_hardly_any_face_of_a_part_loses_its_area(meshes: Path, name: str) -> None:
     mesh = join(read_mesh(meshes / name).mesh.bare, keep=False).mesh
     decoded = decode(encode(mesh))
-    assert lost(decoded) <= lost(mesh) + len(mesh.faces) // 150
+    assert lost(decoded) <= lost(mesh) + len(mesh.faces) // 200
 
 
 def fan(positions: np.ndarray) -> tuple[Field, np.ndarray, np.ndarray]:

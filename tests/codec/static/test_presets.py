@@ -80,8 +80,7 @@ def test_the_best_effort_is_smaller_than_nearby_looks(size: tuple[int, int]) -> 
     mesh = together(one, TriangleMesh(one.positions * (1.0, 1.0, -1.0) + (3.1, 0.123, 0.2), one.faces[:, ::-1]))
     nearby = [replace(BALANCED, look=look) for look in (1.0, 0.999, 0.98, 0.95)]
     usual = [Encoder(mesh, EncodeOptions(contract=contract, threads=1)).draft().size for contract in nearby]
-    # Motions are sought once for steps within an octave: which trial comes first decides a few percent.
-    assert Encoder(mesh, EncodeOptions(effort="best", threads=1)).draft().size <= 1.06 * min(usual)
+    assert Encoder(mesh, EncodeOptions(effort="best", threads=1)).draft().size <= min(usual)
 
 
 @pytest.mark.real
@@ -107,8 +106,6 @@ def test_presets_keep_their_promises_and_finer_ones_are_no_smaller_and_look_no_w
         found = [encoded(mesh, preset) for preset in ORDER]
     except BsmError:
         pytest.skip("no mesh that can be encoded")
-    if name == "assets/stirrer.obj":
-        pytest.xfail("the preset small takes more bytes than balanced: its search stops before vertices go to images")
     for (coarser, seen), (finer, closer) in pairwise(found):
         assert coarser <= JUMPS * finer + FEW, found
         folds = name == "assets/cloth.obj"  # which decide, not the look
