@@ -156,22 +156,6 @@ inline bool label_components(ConstInts offsets, ConstInts neighbors, Ints, Ints)
 inline bool smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2, double, Doubles, Doubles2) {
     return edges(offsets, neighbors);
 }
-inline bool find_cells(ConstInts offsets, ConstInts neighbors, int64_t reach, Bytes far, Ints waiting, Ints own) {
-    int64_t n = offsets.size - 1;
-    return edges(offsets, neighbors) && reach >= 0 && reach < 255 && sized(n, far, waiting, own);
-}
-inline bool link_cells(ConstInts offsets, ConstInts neighbors, ConstInts own, Ints bounds, Ints order, Ints filled,
-    Ints found, Ints links, Ints ends) {
-    int64_t n = offsets.size - 1, cells = links.size - 1;
-    return edges(offsets, neighbors) && sized(n, own, order) && below(own, cells) && bounds.size == cells + 1
-        && filled.size == cells && found.size > neighbors.size && ends.size > neighbors.size;
-}
-inline bool cell_faces(
-    ConstInts2 faces, ConstInts own, Ints counts, Ints2 found, Ints order, Ints sorted, Ints2 kept) {
-    int64_t m = faces.rows;
-    return corners(faces, own.size) && below(own, counts.size - 1) && triples(m, found, kept)
-        && sized(m, order, sorted);
-}
 inline bool prolong(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstDoubles2 places, int64_t, Singles,
     Doubles2) {
     return edges(offsets, neighbors) && below(own, places.rows);

@@ -33,7 +33,7 @@ void bind_codec(nb::module_ &m) {
     GUARDED(filter_normals) GUARDED(describe_faces) GUARDED(reach) GUARDED(face_patches)
     GUARDED(face_geometry) GUARDED(pair_distances) GUARDED(follow_normals)
     GUARDED(cosines) GUARDED(project) GUARDED(reconstruct) CHECKED(show_frames) CHECKED(turn_columns)
-    GUARDED(smooth_all) GUARDED(find_cells) GUARDED(link_cells) GUARDED(cell_faces) GUARDED(prolong) GUARDED(fit_cells)
+    GUARDED(smooth_all) GUARDED(prolong) GUARDED(fit_cells)
     GUARDED(couple_cells) GUARDED(level_cells)
     m.attr("BATCH") = static_cast<int>(BATCH);
     m.attr("LEAST_KEPT") = static_cast<int>(LEAST_KEPT);

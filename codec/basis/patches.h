@@ -41,7 +41,7 @@ typedef struct {
     Ints2 faces;
 } CellMesh;
 
-/* As many cells as the base says, or the context fails. */
+/* As many cells as the base says (0: any number), or the context fails. */
 bool make_cells(Context *context, const Coarse *base, const Graph *graph, ConstInts2 faces, Arena *arena,
     Arena *scratch, CellMesh *cells);
 /* Order the rows of a block of these vertices (M 6), and find what its factorization needs. */

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bsm._core import Cut
 from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Basis, Faces, Indices, Levels, Matrix, Order
@@ -26,20 +27,10 @@ class CellMesh:
 
 def cells_of(graph: Graph, faces: Faces, reach: int) -> CellMesh:
     """Cells of the vertices at most `reach` edges from their centers."""
-    own, waiting = np.empty(graph.size, np.int32), np.empty(graph.size, np.int32)
-    # Distances are below 256, since the reach is a few edges. One byte each keeps them in the cache of the processor.
-    far, ends = np.empty(graph.size, np.uint8), len(graph.neighbors) + 1
-    count = _kernels.find_cells(graph.offsets, graph.neighbors, reach, far, waiting, own)
-    # A graph of cells has at most the edges of the mesh, so this memory is enough for it before its size is known.
-    bounds, links, filled = (np.empty(size, np.int32) for size in (count + 1, count + 1, count))
-    found, linked = np.empty(ends, np.int32), np.empty(ends, np.int32)
-    given = graph.offsets, graph.neighbors, own, bounds, waiting, filled, found, links, linked
-    kept = _kernels.link_cells(*given)
-    triples, rows = np.empty((len(faces), 3), np.int32), np.empty((len(faces), 3), np.int32)
-    order, room = np.empty(len(faces), np.int32), np.empty(len(faces), np.int32)
-    last = _kernels.cell_faces(np.ascontiguousarray(faces, np.int32), own, bounds, triples, order, room, rows)
-    # Copies, so that the buffers of the size of the mesh go.
-    return CellMesh(own, Graph(links, linked[:kept].copy()), rows[:last].copy())
+    own, offsets, neighbors, rows = Cut(graph.offsets, graph.neighbors).cells(
+        np.ascontiguousarray(faces, np.int32), reach
+    )
+    return CellMesh(own, Graph(offsets, neighbors), rows)
 
 
 def prolonged(cells: CellMesh, graph: Graph, places: Matrix, rounds: int) -> Matrix:

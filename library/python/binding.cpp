@@ -641,6 +641,13 @@ class Cut : public Steps {
         return std::make_tuple(copied(grown.cores), copied(grown.starts), copied(grown.edges),
             copied(grown.members));
     }
+    // The cell of each vertex, offsets and neighbors of cells, and their faces.
+    auto cells(ConstInts2 faces, int64_t reach) {
+        GraphCells found;
+        run([&] { return cell_graph(chain, faces, reach, &found); });
+        return std::make_tuple(copied(found.own), copied(found.offsets), copied(found.neighbors),
+            copy_of(found.faces.data, found.faces.rows, 3));
+    }
     // The payload of parts that are numbered by their first vertices.
     nb::bytes write(ConstInts labels, int64_t parts) {
         return written([&](Payload *writing) { return write_labels(chain, labels, parts, writing); });
@@ -724,6 +731,7 @@ NB_MODULE(_core, m) {
             nb::keep_alive<1, 3>())
         .def("labels", in_turn(&Cut::labels), "parts"_a)
         .def("blocks", in_turn(&Cut::blocks), "labels"_a, "parts"_a, "size"_a)
+        .def("cells", in_turn(&Cut::cells), "faces"_a, "reach"_a)
         .def("write", in_turn(&Cut::write), "labels"_a, "parts"_a)
         .def("rows", in_turn(&Cut::rows), "members"_a)
         .def("iterate", in_turn(&Cut::iterate), "shift"_a, "start"_a, "power"_a, "iterations"_a, "apart"_a);

@@ -95,6 +95,19 @@ bool grow_parts(CodedChain *chain, ConstInts labels, int64_t parts, int64_t size
     return true;
 }
 
+bool cell_graph(CodedChain *chain, ConstInts2 faces, int64_t reach, GraphCells *cells) {
+    PayloadWriter *writer = chain->writer;
+    CellMesh found;
+    Coarse base = {.reach = (int)reach};
+    if (faces.columns != 3 || reach < 0 || reach > 8
+        || !are_below(faces.data, 3 * faces.rows, 0, chain->graph.size))
+        return FAIL(&writer->context, MISUSED, "faces do not fit the graph, or cells are too large");
+    if (!make_cells(&writer->context, &base, &chain->graph, faces, &writer->arena, &writer->scratch, &found))
+        return false;
+    *cells = (GraphCells){found.own, found.graph.offsets, found.graph.neighbors, const_ints2(found.faces)};
+    return true;
+}
+
 bool order_rows(CodedChain *chain, ConstInts members) {
     Patch patch;
     if (members.size < 1 || !are_below(members.data, members.size, 0, chain->graph.size))

@@ -22,6 +22,12 @@ typedef struct {
     ConstLongs starts, edges;
 } GrownBlocks;
 bool grow_parts(CodedChain *chain, ConstInts labels, int64_t parts, int64_t size, GrownBlocks *grown);
+/* Cells around centers more than `reach` edges apart: the cell of each vertex, their graph and their faces. */
+typedef struct {
+    ConstInts own, offsets, neighbors;
+    ConstInts2 faces;
+} GraphCells;
+bool cell_graph(CodedChain *chain, ConstInts2 faces, int64_t reach, GraphCells *cells);
 /* The payload of parts that are numbered by their first vertices (C 10). */
 bool write_labels(CodedChain *chain, ConstInts labels, int64_t parts, struct Payload *writing);
 bool order_rows(CodedChain *chain, ConstInts members);
