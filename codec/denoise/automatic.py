@@ -9,7 +9,7 @@ from bsm.bitstream.errors import counted
 from bsm.codec.arrays import Faces, Floats, Mask, Order, Positions
 from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
-from bsm.codec.denoise.filters import BENDS, FINISHES, RAYS, Filter, Filters, Step
+from bsm.codec.denoise.filters import BENDS, RAYS, Filter, Filters, Step
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import put_outliers_back
 from bsm.codec.denoise.noise.search import find_noise
@@ -66,6 +66,7 @@ WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter
 SLIDING = {"heights": "positions"}  # hand-overs that let vertices slide along the surface, for those that do not
 BEGUN, ROUND, CHOSEN = 0.05, 0.2, 0.5  # of all work: before rehearsals, in a round of them, and before the filter
 MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
+SOME_FLAT, MOST_FLAT = 0.2, 0.8  # shares of the faces on planes from which on these count, and networks do not
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
 AS_LARGE = 1.05  # rehearsed error over the change from which on nothing tells noise from shape
 UNPROMISED = 1.2  # rehearsed error over that which the roughness tells, from which on thin parts became worse
@@ -130,7 +131,6 @@ def choose(
         return _by_cause(finding)
     filters = {"view": SEEN, "axis": AXIAL, "fused": FUSED}.get(finding.kind, CANDIDATES)
     learnt = len(positions) <= MOST_TAUGHT or finding.kind not in ("white", "unsteady")
-    finishes = [each for each in FINISHES if each == "none" or (filters is CANDIDATES and (learnt or each == "flat"))]
     members, part = sample(surface.topology.faces, finding.levels)
     chosen = positions
     if len(members) < len(positions):
@@ -142,12 +142,16 @@ def choose(
     known = finding.on(members).reaching(surface.topology, level.slides)
     mesh = surface.filtered(chosen, known)
     rehearsal = Rehearsal(mesh, surface, known, level, filters[0], named("goal", GOALS, goal))
+    flat = mesh.planes(rehearsal.truth.positions).share if finding.kind == "white" else 0.0
+    finishes = ["none", "learnt"] if filters is CANDIDATES and learnt and flat < MOST_FLAT else ["none"]
     winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, BEGUN + ROUND * done))
     steadied = finding.kind == "unsteady"
     if not steadied:
         # The result of some filters is a better guess. A third round would repeat its own mistakes.
         rehearsal.again(winner)
         winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, BEGUN + ROUND * (1.0 + done)))
+    if flat > SOME_FLAT:
+        winner = rehearsal.flattened(winner)
     expected, untreated, reason = winner.error, rehearsal.untreated, finding.reason
     forecast = rehearsal.forecast(winner) if goal == "shading" or not finding.clear else None
     changed, steps = np.inf if steadied else rehearsal.changed(winner), winner.steps
@@ -203,7 +207,6 @@ def treat(
     finding, touched = finding.reaching(surface.topology, choice.noise.slides), finding.levels > 0.0
     filtered = surface.filtered(noisy, finding)
     full = np.where(touched[:, None], filtered.finished(filtered.mean(choice.steps), choice.finish), noisy)
-    full = full if finding.bound is None else finding.bound.within(noisy, full)
     good, reason = judge(noisy, full, finding, surface.probe)
     if reason:
         return noisy, replace(choice, steps=(), reason=reason)

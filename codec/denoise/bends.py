@@ -1,7 +1,7 @@
 """Surfaces of few bends near a measured one: flat regions that long, sharp edges join.
 
-``min sum t |v - v0|^2 + sum w |bend v|^p`` by reweighted least squares: with p = 1 the total variation of the gradient
-(Rudin, Osher, Fatemi 1992), with less of it, nearer to a count of the edges (He and Schaefer 2013), flatter.
+``min sum t |v - v0|^2 + sum w |bend v|`` by reweighted least squares: the total variation of the gradient (Rudin,
+Osher, Fatemi 1992).
 """
 
 import numpy as np
@@ -17,15 +17,15 @@ BEND = 0.02  # change of slope up to which bends are rounded, not sharp
 ROUNDS, STEPS, EXACT, STAND_OUT = 6, 120, 1e-5, 2.0
 
 
-def flattened(given: Positions, places: Positions, topology: Topology, weight: float, power: float) -> Positions:
+def flattened(given: Positions, places: Positions, topology: Topology, weight: float) -> Positions:
     """Positions, shape (n, 3), of fewer bends over the places, shape (n, 3), near the given ones."""
     middle, edge = given.mean(axis=0), mean_edge_length(given, topology.faces) or 1.0
     # In mean edges, since the constants are; and about the middle, so that no digits are lost far from the origin.
-    found = fewer_bends((given - middle) / edge, (places - middle) / edge, topology, weight, power)
+    found = fewer_bends((given - middle) / edge, (places - middle) / edge, topology, weight)
     return np.asarray(middle + edge * found)
 
 
-def fewer_bends(given: Floats, places: Floats, topology: Topology, weight: float, power: float = 1.0) -> Floats:
+def fewer_bends(given: Floats, places: Floats, topology: Topology, weight: float) -> Floats:
     """Values, shape (n, d), of fewer bends over the places, both in mean edges; what stands out counts less."""
     bends, lengths = bending(places, topology)
     values, trust = given, np.ones(len(given))
@@ -34,9 +34,7 @@ def fewer_bends(given: Floats, places: Floats, topology: Topology, weight: float
         # The weights of an L1 norm grow without bound where nothing bends. The first round is smoother still: noise
         # bends everything, and would pass for edges.
         sharp = np.maximum(bent, BEND if turn else max(BEND, float(np.median(bent))))
-        system = (
-            sparse.diags(trust) + bends.T @ sparse.diags(weight * lengths * sharp ** (power - 2.0)) @ bends
-        ).tocsr()
+        system = (sparse.diags(trust) + bends.T @ sparse.diags(weight * lengths / sharp) @ bends).tocsr()
         # Weights differ by orders of magnitude between flat places and edges. Scaling by the diagonal evens that out,
         # and costs nothing.
         near = sparse.diags(1.0 / system.diagonal())

@@ -19,6 +19,7 @@ from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.normals import FINE_STEPS, Guide, GuidedFilter, patch_guidance
+from bsm.codec.denoise.planes import Planes, find_planes
 from bsm.codec.denoise.surface import Topology, surface_normals
 from bsm.codec.geometry.metrics import face_normals
 
@@ -94,9 +95,10 @@ class DenoiseOptions:
         check_options(self, choices, {"iterations": (0, 1 << 20), "keep": (1e-6, 1.0), "block_size": (1, 1 << 20)})
 
 
-FINISHES = ("none", "learnt", "flat")
-"""Of a result: as it is, with learnt normals, and near the noisy mesh with the fewest bends along its edges."""
-LEARNT, FLAT, FLAT_POWER = 0.6, 0.8, 0.5  # share of learnt normals; weight of bends over the noise, and their power
+FINISHES = {"none": (False, False), "learnt": (True, False), "flat": (False, True), "flat, learnt": (True, True)}
+"""Of a result: whether it then has learnt normals, and whether it is put on the planes that explain it."""
+FLAT = {"none": "flat", "learnt": "flat, learnt"}
+LEARNT = 0.6  # share of learnt normals
 
 
 @dataclass(frozen=True)
@@ -179,7 +181,7 @@ class Filtered:
         if filter_.hand_over == BENDS:
             if self._finding is not None and isinstance(self._finding.bound, Cells):
                 return self._finding.bound.flattened(noisy, topology)
-            return flattened(noisy, self._surface.probe.average @ noisy, topology, filter_.keep, 1.0)
+            return flattened(noisy, self._surface.probe.average @ noisy, topology, filter_.keep)
         return HAND_OVERS[filter_.hand_over](noisy, self._surface.smooth(noisy, filter_), self._guided)
 
     def mean(self, steps: tuple[Step, ...]) -> Positions:
@@ -191,13 +193,14 @@ class Filtered:
 
     def finished(self, result: Positions, finish: str) -> Positions:
         """A result, shape (n, 3), after one of `FINISHES`."""
-        if finish == "learnt":
-            return joined(result, self.learnt, LEARNT, self._topology)
-        if finish == "flat":
-            assert self._finding is not None
-            weight = FLAT * self._finding.level / self._finding.whiteness**2 / self._finding.edge
-            return self._within(flattened(self._noisy, result, self._topology, weight, FLAT_POWER))
-        return result
+        to_learn, to_put = FINISHES[finish]
+        moved = self._within(joined(result, self.learnt, LEARNT, self._topology)) if to_learn else result
+        return self.planes(result).put(moved, self._topology) if to_put else moved
+
+    def planes(self, result: Positions) -> Planes:
+        """The planes that explain the noisy mesh where a result, shape (n, 3), shows them."""
+        assert self._finding is not None
+        return find_planes(self._noisy, result, self._finding.level, self._topology)
 
     @cached_property
     def learnt(self) -> Learnt:

@@ -6,13 +6,13 @@ the guess was given. Noise of the kind that was found is drawn anew.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.filters import Filter, Filtered, Filters, Step
+from bsm.codec.denoise.filters import FLAT, Filter, Filtered, Filters, Step
 from bsm.codec.denoise.noise.finding import MANY_WINDOWS, Finding
 from bsm.codec.denoise.noise.synthesis import NoiseLevel, Synthesis
 from bsm.codec.denoise.surface import pair_distances
@@ -23,7 +23,7 @@ MOST_ITERATIONS = 100  # no filter has wanted as many; it keeps the work bounded
 PATIENCE = 2  # iterations that are tried after the best one
 MOST_MEMBERS = 4  # of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer
 GAIN = 1.01  # members join while the error stays below this multiple: several make fewer mistakes than one
-EASIER = {"none": 1.0, "learnt": 0.93, "flat": 0.95}
+EASIER = {"none": 1.0, "learnt": 0.93}
 """What errors after a finish, in turn, count: true shapes have less noise, and more detail, than guesses."""
 SEED = 1
 FINE_SHAPE, FILTERED = 1.3, 0.6
@@ -202,7 +202,12 @@ class Rehearsal:
         best = min(finished, key=lambda outcome: outcome.error)
         return next(each for each in reversed(finished) if EASIER[each.finish] * each.error <= best.error)
 
+    def flattened(self, winner: Rehearsed) -> Rehearsed:
+        """The winner, put on planes, as it then does with its own result as the guess."""
+        winner = replace(winner, finish=FLAT[winner.finish])
+        self.again(winner)
+        result = self._within(self._trial.finished(self._trial.mean(winner.steps), winner.finish), self.noisy)
+        return replace(winner, error=self._goal(self.truth, result), result=result)
+
     def _within(self, positions: Positions, otherwise: Positions) -> Positions:
-        if self._finding.bound is not None:
-            positions = self._finding.bound.within(otherwise, positions)
         return positions if self._touched.all() else np.where(self._touched[:, None], positions, otherwise)

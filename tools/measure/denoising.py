@@ -1,9 +1,11 @@
 """Angles to the truth after `bsm denoise` and after Taubin's filter, on noise of known cause.
 
     python -m tools.measure denoising MESHES [ROWS ...]
+    python -m tools.measure denoising --draws 5 MESHES [ROWS ...]
     python -m tools.measure denoising --goals MESH...
 
-MESHES is a folder of meshes, as for `tools.replicate`; rows are chosen by parts of their names. With `--goals`, the
+MESHES is a folder of meshes, as for `tools.replicate`; rows are chosen by parts of their names. With `--draws`, the
+table shows what is left in so many draws of white noise on flat shapes, meshes and made shapes. With `--goals`, the
 table shows what each goal and strength leaves of white noise, on clean meshes of yours and on made shapes.
 """
 
@@ -23,7 +25,7 @@ from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import Reference, face_normals, mean_edge_length
 from bsm.codec.geometry.welding import weld
 from bsm.files.mesh import read_mesh
-from tools.made_shapes import made_shape
+from tools.made_shapes import Field, made_shape, mesh_of
 from tools.noise import correlated_along_normals, denoise_automatically, gaussian_along_axis, gaussian_along_normals
 from tools.sampled import THICK, ball, box, torus, voxelized, voxelized_mesh
 from tools.scans import CAMERAS, Scan, fused, view
@@ -35,6 +37,25 @@ PARTS = ("block", "fandisk_6475", "twelve_dodecahedron", "trim_star", "sharpsphe
 SLICES, SLICED, ORGANS = (3.0, 4.0, 6.0, 8.0), 72, (4, 10, 11, 16)
 """Of slices, cells across and a side; and seeds of `made_shape`."""
 UNEVEN = (2.3, 4.94, 6.7)  # cells across slices that are stored as whole cells
+
+HALVES = np.array([0.72, 0.5, 0.4])
+FLAT: dict[str, Field] = {
+    "block": lambda places: np.maximum.reduce(
+        [
+            (np.abs(places) - HALVES).max(axis=-1),
+            0.2 - np.maximum(np.abs(places[..., 0] - 0.1), np.abs(places[..., 2] - 0.3)),
+            0.22 - np.hypot(places[..., 0] + 0.4, places[..., 1]),
+        ]
+    ),
+    "stairs": lambda places: np.maximum(
+        (np.abs(places) - 0.6).max(axis=-1),
+        np.minimum.reduce([np.maximum(at - places[..., 0], places[..., 2] + at) for at in (-0.3, 0.0, 0.3)]) - 0.15,
+    ),
+    "roof": lambda places: np.maximum(
+        (np.abs(places) - HALVES).max(axis=-1), 0.35 * np.abs(places[..., 1]) + places[..., 2] - 0.2
+    ),
+}
+FLAT_CELLS, DRAWN = 68, 8
 
 GOALS = {"default": ("shading", 1.0), "--for shape": ("shape", 1.0), "--strength 0.8": ("shading", 0.8)}
 WHITE, SEED, MADE, MADE_CELLS = 0.2, 3, 20, 28
@@ -101,6 +122,40 @@ def _moved(clean: Positions, faces: Faces, sigma: float, noise: Callable[..., Po
     return Scan(noisy, faces, normals, lambda moved: np.linalg.norm(moved - clean, axis=1))
 
 
+Meshed = tuple[Positions, Faces]
+
+
+def whites(folder: Path) -> Iterator[tuple[str, Callable[[], Meshed], float]]:
+    """Names of rows, functions that make clean meshes, and the noise for them, in mean edges."""
+    yield from ((f"flat {name}", partial(mesh_of, field, FLAT_CELLS), 0.3) for name, field in FLAT.items())
+    yield from (
+        (f"flat block, noise {sigma}", partial(mesh_of, FLAT["block"], FLAT_CELLS), sigma) for sigma in (0.2, 0.4)
+    )
+    for name in ("twelve_dodecahedron", "c3d_spot", "fandisk_6475", "sharpsphere"):
+        yield name, partial(_clean, str(folder / "static" / f"{name}.ply")), 0.3
+    for seed in range(DRAWN):
+        yield f"made {seed}", partial(made_shape, seed, MADE_CELLS), WHITE
+
+
+def draws(folder: Path, rows: list[str], count: int) -> None:
+    """Print the angles that are left in each of the draws, and the largest over the least."""
+    ratios = []
+    for name, shape, sigma in whites(folder):
+        if rows and not any(part in name for part in rows):
+            continue
+        clean, faces = shape()
+        reference, left, kinds = Reference(clean, faces), [], []
+        for seed in range(count):
+            noisy = gaussian_along_normals(clean, faces, sigma, seed)
+            result, choice = denoise_automatically(noisy, faces)
+            left.append(reference.theta(result))
+            kinds.append(choice.finish if choice.steps else choice.kind)
+        ratios.append(max(left) / min(left))
+        angles = "".join(f"{angle:7.2f}" for angle in (reference.theta(noisy), *left))
+        print(f"{name:28}{len(clean):8}{angles}{ratios[-1]:8.2f}  {' '.join(kinds)}", flush=True)
+    print(f"{sum(ratio <= 1.1 for ratio in ratios)} of {len(ratios)} at most 1.10")
+
+
 def goals(files: Iterable[str]) -> None:
     """Print the angles and distances to the clean mesh that each of `GOALS` leaves, over those of the noise."""
     print(f"{'':44}" + "".join(f"{name:>20}" for name in GOALS))
@@ -121,7 +176,7 @@ def goals(files: Iterable[str]) -> None:
         print(f"{what:44}" + _columns(np.quantile(list(left.values()), share, axis=0)))
 
 
-def _clean(file: str) -> tuple[Positions, Faces]:
+def _clean(file: str) -> Meshed:
     mesh = read_mesh(file).mesh
     return weld(mesh.positions.astype(np.float64), mesh.faces)[:2]
 
@@ -137,7 +192,11 @@ def main() -> int:
     parser.add_argument("rows", nargs="*")
     parser.add_argument("--for", dest="goal", default="shading")
     parser.add_argument("--goals", action="store_true")
+    parser.add_argument("--draws", type=int)
     args = parser.parse_args()
+    if args.draws:
+        draws(args.meshes, args.rows, args.draws)
+        return 0
     if args.goals:
         goals([str(args.meshes), *args.rows])
         return 0

@@ -1,0 +1,210 @@
+"""Flat is flat: planes that explain a noisy surface, and vertices put on them.
+
+Faces of a filtered mesh are joined to regions, the most alike first, as long as their normals are alike, or one plane
+explains the noisy vertices of both as well as two planes do. Each face then takes the plane of a neighbor, or none, if
+its vertices stay nearer to where they were measured, and its filtered normal agrees. A region is a plane if its noisy
+vertices deny that it is bent: the best quadratic through them turns normals by little, even if chance has hidden some
+of it. Vertices are put on the planes of the faces around them: on one, on the edge between two, or on the corner where
+more meet. All lengths are in levels of the noise.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy import sparse
+
+from bsm.codec.arrays import Floats, Indices, Order, Positions
+from bsm.codec.denoise.surface import Topology, unit
+from bsm.codec.geometry.metrics import face_geometry
+
+ALIKE = 0.15  # distance of the mean normals of regions up to which they are joined
+SAME_PLANE = 20.0  # what one plane may explain less well than two
+FEWEST = 30.0  # vertices of a plane
+FREE, LIKE = (
+    4.0,
+    20.0,
+)  # squared ways of vertices that a face without a plane counts; and of a normal that is off by one
+BENT, ROUGH = 0.05, 0.09  # how far a plane may turn normals; and how far filtered ones may differ from it in the mean
+ROUNDS = 3
+FIRM = 1e-3  # of a vertex's own place against planes, so that nearly equal planes have no edge far away
+
+
+@dataclass(frozen=True, eq=False)
+class Planes:
+    """Planes ``normals @ x = heights``, and the plane of each face, shape (m,), or -1."""
+
+    labels: Order
+    normals: Floats
+    heights: Floats
+
+    @property
+    def share(self) -> float:
+        """The share of the faces that lie on planes."""
+        return float((self.labels >= 0).mean())
+
+    def put(self, positions: Positions, topology: Topology) -> Positions:
+        """Positions, shape (n, 3), on the planes of the faces around them."""
+        owners = np.repeat(np.arange(topology.n), np.diff(topology.around.starts))
+        return self.nearest(positions, owners, self.labels[topology.around.members])
+
+    def nearest(self, points: Positions, owners: Order, labels: Order) -> Positions:
+        """Points, shape (k, 3), on the planes of the labels that they own."""
+        count = max(len(self.heights), 1)
+        owner, label = np.divmod(np.unique((owners * count + labels)[labels >= 0]), count)
+        normals = self.normals[label]
+        off = np.einsum("ij,ij->i", normals, points[owner]) - self.heights[label]
+        square = _sums((normals[:, :, None] * normals[:, None, :]).reshape(-1, 9), owner, len(points))
+        way = _sums(off[:, None] * normals, owner, len(points))
+        return np.asarray(
+            points - np.linalg.solve(square.reshape(-1, 3, 3) + FIRM * np.eye(3), way[:, :, None])[:, :, 0]
+        )
+
+
+def find_planes(noisy: Positions, filtered: Positions, level: float, topology: Topology) -> Planes:
+    """Planes of a noisy mesh, shape (n, 3), whose noise has this level; `filtered`, shape (n, 3), shows where."""
+    middle = noisy.mean(axis=0)
+    measured = Measured((noisy - middle) / level, filtered, topology)
+    planes = measured.planes(measured.regions())
+    for _ in range(ROUNDS):
+        for _ in range(ROUNDS):
+            planes = measured.agreed(planes)
+        planes = measured.planes(planes.labels)
+    planes = measured.flat(planes)
+    return replace(planes, heights=planes.heights * level + planes.normals @ middle)
+
+
+class Measured:
+    """Noisy positions, shape (n, 3), and filtered ones, which show where planes are."""
+
+    def __init__(self, noisy: Positions, filtered: Positions, topology: Topology) -> None:
+        self._noisy, self._topology = noisy, topology
+        _, self._areas, self._normals = face_geometry(filtered, topology.faces)
+        self._shares = 1.0 / np.maximum(np.diff(topology.around.starts), 1)  # of a vertex in each face around it
+        ones = np.concatenate([np.ones((len(noisy), 1)), noisy], axis=1)
+        moments = self._shares[:, None] * (ones[:, :, None] * ones[:, None, :]).reshape(-1, 16)
+        self._moments = moments[topology.faces].sum(axis=1)
+
+    def regions(self) -> Order:
+        """Label each face, shape (m,): the same for those that one plane explains."""
+
+        def turned(sums: Floats, pairs: Order) -> Floats:
+            apart, areas = np.linalg.norm(np.subtract(*unit(sums[:, :3])[pairs.T]), axis=1), sums[pairs, 3]
+            return np.where(apart < ALIKE, areas.prod(axis=1) / (areas.sum(axis=1) + 1e-300) * apart**2, np.inf)
+
+        def explained(moments: Floats, pairs: Order) -> Floats:
+            more = _fitted(moments[pairs].sum(axis=1))[2] - _fitted(moments)[2][pairs].sum(axis=1)
+            return np.where(more < SAME_PLANE, more, np.inf)
+
+        sums = np.concatenate([self._normals * self._areas[:, None], self._areas[:, None]], axis=1)
+        labels = _joined(np.arange(len(sums)), sums, self._topology.pairs, turned)
+        return _joined(labels, self._moments, self._topology.pairs, explained)
+
+    def planes(self, labels: Order) -> Planes:
+        """The planes of labelled faces, shape (m,); regions of few vertices have none."""
+        count = int(labels.max(initial=-1)) + 1
+        moments = _sums(self._moments, labels, count)
+        large = moments[:, 0] >= FEWEST
+        labels = np.append(np.where(large, np.cumsum(large) - 1, -1), -1)[labels]
+        normals, heights, _ = _fitted(moments[large])
+        back = np.einsum("ij,ij->i", _sums(self._normals, labels, len(normals)), normals) < 0.0
+        normals[back], heights[back] = -normals[back], -heights[back]
+        return Planes(labels, normals, heights)
+
+    def agreed(self, planes: Planes) -> Planes:
+        """Let faces at borders take what costs less: the plane of a neighbor, or none."""
+        pairs, labels, faces = self._topology.pairs, planes.labels, self._topology.faces
+        both = np.concatenate([pairs, pairs[:, ::-1]])
+        both = both[labels[both[:, 0]] != labels[both[:, 1]]]
+        count = len(planes.heights) + 1
+        leaving = both[labels[both[:, 0]] >= 0, 0]
+        choices = np.unique(np.concatenate([both[:, 0] * count + labels[both[:, 1]] + 1, leaving * count]))
+        face, wanted = choices // count, choices % count - 1
+        gain = self._cost(planes, face, labels[face]) - self._cost(planes, face, wanted)
+        face, wanted, gain = face[gain > 0.0], wanted[gain > 0.0], gain[gain > 0.0]
+        best = np.zeros(self._topology.n)
+        np.maximum.at(best, faces[face], gain[:, None])
+        first = (gain[:, None] == best[faces[face]]).all(axis=1)  # of those around each vertex
+        labels = labels.copy()
+        labels[face[first]] = wanted[first]
+        return replace(planes, labels=labels)
+
+    def _cost(self, planes: Planes, face: Order, wanted: Order) -> Floats:
+        """What it costs if each of the faces, shape (k,), has the plane that is wanted."""
+        starts, members = self._topology.around
+        corners = self._topology.faces[face].ravel()
+        sizes = np.diff(starts)[corners]
+        owners = np.repeat(np.arange(len(corners)), sizes)
+        around = members[np.arange(len(owners)) + np.repeat(starts[corners] - np.cumsum(sizes) + sizes, sizes)]
+        labels = np.where(around == face[owners // 3], wanted[owners // 3], planes.labels[around])
+        points = self._noisy[corners]
+        ways = np.square(planes.nearest(points, owners, labels) - points).reshape(-1, 9).sum(axis=1)
+        turned = np.square(self._normals[face] - np.append(planes.normals, [[0.0] * 3], axis=0)[wanted]).sum(axis=1)
+        return np.asarray(ways + np.where(wanted >= 0, LIKE * turned, FREE))
+
+    def flat(self, planes: Planes) -> Planes:
+        """Return those planes that are not bent."""
+        labels, count = planes.labels, len(planes.heights)
+        chosen, sizes = labels >= 0, np.maximum(np.bincount(labels[labels >= 0], minlength=count), 1)
+        off = np.linalg.norm(self._normals - planes.normals[labels], axis=1) if count else np.zeros(len(labels))
+        rough = np.bincount(labels[chosen], off[chosen], count) / sizes
+        label, corner = np.repeat(labels[chosen], 3), self._topology.faces[chosen].ravel()
+        share = self._shares[corner][:, None]
+        total = np.maximum(_sums(share, label, count), 1e-9)
+        apart = self._noisy[corner] - (_sums(share * self._noisy[corner], label, count) / total)[label]
+        height, u, v = np.einsum("kij,kj->ik", np.linalg.svd(planes.normals[:, None])[2][label], apart)
+        wide = np.sqrt(_sums(share * (u * u + v * v)[:, None], label, count) / total)[:, 0]
+        u, v = u / wide[label], v / wide[label]
+        zero = np.zeros_like(u)
+        terms = np.stack([np.ones_like(u), u, v, u * u, u * v, v * v], axis=1)
+        slopes = np.stack([2.0 * u, v, zero, zero, u, 2.0 * v], axis=1).reshape(-1, 2, 3)
+        square = _sums((share[:, :, None] * terms[:, :, None] * terms[:, None]).reshape(-1, 36), label, count)
+        turns = _sums(share * np.einsum("kia,kib->kab", slopes, slopes).reshape(-1, 9), label, count) / total
+        turns = turns.reshape(-1, 3, 3) / np.square(wide)[:, None, None]
+        inverse = np.linalg.pinv(square.reshape(-1, 6, 6), hermitian=True)
+        fit = np.einsum("kij,kj->ki", inverse, _sums(share * height[:, None] * terms, label, count))[:, 3:]
+        variance = (_sums(share * np.square(height[:, None]), label, count) / total)[:, 0]
+        chance = variance * np.einsum("kij,kji->k", turns, inverse[:, 3:, 3:])
+        turned = np.einsum("ki,kij,kj->k", fit, turns, fit)
+        bent = np.sqrt(np.maximum(turned - chance, 0.0)) + np.sqrt(chance)
+        kept = np.append(np.where((bent < BENT) & (rough < ROUGH), np.arange(count), -1), -1)
+        return replace(planes, labels=kept[labels])
+
+
+def _fitted(moments: Floats) -> tuple[Floats, Floats, Floats]:
+    """Normals and heights of the planes through groups with these moments, shape (k, 16), and squared distances."""
+    moments = moments.reshape(-1, 4, 4)
+    counts = np.maximum(moments[:, :1, 0], 1e-9)
+    means = moments[:, 0, 1:] / counts
+    values, vectors = np.linalg.eigh(moments[:, 1:, 1:] - moments[:, 0, 1:, None] * means[:, None, :])
+    normals = vectors[:, :, 0]
+    return normals, np.einsum("ij,ij->i", normals, means), values[:, 0]
+
+
+def _sums(values: Floats, labels: Order, count: int) -> Floats:
+    """Sums of the rows, shape (k, d), of each label from 0 on, shape (count, d)."""
+    chosen = np.flatnonzero(labels >= 0)
+    return np.asarray(
+        sparse.csr_matrix((np.ones(len(chosen)), (labels[chosen], chosen)), (count, len(labels))) @ values
+    )
+
+
+def _joined(labels: Order, values: Floats, pairs: Indices, costs: Callable[[Floats, Order], Floats]) -> Order:
+    """Join regions that are each other's cheapest neighbor, round by round, until all costs are infinite."""
+    sums, beside = _sums(values, labels, int(labels.max(initial=-1)) + 1), labels[pairs]
+    while True:
+        beside = np.sort(beside, axis=1)
+        beside = np.unique(beside[beside[:, 0] != beside[:, 1]], axis=0)
+        cost = costs(sums, beside)
+        beside, cost = beside[np.isfinite(cost)], cost[np.isfinite(cost)]
+        if not len(beside):
+            return labels
+        rank = np.argsort(np.argsort(cost, kind="stable"))  # no two are equal
+        best = np.full(len(sums), len(rank))
+        for side in beside.T:
+            np.minimum.at(best, side, rank)
+        joined = beside[(rank == best[beside[:, 0]]) & (rank == best[beside[:, 1]])]
+        number = np.arange(len(sums))
+        number[joined[:, 1]] = joined[:, 0]
+        number = np.unique(number, return_inverse=True)[1].ravel()
+        sums, labels, beside = _sums(sums, number, int(number.max()) + 1), number[labels], number[beside]
