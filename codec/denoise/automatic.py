@@ -1,6 +1,7 @@
 """Denoising that chooses its own settings, and does not change a mesh that it cannot improve."""
 
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Self
 
 import numpy as np
@@ -9,17 +10,17 @@ from bsm.bitstream.errors import counted
 from bsm.codec.arrays import Faces, Floats, Mask, Order, Positions
 from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
-from bsm.codec.denoise.filters import BENDS, RAYS, Filter, Filters, Step
+from bsm.codec.denoise.filters import BENDS, RAYS, Filter, Filtered, Filters, Step
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import put_outliers_back
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.noise.synthesis import NoiseLevel, estimate_noise
+from bsm.codec.denoise.noise.synthesis import NoiseLevel, Synthesis, estimate_noise
 from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.rehearsal import GOALS, Forecast, Progress, Rehearsal, silent
 from bsm.codec.denoise.safety import DETAIL_LOST, judge, restraint
 from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.geometry.metrics import face_normals
+from bsm.codec.geometry.metrics import Reference, face_normals
 
 WHOLE, PIECE, PIECES = 6000, 2000, 2  # vertices up to which all are rehearsed on, and of two pieces from there on
 
@@ -64,6 +65,7 @@ THICK, BENDS_WIDTH, BENDS_ITERATIONS = 2.5, 0.3, (8, 12)
 best on smooth shapes; its mean with the other filter loses nothing where detail is finer than slices."""
 WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
 SLIDING = {"heights": "positions"}  # hand-overs that let vertices slide along the surface, for those that do not
+GUESSED = 8  # iterations of a first guess, and of rehearsals on it
 BEGUN, ROUND, CHOSEN = 0.05, 0.2, 0.5  # of all work: before rehearsals, in a round of them, and before the filter
 MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
 SOME_FLAT, MOST_FLAT = 0.2, 0.8  # shares of the faces on planes from which on these count, and networks do not
@@ -137,6 +139,12 @@ def choose(
         surface, chosen = Filters(part, len(members)), positions[members]
     surface.expect(filters)
     level = estimate_noise(chosen, surface.smooth(chosen, filters[0]), surface.probe)
+    if (
+        filters is CANDIDATES
+        and level.tangential > 0.0
+        and _gains_by_sliding(chosen, finding.on(members), level, surface)
+    ):
+        level = level.sliding
     if level.slides:  # noise has moved vertices along the surface, too
         filters = tuple(replace(each, hand_over=SLIDING.get(each.hand_over, each.hand_over)) for each in filters)
     known = finding.on(members).reaching(surface.topology, level.slides)
@@ -158,11 +166,27 @@ def choose(
     doubt = _doubt(winner.error, untreated, changed, forecast.untreated if forecast else np.inf)
     if steps and doubt:
         steps, expected, reason = (), untreated, f"{reason}, but {doubt}"
-    noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
+    noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge, slides=level.slides)
     detailed = finding.kind == "white" and rehearsal.lost(winner) > DETAIL_LOST[goal]
     return AutomaticChoice(
         steps, finding.kind, reason, noise, untreated, expected, winner.finish, detailed, forecast=forecast
     )
+
+
+def _gains_by_sliding(given: Positions, finding: Finding, level: NoiseLevel, surface: Filters) -> bool:
+    """Whether it loses less, in the mean of rehearsals with and without noise along the surface, if vertices slide."""
+    # Irregular triangles look like such noise. The larger it is beside that along the normals, the likelier it is real.
+    share, losses = level.tangential / level.normal, np.zeros(2)
+    held, free = (finding.reaching(surface.topology, slides) for slides in (False, True))
+    guess = next(islice(Filtered(given, surface, held).iterates(CANDIDATES[1]), GUESSED, None))
+    reference = Reference(guess, surface.topology.faces)
+    for weight, tangential in ((1.0 - share, 0.0), (share, level.across)):
+        noisy = Synthesis(finding, surface.probe, tangential).draw(guess, seed=0)
+        runs = ((held, CANDIDATES[2]), (free, replace(CANDIDATES[2], hand_over="positions")))
+        results = (islice(Filtered(noisy, surface, bound).iterates(filter_), GUESSED) for bound, filter_ in runs)
+        errors = np.array([min(map(reference.theta, result)) for result in results])
+        losses += weight * errors / max(errors.min(), 1e-9)
+    return bool(losses[1] < losses[0])
 
 
 def _doubt(error: float, untreated: float, changed: float, forecast: float) -> str:

@@ -14,7 +14,7 @@ from bsm.codec.choices import check_options
 from bsm.codec.denoise.bends import flattened
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
-from bsm.codec.denoise.noise.causes import Spacing
+from bsm.codec.denoise.noise.causes import FARTHEST, Spacing
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.volumes import Cells
@@ -195,7 +195,12 @@ class Filtered:
         """A result, shape (n, 3), after one of `FINISHES`."""
         to_learn, to_put = FINISHES[finish]
         moved = self._within(joined(result, self.learnt, LEARNT, self._topology)) if to_learn else result
-        return self.planes(result).put(moved, self._topology) if to_put else moved
+        if not to_put:
+            return moved
+        put = self.planes(result).put(moved, self._topology)
+        assert self._finding is not None
+        far = np.linalg.norm(put - self._noisy, axis=1) > FARTHEST * self._finding.level
+        return np.where(far[:, None], moved, put)
 
     def planes(self, result: Positions) -> Planes:
         """The planes that explain the noisy mesh where a result, shape (n, 3), shows them."""

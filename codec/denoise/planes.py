@@ -64,17 +64,17 @@ class Planes:
 def find_planes(noisy: Positions, filtered: Positions, level: float, topology: Topology) -> Planes:
     """Planes of a noisy mesh, shape (n, 3), whose noise has this level; `filtered`, shape (n, 3), shows where."""
     middle = noisy.mean(axis=0)
-    measured = Measured((noisy - middle) / level, filtered, topology)
-    planes = measured.planes(measured.regions())
+    search = PlaneSearch((noisy - middle) / level, filtered, topology)
+    planes = search.planes(search.regions())
     for _ in range(ROUNDS):
         for _ in range(ROUNDS):
-            planes = measured.agreed(planes)
-        planes = measured.planes(planes.labels)
-    planes = measured.flat(planes)
+            planes = search.agreed(planes)
+        planes = search.planes(planes.labels)
+    planes = search.flat(planes)
     return replace(planes, heights=planes.heights * level + planes.normals @ middle)
 
 
-class Measured:
+class PlaneSearch:
     """Noisy positions, shape (n, 3), and filtered ones, which show where planes are."""
 
     def __init__(self, noisy: Positions, filtered: Positions, topology: Topology) -> None:

@@ -19,8 +19,6 @@ from bsm.codec.geometry.metrics import mean_edge_length
 MEDIAN_ALONG, TENTH_ACROSS = 0.6745, 0.4590  # of one standard normal number's size, and of the length of two
 IRREGULARITY = 0.15  # largest level across the normals, in mean edges, that irregular triangles gave
 
-SLIDING = 0.5  # noise across the normals, over noise along them, from which on vertices slide along the surface
-
 
 @dataclass(frozen=True)
 class NoiseLevel:
@@ -28,11 +26,12 @@ class NoiseLevel:
 
     normal: float
     tangential: float
+    across: float = 0.0  # that along the surface, if irregular triangles have no part in it
+    slides: bool = False  # whether vertices have to slide along the surface
 
     @property
-    def slides(self) -> bool:
-        """Whether vertices have to slide along the surface."""
-        return self.tangential > SLIDING * self.normal
+    def sliding(self) -> "NoiseLevel":
+        return NoiseLevel(self.normal, self.across, self.across, slides=True)
 
 
 def estimate_noise(positions: Positions, smooth: Positions, probe: Probe) -> NoiseLevel:
@@ -48,7 +47,7 @@ def estimate_noise(positions: Positions, smooth: Positions, probe: Probe) -> Noi
     # Irregular triangles look like noise along the surface, up to about this level.
     floor = IRREGULARITY * mean_edge_length(positions, probe.topology.faces)
     above = math.sqrt(max(across * across - floor * floor, 0.0))
-    return NoiseLevel(normal, min(normal, across if above > SLIDING * normal else above))
+    return NoiseLevel(normal, min(normal, above), min(normal, across))
 
 
 MOST_STEPS = 12

@@ -11,6 +11,7 @@ from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.geometry.metrics import face_normals, mean_edge_length, rms_over_edge
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, probe_of, sphere
 from tests.shapes import theta
+from tools.made_shapes import made_shape
 from tools.noise import correlated_along_normals, denoise_automatically, gaussian_along_normals, gaussian_isotropic
 
 
@@ -71,6 +72,18 @@ def test_nothing_moves_where_noise_is_lower_than_what_filters_do_to_thin_triangl
     noisy = gaussian_isotropic(clean * [1.0, 1.0, 30.0], faces, 0.2, seed=3)
     result, choice = denoise_automatically(noisy, faces)
     assert not choice.steps and (result == noisy).all()
+
+
+@pytest.mark.parametrize(
+    ("seed", "make", "slides"), [(4, gaussian_along_normals, False), (16, gaussian_isotropic, True)]
+)
+def test_vertices_slide_where_that_loses_less(seed: int, make, slides: bool) -> None:  # type: ignore[no-untyped-def]
+    """One shape has triangles that look like noise along the surface, the other one has such noise."""
+    clean, faces = made_shape(seed, 24)
+    noisy = make(clean, faces, 0.2, 0)
+    denoised, choice = denoise_automatically(noisy, faces)
+    assert choice.steps and choice.noise.slides == slides
+    assert theta(clean, denoised, faces) < (0.35 if slides else 1.0) * theta(clean, noisy, faces)
 
 
 def test_vertices_end_closer_even_where_triangles_are_uneven() -> None:
