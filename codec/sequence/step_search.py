@@ -3,18 +3,19 @@
 Frames and a bound come in; the smallest encoding that keeps it in every frame goes out. A frame that looks worse than
 the others sets the step of all. So an attempt has two results: how far the worst frame is from its bound, which gives
 the next step, and how unlike frames look, which gives weights of frames: the temporal basis then spends more on those
-that look worse. Pictures are the dear part. An attempt draws a few frames and those that are likely the worst; errors
-of normals, which cost little, tell of the others by a random walk in between. Only the encoding that would be returned
-has all frames drawn that may exceed the bound: it is the promise, so that nothing is taken on trust. If one does
-exceed it, the search goes on from there. The search ends when another attempt would save less than its price in bytes,
-by the power law of bytes over the step; it has no fixed number of rounds.
+that look worse. Pictures are the dear part. The first attempt draws a few frames, each one those that are likely the
+worst; errors of normals, which cost little, tell of the others by a random walk in between. How a look follows from an
+error hardly changes from attempt to attempt, so that frames drawn before count as known, nearly. Only the encoding that
+would be returned has all frames drawn that may exceed the bound: it is the promise, so that nothing is taken on trust.
+If one does exceed it, the search goes on from there. The search ends when another attempt would save less than its
+price in bytes, by the power law of bytes over the step; each attempt has to save more than the one before it.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
@@ -29,13 +30,16 @@ from bsm.codec.static.targets import WIDEST as COARSEST_STEP
 from bsm.codec.static.targets import Contract
 from bsm.codec.threads import ordered_map
 
-KNOTS = 8  # frames, evenly over a GOP, that are drawn at every attempt, besides the worst one of each attempt
+KNOTS = 8  # frames, evenly over a GOP, that are drawn at the first attempt
+DRIFT = 0.05  # standard deviation of what the logarithm of look over error changes by from attempt to attempt
 LIKELY, DEVIATIONS = 1.5, 4.0
 """Standard deviations: frames that may be the worst within the first are drawn at each attempt; an attempt is accepted
 once all frames that may exceed the bound within the second are drawn."""
 KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to attempt
-PRICE, PRICE_OF_ONE = 0.025, 0.04
-"""Share of the bytes that another attempt must save, about, of a GOP and of a frame by itself, which must be quick."""
+PRICE, PRICE_OF_ONE = 0.007, 0.04
+"""Share of the bytes that the second attempt must save, about, the third twice as much and so on, of a GOP; and that
+each must save of a frame by itself, which must be quick."""
+SPARE = 0.02  # logarithm of what a step is aimed below the bound, and as much more for each miss in a row
 SLOPE = 0.5  # the power of the step that bytes fall by, about
 TWIN_STEP, TWIN = 1 / 16, 1.005
 """A step, in reaches, far below which frames are the same; and how much worse than another one may look."""
@@ -71,6 +75,7 @@ class StepSearch:
         self._metrics: dict[int, LookMetric] = {}
         self._room = KEPT
         self._knots: set[int] = set()
+        self._ratios: dict[int, float] = {}
         self.worst_look = 0.0  # of the frames that were drawn of the returned encoding
         if promise.look < math.inf:
             # Captured motion rests for many frames, which look the same and need be drawn once.
@@ -80,20 +85,23 @@ class StepSearch:
     def run(self, encode: Callable[[float, Matrix], Found], first: float, finest: float, *, weighed: bool) -> Found:
         """Return the smallest encoding that keeps the promise in every frame; `encode` takes step and weights."""
         weighed = weighed and len(self._frames) > 1 and bool(self._knots)
-        price = PRICE if len(self._frames) > 1 else PRICE_OF_ONE
         kept: Tried[Found] | None = None
-        step, evened, missed = first, np.zeros(len(self._frames)), 0
+        step, evened, missed, above = first, np.zeros(len(self._frames)), 0, math.inf
         for attempt in range(1, TRIES + 1):
+            price = PRICE * attempt if len(self._frames) > 1 else PRICE_OF_ONE
             # Beyond these, levels do not fit, or nothing is left of the motion.
             step = min(max(step, finest), COARSEST_STEP)
             found = encode(step, np.exp(evened))
             latest = Tried(found, step, evened, self._measure(list(found.decoded_frames())))
             missed = missed + 1 if latest.excess > 0.0 else 0
+            if missed and not weighed:  # weights may make good what missed
+                above = min(above, step)
             # By bytes and not by steps: with weights, a finer step may give the smaller stream.
             if latest.excess <= 0.0 and (kept is None or found.size <= kept.found.size):
                 kept = latest
             while True:
-                step, evened = self._following(latest, attempt if weighed else 0, price / SLOPE * (1 + missed))
+                step, evened = self._following(latest, attempt if weighed else 0, SPARE * (1 + missed))
+                step = min(step, math.sqrt(latest.step * above))
                 last = latest.step == (COARSEST_STEP if latest.excess <= 0.0 else finest)
                 # What the next attempt would take, about. It is made only if it can save more than its price.
                 likely = latest.found.size * (latest.step / step) ** SLOPE
@@ -125,11 +133,11 @@ class StepSearch:
         # Errors of normals follow the look closely and cost a hundredth of a picture.
         wrong = ordered_map(lambda pair: shading_error(*pair, self._faces), pairs, self._threads)
         errors = np.array(list(wrong)).clip(1e-12) ** POWER
-        knots = sorted({*self._knots, int(errors.argmax())})  # the verification draws the largest error, too
-        measured = Measured(farthest, errors, {index: self._look(index, decoded) for index in knots})
+        knots = () if self._ratios else self._knots
+        measured = Measured(farthest, errors, {index: self._look(index, decoded) for index in knots}, self._ratios)
         while (index := int(measured.looks(LIKELY).argmax())) not in measured.drawn:
             measured.drawn[index] = self._look(index, decoded)
-        self._knots.add(index)
+        self._ratios = measured.ratios
         return measured
 
     def _is_certain(self, tried: Tried[Found]) -> bool:
@@ -139,10 +147,9 @@ class StepSearch:
         while measured.excess <= 0.0 and (doubtful := measured.doubtful) is not None:
             decoded = decoded or list(tried.found.decoded_frames())
             measured.drawn[doubtful] = self._look(doubtful, decoded)
+        self._ratios = measured.ratios
         shares = (share for frame, share in measured.drawn.items() if self._twins[frame] == frame)
         self.worst_look = self._promise.look * max(shares, default=0.0)
-        if measured.drawn:
-            self._knots.add(int(measured.looks().argmax()))
         return measured.excess <= 0.0
 
     def _look(self, index: int, decoded: Sequence[Matrix]) -> float:
@@ -183,6 +190,8 @@ class Measured:
     farthest: float
     errors: Matrix
     drawn: dict[int, float]
+    before: dict[int, float] = field(default_factory=dict)
+    """Logarithms of looks over errors, of frames that earlier attempts drew."""
 
     @property
     def excess(self) -> float:
@@ -193,16 +202,24 @@ class Measured:
     def doubtful(self) -> int | None:
         """The frame that may exceed the bound most of those not drawn; None if none may."""
         most = self.looks(DEVIATIONS)
+        if self.drawn:
+            most[self.errors.argmax()] = 2.0  # the verification draws the largest error, too
         most[list(self.drawn)] = 0.0
         return int(most.argmax()) if most.max(initial=0.0) > 1.0 else None
 
+    @property
+    def ratios(self) -> dict[int, float]:
+        """Logarithms of looks over errors, of all frames that were ever drawn."""
+        now = {index: math.log(share / self.errors[index]) for index, share in self.drawn.items() if share > 0.0}
+        return {**self.before, **now}
+
     def looks(self, deviations: float = 0.0) -> Matrix:
         """Return the looks of all frames, shape (T,), expected ones of those not drawn plus standard deviations. Looks
-        over errors are interpolated in time, as a Brownian bridge between frames that are drawn."""
-        seen = np.array(sorted(index for index, share in self.drawn.items() if share > 0.0), np.int64)
-        if not len(seen):
+        over errors are interpolated in time, as a Brownian bridge between frames that are drawn or were before."""
+        known = sorted(self.ratios.items())
+        if not known:
             return np.zeros(len(self.errors))
-        ratios = np.log([self.drawn[index] for index in seen]) - np.log(self.errors[seen])
+        seen, ratios = (np.array(column) for column in zip(*known))
         steps, frames = np.diff(seen), np.arange(len(self.errors))
         # The variance of a Brownian motion grows with time, and this is its rate.
         rate = float(np.mean(np.diff(ratios) ** 2 / steps)) if len(steps) else 1.0
@@ -210,7 +227,7 @@ class Measured:
         until = seen[np.minimum(np.searchsorted(seen, frames), len(seen) - 1)] - frames
         inside = np.minimum(since, until) >= 0
         spans = np.where(inside, since * until / np.maximum(since + until, 1), np.maximum(since, until))
-        looks = self.errors * np.exp(np.interp(frames, seen, ratios) + deviations * np.sqrt(rate * spans))
+        looks = self.errors * np.exp(np.interp(frames, seen, ratios) + deviations * np.sqrt(rate * spans + DRIFT**2))
         looks[list(self.drawn)] = list(self.drawn.values())
         return np.asarray(looks)
 
