@@ -11,7 +11,8 @@ typedef struct {
 } Shading;
 
 /* `farthest` has a number for each tile of the picture. `owner` gets the face that each pixel shows, or -1, if it has
- * any rows. Outside of `drawn` (its first row, the one after its last, and columns), `depth` and `picture` are empty. */
+ * any rows. Outside of `drawn` (its first row, the one after its last, and columns), `depth` and `picture` are
+ * empty. */
 typedef struct {
     Singles2 depth, farthest, picture;
     Ints2 owner;
