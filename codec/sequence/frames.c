@@ -197,7 +197,7 @@ static int64_t find_levels(ConstInts2 levels, int64_t from, int64_t *few) {
 /* Read levels, or write those that are there. */
 static bool code_matrices(Context *context, const Bank *bank, Span payload, const Matrix *matrices, int64_t count,
     int64_t columns, int64_t stair, Arena *scratch) {
-    Coding coding;
+    Coding coding = {0}; /* or gcc warns at -O3 */
     Longs slow;
     if (!take_longs(scratch, columns, &slow) || !begin_coding(context, payload, &coding)) return false;
     for (int64_t i = 0; i < count && !overran(&coding.coder); i++) {
