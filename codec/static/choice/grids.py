@@ -146,7 +146,7 @@ class Gridded:
         held, origin = single(max(step, self.least) * unit), self._origin
         if mirrored and may_repeat(self._prepared):
             if not self._prepared.motions:  # the same ladder for all looks
-                motions_of(self._prepared, self._bounds.usual_step * unit, self.turn)
+                motions_of(self._prepared, max(self._bounds.usual_step, self.least) * unit, self.turn)
             held, moved = lattice(self._prepared, origin, held, self.least * unit, self.turn)
             origin = np.array([self._hold(value) for value in moved])
         low = self._prepared.units.into(origin)
@@ -186,8 +186,8 @@ class Gridded:
 
     def repeat(self, first: Trial) -> Trial:
         """Predict by congruent parts from now on if that pays in the first trial; return it so."""
-        prepared = self._prepared
-        if may_repeat(prepared) and len(motions_of(prepared, first.step * prepared.units.scale, self.turn)[0]):
+        prepared, step = self._prepared, max(first.step, self.least) * self._prepared.units.scale
+        if may_repeat(prepared) and len(motions_of(prepared, step, self.turn)[0]):
             self.repeats = True
             made = self._made(first.step)
             self.repeats = made.draft.size < (1.0 - SLACK) * first.draft.size
