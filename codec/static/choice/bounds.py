@@ -173,10 +173,13 @@ class Bounds:
     @cached_property
     def usual_step(self) -> float:
         """About the step at which rounding has a look of 1, in BSM units, whatever is promised."""
-        step, light = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.measures.prepared.light
-        for _ in range(2 if self.metric is not None else 0):
+        step, metric = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.metric
+        if metric is None:
+            return step
+        look = metric.glance if self.measures.prepared.light else metric.with_room
+        for _ in range(2):
             placed = self.measures.prepared.units.back(np.rint(self.measures.prepared.positions / step) * step)
-            wider = self._aim / max(self.metric.glance(placed) if light else self.metric.with_room(placed), LEAST)
+            wider = self._aim / max(look(placed), LEAST)
             step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
             if 0.5 < wider < 2.0:
                 break
