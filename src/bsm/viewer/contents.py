@@ -20,13 +20,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.account.comparison import compare_meshes, in_order_of, pair, paired_frames
+from bsm.account.comparison import compare_meshes, errors_of_frames, in_order_of, pair, paired_frames
 from bsm.account.images import changed, compare_images
 from bsm.api import decode_sequence, encode_sequence
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import BsmError, DependencyError, FormatError, MeshError, TargetError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Order, Positions
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
 from bsm.codec.geometry.metrics import distances_to_surface, farthest_from_surface, surface_distance
 from bsm.codec.look.measure import look
@@ -125,8 +126,15 @@ def compared(
         raise MeshError(f"{name} and its original must both be sequences, or both meshes")
     rivals: tuple[Shown, ...] = ()
     if isinstance(original, Frames):
-        frames = np.array(list(original.frames))
-        found, off = _over_time(name, SequenceStream(Input(stream).chunks(), limits=limits), frames, original.faces)
+        # Only where attributes move, each frame is read as a mesh.
+        moments = (
+            [(frame, original.attributes) for frame in original.frames]
+            if original.meshes is None
+            else [(mesh.positions, mesh.attributes) for mesh in original.meshes]
+        )
+        frames = np.array([frame for frame, _ in moments])
+        decoder = SequenceStream(Input(stream).chunks(), limits=limits)
+        found, off = _over_time(name, decoder, frames, original.faces, [fields for _, fields in moments])
         plain, promised = 12 * frames.size // 3, _promised(PROMISES, preset)
         original = replace(original, frames=iter(frames))
     else:
@@ -182,10 +190,11 @@ def _promised(contracts: Mapping[str, Contract | None], preset: str | None) -> d
 
 
 def _over_time(
-    name: str, decoder: SequenceStream, before: Positions, faces: Faces
+    name: str, decoder: SequenceStream, before: Positions, faces: Faces, fields: Sequence[tuple[Attribute, ...]]
 ) -> tuple[dict[str, Any], npt.NDArray[np.float32] | None]:
-    """Return the largest relative error of each frame, the look of the worst of some, and errors of vertices."""
-    decoded = np.array([frame for _, frame in decoder.frames()])
+    """Return the largest errors of each frame and field, the look of the worst of some, and errors of vertices."""
+    moments = [(frame, decoder.attributes) for _, frame in decoder.frames()]
+    decoded = np.array([frame for frame, _ in moments])
     if len(decoded) != len(before):
         raise MeshError(f"{name} has {len(decoded)} frames, and its original has {len(before)}")
     off = np.full(decoded.shape[:2], np.nan, np.float32)
@@ -195,6 +204,8 @@ def _over_time(
     try:
         paired = paired_frames(before, faces, decoded, decoder.faces)
         first, second, shared = paired.before, paired.after, paired.faces
+        known = [fields for _, fields in moments]
+        facts["attributes"] = errors_of_frames(fields, known, (faces, decoder.faces), paired)
         errors = np.linalg.norm(first - second, axis=2).max(axis=1) / facts["diagonal"]
         shaded = [shading_error(*both, shared) for both in zip(first, second, strict=True)]
         # The page colors decoded vertices, so errors are needed in their order as well.
