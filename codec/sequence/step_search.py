@@ -6,16 +6,16 @@ the next step, and how unlike frames look, which gives weights of frames: the te
 that look worse. Pictures are the dear part. The first attempt draws a few frames, each one those that are likely the
 worst; errors of normals, which cost little, tell of the others by a random walk in between. How a look follows from an
 error hardly changes from attempt to attempt, so that frames drawn before count as known, nearly. Only the encoding that
-would be returned has all frames drawn that may exceed the bound: it is the promise, so that nothing is taken on trust.
-If one does exceed it, the search goes on from there. The search ends when another attempt would save less than its
-price in bytes, by the power law of bytes over the step; each attempt has to save more than the one before it.
+would be returned has all of its own frames drawn that may exceed the bound: it is the promise, so that nothing is taken
+on trust. If one does exceed it, the search goes on from there. The search ends when another attempt would save less
+than its price in bytes, by the power law of bytes over the step; each attempt has to save more than the one before it.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
@@ -142,12 +142,15 @@ class StepSearch:
 
     def _is_certain(self, tried: Tried[Found]) -> bool:
         """Whether an encoding keeps the promise; frames that may exceed the bound are drawn until one does."""
-        measured = tried.measured
-        decoded: list[Matrix] = []
+        # Frames that earlier attempts drew tell where to look; they prove nothing of this one, which has another step.
+        measured = replace(tried.measured, before={})
+        decoded = list(tried.found.decoded_frames())
+        for knot in sorted(self._knots - measured.drawn.keys()):
+            if measured.excess <= 0.0:
+                measured.drawn[knot] = self._look(knot, decoded)
         while measured.excess <= 0.0 and (doubtful := measured.doubtful) is not None:
-            decoded = decoded or list(tried.found.decoded_frames())
             measured.drawn[doubtful] = self._look(doubtful, decoded)
-        self._ratios = measured.ratios
+        self._ratios = tried.measured.ratios
         shares = (share for frame, share in measured.drawn.items() if self._twins[frame] == frame)
         self.worst_look = self._promise.look * max(shares, default=0.0)
         return measured.excess <= 0.0

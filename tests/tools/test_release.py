@@ -36,16 +36,20 @@ def test_versions_that_differ_are_refused(tmp_path):
         check_versions(tmp_path)
 
 
+MANUAL = "bsm_codec-1.data/data/share/man/man1/bsm-encode.1"
+
+
 @pytest.mark.parametrize(
     ("names", "message"),
     [
-        (["bsm/py.typed", "bsm/_core.abi3.so"], None),
-        (["bsm/py.typed", "bsm/_core.pyd"], None),
-        (["bsm/py.typed"], "not what"),
-        (["bsm/py.typed", "bsm/_core.abi3.so", "codec/geometry.py"], "codec"),
-        (["bsm/py.typed", "bsm/_core.abi3.so", "bsm/codec/isa.c"], "isa.c"),
-        (["bsm/py.typed", "bsm/_core.cpython-311-aarch64-linux-gnu.so"], None),
-        (["bsm/py.typed", "bsm/_core.cpython-311-x86_64-linux-gnu.so"], "not what"),
+        ([MANUAL, "bsm/py.typed", "bsm/_core.abi3.so"], None),
+        ([MANUAL, "bsm/py.typed", "bsm/_core.pyd"], None),
+        ([MANUAL, "bsm/py.typed"], "not what"),
+        (["bsm/py.typed", "bsm/_core.abi3.so"], "not what"),
+        ([MANUAL, "bsm/py.typed", "bsm/_core.abi3.so", "codec/geometry.py"], "codec"),
+        ([MANUAL, "bsm/py.typed", "bsm/_core.abi3.so", "bsm/codec/isa.c"], "isa.c"),
+        ([MANUAL, "bsm/py.typed", "bsm/_core.cpython-311-aarch64-linux-gnu.so"], None),
+        ([MANUAL, "bsm/py.typed", "bsm/_core.cpython-311-x86_64-linux-gnu.so"], "not what"),
     ],
 )
 def test_wheels_are_looked_into(names, message, tmp_path):

@@ -8,6 +8,7 @@ what decoding takes; whatever comes out must be a mesh or an error of ours.
 
 import gzip
 import importlib
+import importlib.util
 import io
 import json
 import os
@@ -132,6 +133,33 @@ _PVD = b"""<VTKFile type="Collection"><Collection>
 </Collection></VTKFile>"""
 _SERIES = b"""{"file-series-version": "1.0",
 "files": [{"name": "a.obj", "time": 0}, {"name": "b.obj", "time": 1.5}]}"""
+_MSH = b"""$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+3
+1 0 0 0
+2 1 0 0
+3 0 1 0
+$EndNodes
+$Elements
+1
+1 2 2 0 1 1 2 3
+$EndElements
+$NodeData
+1
+"p"
+1
+0.5
+3
+0
+1
+3
+1 0
+2 1
+3 2
+$EndNodeData
+"""
 _ASCII_STL = b"solid a\n" + _FACET + b"endsolid a\n"
 _USDA = b"""#usda 1.0
 (
@@ -177,11 +205,9 @@ def samples() -> dict[str, Sample]:
         "pvd": Sample("pvd", _PVD, (*beside, ("b.obj", plain))),
         "series": Sample("series", _SERIES, (*beside, ("b.obj", plain))),
     }
-    try:
-        import pxr  # noqa: F401
-    except ImportError:
-        return found
-    return found | {"usda": Sample("usda", _USDA)}
+    libraries = {"usda": ("pxr", _USDA), "msh": ("meshio", _MSH)}
+    there = {kind: data for kind, (library, data) in libraries.items() if importlib.util.find_spec(library)}
+    return found | {kind: Sample(kind, data) for kind, data in there.items()}
 
 
 # -------------------------------------------------------------------------------------------------------- every number

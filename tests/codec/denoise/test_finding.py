@@ -91,7 +91,7 @@ def test_rounded_positions_are_known_for_it_and_stay_in_their_cells(sigma: float
     assert theta(clean, result, faces) < 0.5 * theta(clean, noisy, faces)
 
 
-def test_vertices_that_rounding_has_merged_part_and_rehearsals_know_it() -> None:
+def test_vertices_that_rounding_has_merged_part_and_no_forecast_is_wrong() -> None:
     clean, faces = sphere(20)
     noisy = rounded(clean, faces, 0.25, 3)
     lost = (noisy[faces] == noisy[np.roll(faces, 1, axis=1)]).all(axis=2).any(axis=1)
@@ -99,7 +99,8 @@ def test_vertices_that_rounding_has_merged_part_and_rehearsals_know_it() -> None
     result, choice = denoise_automatically(noisy, faces)
     assert theta(clean, noisy, faces[lost]) == pytest.approx(90.0) and theta(clean, result, faces[lost]) < 12.0
     assert choice.untreated == pytest.approx(theta(clean, noisy, faces), rel=0.1)
-    assert choice.reliable and 0.5 * choice.expected < theta(clean, result, faces) < 1.3 * choice.at_most
+    # They slide along the surface, which halves the error; rounding has hidden too many faces to say by how much.
+    assert theta(clean, result, faces) < 1.5 and not choice.reliable
     # Of a soup nobody knows which corners to part.
     corners, soup = noisy[faces.ravel()], np.arange(faces.size, dtype=np.int32).reshape(-1, 3)
     together = denoise_automatically(corners, soup)[0]

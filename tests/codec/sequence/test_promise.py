@@ -133,7 +133,7 @@ def test_a_search_does_not_end_far_below_its_bound(monkeypatch: pytest.MonkeyPat
         return Measured(float(decoded[0][0, 0]), np.zeros(0), {})
 
     monkeypatch.setattr(StepSearch, "_measure", measured)
-    search = StepSearch(*bending(4), Contract(0.02, look=1.0), 1.0, 1)
+    search = StepSearch(*bending(4), Contract(0.02), 1.0, 1)
     found = search.run(lambda step, _: Tried(step), 0.0033, 1e-6, weighed=False)
     assert 0.88 * 0.00014 < found.step <= 0.00014
 
@@ -158,7 +158,7 @@ def test_a_search_ends_when_another_attempt_saves_less_than_its_price(monkeypatc
     monkeypatch.setattr(StepSearch, "_measure", lambda _, decoded: Measured(float(decoded[0][0, 0]), np.zeros(0), {}))
     for first in (0.0005, 0.00495, 0.05):
         tried.clear()
-        found = StepSearch(*bending(4), Contract(0.02, look=1.0), 1.0, 1).run(encode, first, 1e-6, weighed=True)
+        found = StepSearch(*bending(4), Contract(0.02), 1.0, 1).run(encode, first, 1e-6, weighed=True)
         assert 0.9 * 0.005 < found.step <= 0.005 and len(tried) == (1 if first == 0.00495 else 2)
 
 

@@ -26,6 +26,7 @@ from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.parsing import Ints, as_library_error, in_words
 
 _GROUP, _VALUES = "gmsh:physical", ("NodeData", "ElementData")
+MOST_GAPS = 16  # numbers of nodes for each node, on average
 _WAY = "write it as text without that, e.g. gmsh FILE.msh -save -bin 0 -o NEW.msh"
 
 
@@ -48,6 +49,12 @@ class _Gmsh:
             version, binary, _ = sections.get("MeshFormat", [b"0 0 0"])[0].split()[:3]
             if binary != b"0" and any(name in sections for name in _VALUES):
                 raise FormatError(f"this file has values in binary, which are not read here; {_WAY}")
+            # meshio makes a table of all numbers up to the largest.
+            if binary == b"0" and "Nodes" in sections:
+                nodes = _tags(sections["Nodes"][0], version.startswith(b"4"), True)
+                if len(nodes) and nodes.max() > MOST_GAPS * (len(nodes) + 65536):
+                    far = f"node {nodes.max()} of {len(nodes)} nodes: numbers that far apart are not read"
+                    raise FormatError(f"{far}; number them anew, e.g. gmsh FILE.msh -save -o NEW.msh")
             try:
                 self.mesh = library.read(path)
             except Exception as error:
