@@ -2,7 +2,8 @@
 import { deskOf, Reporter } from "./worker";
 import { GridDecoder } from "./grids";
 
-export const { openDesk, serve } = deskOf((start, kernels, say) => {
+// Not taken apart in one step: bundlers would lose what `serve` does.
+const desk = deskOf((start, kernels, say) => {
     const reporter = new Reporter(new GridDecoder(kernels, start.limits), start, say);
     return {
         close: () => reporter.close(),
@@ -12,3 +13,5 @@ export const { openDesk, serve } = deskOf((start, kernels, say) => {
         },
     };
 });
+export const openDesk = desk.openDesk;
+export const serve = desk.serve;

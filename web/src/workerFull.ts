@@ -92,7 +92,10 @@ class HelpingWorker implements Taking {
     }
 }
 
-export const { openDesk, serve } = deskOf((start, kernels, say, guarded) => {
+// Not taken apart in one step: bundlers would lose what `serve` does.
+const desk = deskOf((start, kernels, say, guarded) => {
     if (start.share) return new HelpingWorker(start, kernels, start.share, say);
     return new DecodingWorker(start, kernels, say, guarded);
 });
+export const openDesk = desk.openDesk;
+export const serve = desk.serve;
