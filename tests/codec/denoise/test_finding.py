@@ -91,7 +91,7 @@ def test_rounded_positions_are_known_for_it_and_stay_in_their_cells(sigma: float
     assert theta(clean, result, faces) < 0.5 * theta(clean, noisy, faces)
 
 
-def test_vertices_that_rounding_has_merged_part_and_no_forecast_is_wrong() -> None:
+def test_vertices_that_rounding_has_merged_part_and_rehearsals_know_it() -> None:
     clean, faces = sphere(20)
     noisy = rounded(clean, faces, 0.25, 3)
     lost = (noisy[faces] == noisy[np.roll(faces, 1, axis=1)]).all(axis=2).any(axis=1)
@@ -99,8 +99,10 @@ def test_vertices_that_rounding_has_merged_part_and_no_forecast_is_wrong() -> No
     result, choice = denoise_automatically(noisy, faces)
     assert theta(clean, noisy, faces[lost]) == pytest.approx(90.0) and theta(clean, result, faces[lost]) < 12.0
     assert choice.untreated == pytest.approx(theta(clean, noisy, faces), rel=0.1)
-    # They slide along the surface, which halves the error; rounding has hidden too many faces to say by how much.
-    assert theta(clean, result, faces) < 1.5 and not choice.reliable
+    # They slide along the surface, which took the error from 2.9 degrees; so many faces are lower than that noise that
+    # the forecast, although it is right here, is not called reliable.
+    assert theta(clean, result, faces) < 2.0 and not choice.reliable
+    assert 0.5 * choice.expected < theta(clean, result, faces) < 1.3 * choice.at_most
     # Of a soup nobody knows which corners to part.
     corners, soup = noisy[faces.ravel()], np.arange(faces.size, dtype=np.int32).reshape(-1, 3)
     together = denoise_automatically(corners, soup)[0]
