@@ -231,7 +231,8 @@ def treat(
     finding, touched = finding.reaching(surface.topology, choice.noise.slides), finding.levels > 0.0
     filtered = surface.filtered(noisy, finding)
     full = np.where(touched[:, None], filtered.finished(filtered.mean(choice.steps), choice.finish), noisy)
-    full = full if finding.bound is None else finding.bound.within(noisy, full)
+    # Filters part vertices that rounding has merged, and hold them to their cells from there.
+    full = finding.bound.within(noisy, full) if finding.exact and finding.bound is not None else full
     good, reason = judge(noisy, full, finding, surface.probe)
     if reason:
         return noisy, replace(choice, steps=(), reason=reason)

@@ -210,6 +210,6 @@ class Rehearsal:
         return replace(winner, error=self._goal(self.truth, result), result=result)
 
     def _within(self, positions: Positions, otherwise: Positions) -> Positions:
-        if self._finding.bound is not None:
+        if self._finding.exact and self._finding.bound is not None:
             positions = self._finding.bound.within(otherwise, positions)
         return positions if self._touched.all() else np.where(self._touched[:, None], positions, otherwise)
