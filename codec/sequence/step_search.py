@@ -39,7 +39,7 @@ KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to a
 PRICE, PRICE_OF_ONE = 0.007, 0.04
 """Share of the bytes that the second attempt must save, about, the third twice as much and so on, of a GOP; and that
 each must save of a frame by itself, which must be quick."""
-SPARE = 0.02  # logarithm of what a step is aimed below the bound, and as much more for each miss in a row
+SPARE = 0.02  # logarithm of what a step is aimed below the bound; more after each miss and each doubtful frame over it
 SLOPE = 0.5  # the power of the step that bytes fall by, about
 TWIN_STEP, TWIN = 1 / 16, 1.005
 """A step, in reaches, far below which frames are the same; and how much worse than another one may look."""
@@ -86,7 +86,7 @@ class StepSearch:
         """Return the smallest encoding that keeps the promise in every frame; `encode` takes step and weights."""
         weighed = weighed and len(self._frames) > 1 and bool(self._knots)
         kept: Tried[Found] | None = None
-        step, evened, missed, above = first, np.zeros(len(self._frames)), 0, math.inf
+        step, evened, missed, above, spare = first, np.zeros(len(self._frames)), 0, math.inf, SPARE
         for attempt in range(1, TRIES + 1):
             price = PRICE * attempt if len(self._frames) > 1 else PRICE_OF_ONE
             # Beyond these, levels do not fit, or nothing is left of the motion.
@@ -100,7 +100,7 @@ class StepSearch:
             if latest.excess <= 0.0 and (kept is None or found.size <= kept.found.size):
                 kept = latest
             while True:
-                step, evened = self._following(latest, attempt if weighed else 0, SPARE * (1 + missed))
+                step, evened = self._following(latest, attempt if weighed else 0, spare * (1 + missed))
                 step = min(step, math.sqrt(latest.step * above))
                 last = latest.step == (COARSEST_STEP if latest.excess <= 0.0 else finest)
                 # What the next attempt would take, about. It is made only if it can save more than its price.
@@ -110,7 +110,8 @@ class StepSearch:
                 # Only here are all doubtful frames drawn: once, for the stream that would be returned.
                 if self._is_certain(kept):
                     return kept.found
-                latest, kept, missed = kept, None, 1
+                # Expected looks were too low once, and may be again.
+                latest, kept, missed, spare = kept, None, 1, spare + SPARE
             if last:
                 break
         raise TargetError(f"{self._promise} cannot be kept in every frame, even with step {latest.step:.2g}")
@@ -146,14 +147,14 @@ class StepSearch:
         measured = replace(tried.measured, before={})
         decoded = list(tried.found.decoded_frames())
         for knot in sorted(self._knots - measured.drawn.keys()):
-            if measured.excess <= 0.0:
+            if measured.largest <= 1.0:
                 measured.drawn[knot] = self._look(knot, decoded)
-        while measured.excess <= 0.0 and (doubtful := measured.doubtful) is not None:
+        while measured.largest <= 1.0 and (doubtful := measured.doubtful) is not None:
             measured.drawn[doubtful] = self._look(doubtful, decoded)
         self._ratios = tried.measured.ratios
         shares = (share for frame, share in measured.drawn.items() if self._twins[frame] == frame)
         self.worst_look = self._promise.look * max(shares, default=0.0)
-        return measured.excess <= 0.0
+        return measured.largest <= 1.0
 
     def _look(self, index: int, decoded: Sequence[Matrix]) -> float:
         """Return the look of a frame as a share of the bound; 0 if nothing of it is seen."""
@@ -200,6 +201,11 @@ class Measured:
     def excess(self) -> float:
         """Logarithm of the largest share, drawn or expected."""
         return math.log(max(self.farthest, float(self.looks().max(initial=1e-9))))
+
+    @property
+    def largest(self) -> float:
+        """The largest share that is known and not only expected: few frames tell little of the others."""
+        return max(self.farthest, *self.drawn.values(), 0.0)
 
     @property
     def doubtful(self) -> int | None:

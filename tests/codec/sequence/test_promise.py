@@ -178,6 +178,26 @@ def test_a_frame_in_doubt_is_drawn_before_an_encoding_is_returned(hidden: int, m
     assert max(looks(original[[hidden]], decoded[[hidden]], found)) <= 1.001 / 1.5
 
 
+def test_frames_that_are_only_expected_to_exceed_the_bound_are_drawn_before_an_encoding_is_thrown_away(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """One frame of ten looks much better than its error of normals tells: all others would seem to exceed."""
+    positions, faces = bending(10)
+    errors, shares = np.full(10, 1.0), {4: 0.99}
+    monkeypatch.setattr(StepSearch, "_look", lambda search, index, decoded: shares.get(index, 0.5))
+    errors[4] = 0.5
+    attempts = []
+
+    def measured(search: StepSearch, decoded: Sequence[Matrix]) -> Measured:
+        attempts.append(decoded)
+        return Measured(0.5, errors, {4: 0.99}, {frame: math.log(0.5) for frame in range(10) if frame != 4})
+
+    monkeypatch.setattr(StepSearch, "_measure", measured)
+    search = StepSearch(positions, faces, Contract(0.02, look=1.0), 1.0, 1)
+    search.run(lambda step, _: Tried(step), 0.0033, 1e-6, weighed=True)
+    assert len(attempts) < 5 and search.worst_look == pytest.approx(0.99)
+
+
 def test_frames_that_look_worse_weigh_more() -> None:
     weights = _evening(np.where(np.arange(40) < 20, 0.5, 1.0))
     assert weights.mean() == pytest.approx(0.0) and weights[30] - weights[5] == pytest.approx(np.log(2.0))
