@@ -927,8 +927,10 @@ def test_what_we_write(tmp_path):
         [f"w_{time}.obj" for time in ("9e-06", "1e-05", "1.1e-05")],
         [f"w_{time}.obj" for time in ("-1.5e-3", "-9e-06", "-1e-06", "0", "1.5e3")],
         [f"w_{time}.obj" for time in ("-1.5", "-0.5", "0.25", "0.5")],
+        [f"w_{time}.obj" for time in ("9.0D-06", "1.0D-05", ".1d-03", "1.5D+01")],
         [f"w_{time}/mesh2.obj" for time in ("-0.5", "-0.25", "1")],
         [f"scans/f{number}/mesh.obj" for number in range(8, 12)],
+        [f"model3d-0{number}.obj" for number in range(1, 5)],
         [f"{number}/mesh_{number}.obj" for number in range(8, 12)],
     ],
 )
@@ -936,7 +938,8 @@ def test_frames_are_ordered_by_what_differs_in_their_paths(names):
     for given in (names, names[::-1], sorted(names)):
         assert in_order(given) == names
     looks = names if names[0].startswith(("times", "w_")) else []
-    assert times_in(names) == [float(re.findall(r"-?[\d.]*\d(?:e-?\d+)?", name)[0]) for name in looks]
+    plain = [re.sub("[dD]([-+])", r"e\1", name) for name in looks]
+    assert times_in(names) == [float(re.findall(r"-?[\d.]*\d(?:e[-+]?\d+)?", name)[0]) for name in plain]
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Nastran, Abaqus and Gmsh: what is taken comes out as their own libraries have it, and all else is refused by name."""
 
 import re
+import struct
 
 import numpy as np
 import pytest
@@ -238,6 +239,32 @@ def test_files_of_gmsh(version, binary, order, tmp_path, monkeypatch):
         second = [*moving.meshes][1]
         at = next(a.values[:, 0] for a in second.attributes if a.name == "x")
         assert np.allclose(at, second.positions[:, 0] + 1)
+
+
+@pytest.mark.parametrize("version", [b"2.2", b"4.0", b"4.1"])
+@pytest.mark.parametrize("last", [3, 2**31 - 1])
+def test_numbers_of_nodes_far_apart_are_refused_in_binary(version, last, tmp_path):
+    """meshio would make a table of all numbers up to the largest: gigabytes for three nodes."""
+    pytest.importorskip("meshio")
+    numbers, places = [1, 2, last], np.array([[0, 0, 0], [2, 0, 0], [0, 1, 0]], np.float64)
+    rows = b"".join(struct.pack("<i3d", number, *place) for number, place in zip(numbers, places, strict=True))
+    if version == b"2.2":
+        nodes = b"3\n" + rows
+        elements = b"1\n" + struct.pack("<3i", 2, 1, 0) + struct.pack("<4i", 1, 1, 2, last)
+    elif version == b"4.0":
+        nodes = struct.pack("<2Q3iQ", 1, 3, 1, 2, 0, 3) + rows
+        elements = struct.pack("<2Q3iQ4i", 1, 1, 1, 2, 2, 1, 1, 1, 2, last)
+    else:
+        nodes = struct.pack("<4Q3iQ3Q", 1, 3, 1, last, 2, 1, 0, 3, *numbers) + places.tobytes()
+        elements = struct.pack("<4Q3iQ4Q", 1, 1, 1, 1, 2, 1, 2, 1, 1, 1, 2, last)
+    head = b"$MeshFormat\n" + version + b" 1 8\n" + struct.pack("<i", 1) + b"\n$EndMeshFormat\n"
+    path = tmp_path / "a.msh"
+    path.write_bytes(head + b"$Nodes\n" + nodes + b"\n$EndNodes\n$Elements\n" + elements + b"\n$EndElements\n")
+    if last == 3:
+        assert area_of(bsm.read_mesh(path).mesh) == pytest.approx(1)
+    else:
+        with pytest.raises(bsm.FormatError, match=r"far apart|meshio cannot read"):
+            bsm.read_mesh(path)
 
 
 def test_elements_of_several_groups_are_there_once(tmp_path):

@@ -50,8 +50,10 @@ class _Gmsh:
             if binary != b"0" and any(name in sections for name in _VALUES):
                 raise FormatError(f"this file has values in binary, which are not read here; {_WAY}")
             # meshio makes a table of all numbers up to the largest.
-            if binary == b"0" and "Nodes" in sections:
-                nodes = _tags(sections["Nodes"][0], version.startswith(b"4"), True)
+            if "Nodes" in sections:
+                section = sections["Nodes"][0]
+                is_text = binary == b"0"
+                nodes = _tags(section, version.startswith(b"4"), True) if is_text else _binary_tags(section, version)
                 if len(nodes) and nodes.max() > MOST_GAPS * (len(nodes) + 65536):
                     far = f"node {nodes.max()} of {len(nodes)} nodes: numbers that far apart are not read"
                     raise FormatError(f"{far}; number them anew, e.g. gmsh FILE.msh -save -o NEW.msh")
@@ -139,3 +141,20 @@ def _tags(section: bytes, in_blocks: bool, of_nodes: bool) -> Ints:
         found += [line.split(None, 1)[0] for line in lines[at : at + count]]
         at += count * (1 + (in_blocks and of_nodes))
     return np.array(found, np.int64)
+
+
+def _binary_tags(section: bytes, version: bytes) -> Ints:
+    """The numbers of nodes in a binary file; none of version 2, where meshio takes 1, 2, 3, ... only."""
+    is_new, found = version != b"4.0", [np.zeros(0, np.int64)]
+    row = np.dtype([("tag", np.int32), ("position", np.float64, 3)])
+    count = int(np.frombuffer(section, np.uint64, 1)[0]) if version.startswith(b"4") else 0
+    at = 8 * (4 if is_new else 2)
+    for _ in range(count):
+        nodes = int(np.frombuffer(section, np.uint64, 1, at + 12)[0])
+        at += 20
+        if is_new:
+            found.append(np.frombuffer(section, np.uint64, nodes, at).astype(np.int64))
+        else:
+            found.append(np.frombuffer(section, row, nodes, at)["tag"].astype(np.int64))
+        at += nodes * (32 if is_new else row.itemsize)
+    return np.concatenate(found)

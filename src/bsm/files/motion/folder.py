@@ -30,7 +30,8 @@ from bsm.files.table import FORMATS, MESH_SUFFIXES, START, STEP
 # A sign counts in names such as t_-5, while step-5 has a hyphen.
 _NUMBERS = re.compile(r"((?:(?<![^\W_])-)?\d+)")  # a "-" that follows a letter or a digit is a hyphen
 _SIGNED, _UNITS = re.compile(r"-?\d+"), re.compile(r"\d([fpnuµm]?s|min|h)(?![^\W_])")
-_DECIMALS = re.compile(r"((?:(?<![^\W_])-)?(?:\d+(?:\.\d+)?|(?<![^_])\.\d+)(?:[eE][-+]?\d+)?)")
+# Fortran writes 1.0D-05; without the point, it is a name such as model3d-01.
+_DECIMALS = re.compile(r"((?:(?<![^\W_])-)?(?:\d*\.\d+[dD][-+]\d+|(?:\d+(?:\.\d+)?|(?<![^_])\.\d+)(?:[eE][-+]?\d+)?))")
 _PLACE = re.compile(r"%(0?)(\d*)d")
 
 
@@ -89,7 +90,8 @@ def _varying(stems: Sequence[str]) -> tuple[str, list[str]]:
     if len({*map(len, rows)}) != 1 or len(places) != 1 or places[0] % 2 == 0:
         return "", []
     (place,) = places
-    return f"{rows[0][place - 1][-1:]}#{rows[0][place + 1][:1]}", [row[place] for row in rows]
+    words = [row[place].lower().replace("d", "e") for row in rows]
+    return f"{rows[0][place - 1][-1:]}#{rows[0][place + 1][:1]}", words
 
 
 def times_in(names: Sequence[str]) -> list[float]:
