@@ -67,7 +67,7 @@ def _as(kind: Any, value: Any) -> Any:
     # numpy's numbers are registered as these. Fractions and Decimals count as numbers as well.
     usual = {float: Real, int: Integral, bool: (bool, np.bool_), tuple: (tuple, list)}
     expected: Any = usual.get(origin or kind, origin or kind)
-    # True would be taken for 1, which is never what is meant.
+    # Python takes True for 1, but a caller who passes True does not mean 1.
     if not isinstance(value, expected) or (kind in (float, int) and isinstance(value, bool)):
         raise TypeError
     if origin is not tuple:

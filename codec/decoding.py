@@ -189,7 +189,7 @@ class StreamDecoder:
             raise self._error
         while True:
             event = self._open.next(wanted | mask_of(HEADER, METADATA))
-            # Metadata are no events of their own in Python: they are there when the next event is.
+            # Python has no event for metadata: they are set by the time of the next event.
             if event[0] == METADATA:
                 entries = [self._open.metadata(index) for index in range(self._entries, event[1])]
                 self.metadata, self._entries = {**self.metadata, **dict(entries)}, event[1]

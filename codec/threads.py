@@ -50,7 +50,7 @@ def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: 
         while pending:
             yield pending.popleft().result()
     finally:
-        # Also when the caller stops taking results: work that nobody wants must not go on.
+        # Also when the caller stops taking results: unwanted work must end.
         pool.shutdown(cancel_futures=True)
 
 

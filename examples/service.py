@@ -60,7 +60,7 @@ def answer_to(path: str, data: bytes, preset: str) -> Answer:
     try:
         return 200, WORK[path](data, preset)
     except bsm.BsmError as error:
-        # What failed is the upload; the names of files here are nobody's business.
+        # The answer is about the upload; it must not show names of files here.
         sentence = re.sub(r"(?<![^\s'\"(])/\S+", "(a file)", str(error))
         return 413 if isinstance(error, bsm.LimitError) else 422, f"{type(error).__name__}: {sentence}"
     except Exception as error:

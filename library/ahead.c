@@ -74,7 +74,7 @@ static void run_tasks(const bsmdec *decoder, int64_t tasks, void (*task)(void *c
     decoder->parallel.run(decoder->parallel.host, (int)tasks, work, &own);
 }
 
-/* NULL where there is no memory for it: then nothing is decoded ahead. */
+/* NULL without memory for it: then nothing is decoded ahead. */
 static Ahead *ahead_of(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     Context own = beside(decoder);

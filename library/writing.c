@@ -190,31 +190,31 @@ static bool write_connectivity(Context *context, Source given, int64_t vertices,
     return true;
 }
 
-static void find_turns(Source given, const int32_t *order, const int32_t *face_order, const int32_t *faces,
-    uint8_t *turns) {
+static void find_starts(Source given, const int32_t *order, const int32_t *face_order, const int32_t *faces,
+    uint8_t *starts) {
     for (int64_t f = 0; f < given.faces_count; f++) {
         const int32_t *face = given.faces + 3 * (int64_t)face_order[f];
-        turns[f] = 0;
+        starts[f] = 0;
         for (int k = 2; k >= 0; k--) {
             bool same = true;
             for (int j = 0; j < 3; j++) {
                 int32_t corner = face[(j + k) % 3];
                 same = same && (given.values != NULL ? given.values[corner] : corner) == order[faces[3 * f + j]];
             }
-            if (same) turns[f] = (uint8_t)k;
+            if (same) starts[f] = (uint8_t)k;
         }
     }
 }
 
 bool write_faces(PayloadWriter *writer, Source given, int64_t vertices, Payload *writing, int32_t *order,
-    int32_t *face_order, int32_t *faces, uint8_t *turns) {
+    int32_t *face_order, int32_t *faces, uint8_t *starts) {
     Arena arena = arena_of(&writer->context);
     writer->context.writing = writing;
     bool done = write_connectivity(&writer->context, given, vertices, &arena, &writer->scratch, order, face_order,
         faces);
     writer->context.writing = NULL;
     release_all(&arena);
-    if (done) find_turns(given, order, face_order, faces, turns);
+    if (done) find_starts(given, order, face_order, faces, starts);
     return done;
 }
 

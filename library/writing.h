@@ -23,7 +23,7 @@ void end_payloads(Context *context, Payload *writing);
  * which faces a decoder makes, and which corner of its own each of them begins with. `values` has the vertex of each
  * number; NULL: the number itself. */
 bool write_faces(PayloadWriter *writer, Source given, int64_t vertices, Payload *writing, int32_t *order,
-    int32_t *face_order, int32_t *faces, uint8_t *turns);
+    int32_t *face_order, int32_t *faces, uint8_t *starts);
 
 /* A field whose chunks are written, or read, one after the other. It must not be moved. */
 typedef struct {

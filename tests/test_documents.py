@@ -257,7 +257,7 @@ LEANING = re.compile(r"(?:Of|The same|And|That of|Those|Them)\b")
 
 @pytest.mark.parametrize("room", ["bitstream", "codec", "src/bsm", "tools"])
 def test_docstrings_can_be_read_alone(room):
-    """In a tooltip nobody sees the one before."""
+    """A tooltip is shown without the one before it."""
     sources = [path for path in (ROOT / room).rglob("*.py") if "node_modules" not in path.parts]
     nodes = [(path, node) for path in sources for node in ast.walk(ast.parse(path.read_text()))]
     named = [(path, node) for path, node in nodes if isinstance(node, (ast.FunctionDef, ast.ClassDef))]

@@ -130,7 +130,7 @@ def _renamed(text: str, names: Iterable[str], suffix: str) -> str:
 
 
 def _private(text: str) -> str:
-    """A header or a source whose names nobody else sees."""
+    """A header or a source with private names."""
     text = re.sub(r"^(extern )?INSIDE ", "static ", text, flags=re.MULTILINE).replace("extern const", "static const")
     return _BARE.sub(
         "static ", _PROTOTYPE.sub("static ", re.sub(r"^const (?=.*\[)", "static const ", text, flags=re.MULTILINE))

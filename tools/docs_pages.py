@@ -75,7 +75,7 @@ def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
         name = pages.get(file) or (file.removeprefix("docs/") if file.startswith("docs/") else None)
         return f"]({relpath(name, dirname(place) or '.')}{link[2] or ''})" if name else link[0]
 
-    # a[i][j] of the specification is no link.
+    # a[i][j] in the specification is not a link.
     return re.sub(LINK, moved, markdown.replace("][", "]\\[") if place.startswith("format/") else markdown)
 
 

@@ -180,7 +180,7 @@ PLACES = {part: (name, place) for name, parts in PARTS.items() for place, part i
 
 
 def header_frame(**values: Any) -> tuple[int, bytes]:
-    """A header of any fields, by name, but for those that have their default; checked by nobody."""
+    """A header of any fields, by name, except those at their default; unchecked."""
     entries = {
         HEADER_FIELDS[name].key: HEADER_FIELDS[name].normalize(value)
         for name, value in values.items()

@@ -78,7 +78,7 @@ void join_two(int32_t *joined, int32_t a, int32_t b) {
     joined[largest(a, b)] = (int32_t)least(a, b);
 }
 
-/* Give corners of one vertex that meet at an edge which is no seam one number, numbers in the order of their first
+/* Give corners of one vertex that meet at an edge which is not a seam one number, numbers in the order of their first
  * corners, which come into `first`. Returns how many there are. */
 int64_t join_corners(Corners corners, ConstBytes seams, Ints joined, Ints first) {
     int64_t size = corners.corners.size;

@@ -26,7 +26,7 @@ def write_stretches(shown: npt.NDArray[np.int64] | None) -> bytes:
     at, due = 0, 0
     while at < len(shown):
         changes = np.diff(shown[at:])
-        # A jump is no way. The stretch then has one frame, and the next begins after the jump.
+        # A jump has no inner frames. The stretch then has one frame, and the next begins after the jump.
         way = int(changes[0]) if len(changes) and changes[0] in WAYS else WAYS[0]
         others = np.flatnonzero(changes != way)
         count = int(others[0]) + 1 if len(others) else len(shown) - at

@@ -33,7 +33,7 @@ typedef struct {
     uint32_t half;
 } Divisor;
 
-typedef int32_t OfAxes __attribute__((vector_size(16))); /* a number of each axis, and one that nobody looks at */
+typedef int32_t OfAxes __attribute__((vector_size(16))); /* a number of each axis, and one unused */
 
 INLINE OfAxes row_at(const Ints2 *rows, int32_t v) {
     const int32_t *row = rows->data + (int64_t)AXES * v;

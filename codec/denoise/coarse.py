@@ -19,7 +19,7 @@ BLOCK_SIZE = 500  # about the paper's; half or twice of it leaves 2.4 and 0.6 % 
 OVERLAP = 1.15
 KEEP = 0.10
 SHORTEST = 0.1  # of mean edges: the length from which on an edge is not shorter to the weights
-# More iterations than a stream would send, since nobody waits for a decoder; and no springs, as the paper has none.
+# More iterations than a stream would send, since no decoder has to repeat them; no springs, as in the paper.
 RULES = ChainRules(exact=False, key_interval=16, power=3, iterations=2, key_iterations=4, shift=0.125, springs=False)
 
 

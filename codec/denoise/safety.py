@@ -15,7 +15,7 @@ MOST, MOST_FUSED, MOST_UNKNOWN = 1.9, 3.0, 1.25
 varies by chance between windows if neighbors share it, and with the slant in scans of one view; in fused views, whose
 broad noise is stronger where few views meet; and where noise is not known."""
 MOST_CORRELATED = 4.0  # at most, correlated noise over its finest frequencies, a ratio that is the same everywhere
-FAINT = 0.02  # movements below, in mean edges, harm nobody
+FAINT = 0.02  # movements below this, in mean edges, are harmless
 DETAIL_LOST = {"shading": 0.075, "shape": 0.03, "both": 0.03}
 """Noise may hold detail where rehearsals for a goal lose more roughness than this (a logarithm)."""
 NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 1.03, 4.0, 0.4

@@ -71,7 +71,7 @@ class TriangleMesh:
         if not np.isfinite(positions).all():
             row = int(np.argmin(np.isfinite(positions).all(axis=1)))
             raise MeshError(f"vertex {row} has a coordinate that is not finite; remove or repair it")
-        # Before the shape: an empty list has the wrong shape, but what is wrong is that there are no faces.
+        # Before the shape: an empty list also has the wrong shape, but "no faces" is the helpful error.
         if faces.size == 0:
             raise NoFacesError("the mesh has no faces; point clouds are not supported")
         if faces.ndim != 2 or faces.shape[1] != 3:

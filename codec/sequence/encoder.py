@@ -232,7 +232,7 @@ class SequenceEncoder:
         for index, run in enumerate(runs):
             if not index:
                 gops = -(-self._count // options.together(len(run.joined.first)))
-                # Without the number of frames there is no share of the work that could be told.
+                # Without the number of frames, progress cannot be given as a fraction.
                 steps = _Rounds(progress if gops else None, gops + (options.promise is None))
                 yield verifier.take(writer.start())
             for packet in self._run(run, index, meshes, options, steps):

@@ -188,7 +188,7 @@ class Encoder:
 
     def draft(self, progress: Progress | None = None) -> Draft:
         """Return the stream of the options, without a target."""
-        _ = self._input.carried  # raises what is wrong with attributes first
+        _ = self._input.carried  # raises errors of attributes first
         promise, near = self.options.promise, self._begun(progress)
         if promise is None:
             return self._verified(self._input.completed(self._bare(near)), near)
@@ -228,7 +228,7 @@ class Encoder:
         target = self.options.target
         if target is None:
             raise OptionError("no target to search for")
-        _ = self._input.carried  # raises what is wrong with attributes first
+        _ = self._input.carried  # raises errors of attributes first
         near, contract = self._begun(progress), self.options.promise
         if self.options.sets_coding:
             found = self._at_step(target, near)

@@ -3,7 +3,7 @@
 
 #ifdef BSMDEC_WRITES
 
-/* The seed differs from run to run, so nobody can choose rows of one hash. */
+/* The seed differs from run to run, so an attacker cannot choose rows of one hash. */
 static uint64_t hash_of(const int64_t *row, int width, uint64_t seed) {
     uint64_t hash = seed;
     for (int i = 0; i < width; i++) hash = ((hash ^ hash >> 29) ^ (uint64_t)row[i]) * (seed << 1 | 1);

@@ -232,7 +232,7 @@ static void place_of(const double *unit, int64_t size, int64_t *place) {
 double direction_of(const double *vector, double *unit) {
     double most = 0.0, scale = 1.0;
     for (int j = 0; j < 3; j++) most = __builtin_fabs(vector[j]) > most ? __builtin_fabs(vector[j]) : most;
-    if (most > 0x1p500 || most < 0x1p-500) scale = most > 0.0 ? most : 1.0; /* whose squares are no numbers */
+    if (most > 0x1p500 || most < 0x1p-500) scale = most > 0.0 ? most : 1.0; /* whose squares overflow or vanish */
     for (int j = 0; j < 3; j++) unit[j] = vector[j] / scale;
     double length = __builtin_sqrt((unit[0] * unit[0] + unit[1] * unit[1]) + unit[2] * unit[2]);
     for (int j = 0; j < 3; j++) unit[j] = length > 0.0 ? unit[j] / length : j == 2 ? 1.0 : 0.0;

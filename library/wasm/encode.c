@@ -46,7 +46,7 @@ int encode_run(int positions, int bits, double cell, double x, double y, double 
     return bsmenc_encode(&mesh, &options, &stream);
 }
 
-/* Of the last run: what is wrong; the stream, and its length. */
+/* Of the last run: the error; the stream, and its length. */
 const char *encode_message(void) { return stream == NULL ? "out of memory" : stream->message; }
 const uint8_t *encode_bytes(void) { return stream->bytes; }
 int encode_size(void) { return (int)stream->size; }

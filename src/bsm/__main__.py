@@ -39,7 +39,7 @@ def run() -> None:
     # Looking for cycles among the objects of all modules, while they load and again at the end, would take longer than
     # decoding a small mesh.
     gc.set_threshold(100_000)
-    if not sys.warnoptions:  # commands print notes; warnings of libraries are for those who write programs
+    if not sys.warnoptions:  # commands print notes; library warnings are for programmers
         warnings.simplefilter("ignore")
     # Where standard streams are closed, no file that is opened may take their places.
     while (free := os.open(os.devnull, os.O_RDWR)) <= 2:

@@ -96,7 +96,7 @@ def encode(
     >>> len(small) <= 3000
     True
     """
-    # Here and below, imports stand in the functions: whoever only decodes shall not wait for the encoder to load.
+    # Here and below, functions import what they need: a program that only decodes does not load the encoder.
     from bsm.encoding.given import given_mesh
 
     # Before the mesh is read: a wrong keyword is said at once, and not after minutes of reading.

@@ -26,7 +26,7 @@ from tools.vectors.store import Arrays, arrays_of, arrays_of_frames
 
 
 def is_sequence(stream: bytes) -> bool:
-    """Whether the header says so; what is no stream is taken for a mesh."""
+    """Whether the header says so; other bytes are taken for a mesh."""
     return bool(first_entries(stream).get(HEADER_FIELDS["sequence"].key))
 
 

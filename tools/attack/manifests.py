@@ -89,7 +89,7 @@ def changed(tree: Any, random: Random) -> Any:
                 value = value[step]
             inside[key] = copy.deepcopy(value)
         case 3 if type(inside[key]) in (int, float):
-            with suppress(OverflowError):  # of what is no float any more
+            with suppress(OverflowError):  # values beyond the range of a float
                 inside[key] += random.choice((-1, 1, 0.5, 2**20, -(2**20)))
         case 4 if type(inside[key]) in (int, float):
             with suppress(OverflowError):
@@ -160,7 +160,7 @@ def used(path: str) -> None:
 def escaped(folder: Folder, random: Random) -> str | None:
     """What came out of a mutant that is neither a result nor an error of ours."""
     folder.mutate(random)
-    signal.setitimer(signal.ITIMER_PROF, MOST_SECONDS)  # of its own: a busy disk is nobody's fault
+    signal.setitimer(signal.ITIMER_PROF, MOST_SECONDS)  # processor time: a busy disk is not a finding
     try:
         with np.errstate(all="raise", under="ignore"):
             used(str(folder.path))
@@ -178,7 +178,7 @@ def _late(*_: object) -> None:
 
 
 def walk(count: int, seed: str) -> Iterator[str]:
-    """Return what a number of mutants raised that is no expected error."""
+    """Return the unexpected errors of a number of mutants."""
     signal.signal(signal.SIGPROF, _late)
     with tempfile.TemporaryDirectory() as place:
         folder = Folder(Path(place, "tiles"))

@@ -44,7 +44,7 @@ _REALS = (0.0, 0.125, 1.0, 1e-3, 2.0**-30, 2.0**-40, 2.0**20, 2.0**30, 65535.0, 
 
 
 def mutate_stream(data: bytes, max_size: int, seed: int, mutate: Mutate) -> bytes:
-    """Another stream like `data`; bytes that are no stream are mutated as such."""
+    """Another stream like `data`; bytes that are not a stream are mutated as bytes."""
     random = Random(seed)
     try:
         frames = frames_of(data)

@@ -52,7 +52,7 @@ class Shard:
 
     @contextmanager
     def watching(self, stream: bytes) -> Iterator[None]:
-        """Note whatever is no error of a stream, and what takes too long."""
+        """Record errors that are not errors of a stream, and runs that take too long."""
         if self._careful:
             self._keep(stream, "crash")
         begin = time.process_time()

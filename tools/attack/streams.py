@@ -100,7 +100,7 @@ SHAPES: dict[str, Callable[..., Faces]] = {
 
 
 def _header(coded: EncodedConnectivity, **fields: Any) -> tuple[int, bytes]:
-    """A header frame of any fields, checked by nobody."""
+    """A header frame of any fields, unchecked."""
     return header_frame(**{"vertices": len(coded.vertex_order), "faces": len(coded.faces)} | fields)
 
 
@@ -506,7 +506,7 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "values-corners": lambda: _valued(500, 500, 5, 1 << 15),  # fewer on more corners
     # Attributes, value by value
     "values-chunks": lambda: _valued(60, 60, 3, 1, kind=0, components=1, largest=(1,), origin=AS_CODED),
-    # Six times normals that nobody sends
+    # Six times normals that are never sent
     "values-normals": lambda: _valued(
         400, 400, 6, 1, kind=6, components=3, semantic=2, coding=RECOMPUTED, coded=0, largest=()
     ),

@@ -187,7 +187,7 @@ def _reported_by_child(works: Sequence[Callable[[], Work]], seconds: int) -> lis
         resource = importlib.import_module("resource")  # of POSIX
         resource.setrlimit(resource.RLIMIT_AS, (MOST_ADDRESSES, MOST_ADDRESSES))
         for prepare in works:
-            signal.setitimer(signal.ITIMER_PROF, 2 * seconds)  # of its own: a busy machine is nobody's fault
+            signal.setitimer(signal.ITIMER_PROF, 2 * seconds)  # processor time: a busy machine is not a finding
             signal.alarm(_PATIENCE * seconds)
             taken = _measured(prepare())
             os.write(writing, json.dumps(vars(taken)).encode() + b"\n")
@@ -222,6 +222,6 @@ def resident(name: str) -> int:
 
 
 def warm_up() -> None:
-    """What is loaded and allocated once is nobody's fault."""
+    """Modules and allocations of the first call do not count."""
     for how in ("events", "whole"):
         decode_all(encode(torus(20, 20)), how, Limits())

@@ -42,7 +42,7 @@ class Tally:
             self.decoded += 1
 
     def hold(self, stream: bytes, found: Outcome, expected: Outcome, exact: bool = False) -> str | None:
-        """Compare what became of a stream with what should have; what is wrong with it, or None.
+        """Compare what a stream decoded to with what it should have; return the difference, or None.
 
         `exact` asks for attributes that are equal to the last bit, too.
         """

@@ -121,7 +121,7 @@ def vector_seeds() -> list[bytes]:
 
 
 def run(target: Target, data: bytes) -> None:
-    """Run a target; what it refuses as it should is no finding."""
+    """Run a target; an expected refusal is not a finding."""
     if target is mesh_file and not data:
         return  # it reads its own first byte
     with suppress(BsmError):

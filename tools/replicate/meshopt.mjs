@@ -1,4 +1,4 @@
-// Files of meshoptimizer, of positions quantized by whoever asks: node meshopt.mjs PACKAGE FILE BITS... > sizes as JSON.
+// Files of meshoptimizer, of positions that the caller quantized: node meshopt.mjs PACKAGE FILE BITS... > sizes as JSON.
 // FILE holds counts of vertices and triangles, triangles (uint32), and for each of BITS positions (uint16, four each).
 import { readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";

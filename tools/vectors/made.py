@@ -1,4 +1,4 @@
-"""The vectors that can be made again: those of the next version. Released ones are bytes, which nobody makes again."""
+"""The vectors that can be made again: those of the next version. Released ones are bytes and never made again."""
 
 from tools.vectors.good import Bad, Good
 from tools.vectors.good_base import BASES, BASES_BAD

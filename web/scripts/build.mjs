@@ -24,7 +24,7 @@ const BUNDLED = ["three"];
 
 const SENTENCE =
     /(new (?:Format|Unsupported|Corrupt|Truncated|Limit|Numeric)Error\(|[.]nonsense\(|\brefuse\()\s*(?:"[^"\n]*"|`(?:[^`$\\]|\$\{[^{}`]*\})*`)(?=\s*[,)])/g;
-/** Leaves out what errors say: a pool asks the decoder of everything what is wrong with a stream. */
+/** Leaves out what errors say: a pool asks the full decoder for the error of a stream. */
 const TERSE = {
     name: "terse",
     setup({ onLoad }) {
@@ -151,7 +151,7 @@ function licenses(packages) {
 /** Path and content of everything that is built of TypeScript. */
 async function products() {
     const define = { LICENSES: JSON.stringify(licenses(BUNDLED)) };
-    const mangleProps = /^__/; // by which three.js calls what nobody else sees
+    const mangleProps = /^__/; // names that three.js uses for its private members
     const script = (
         await smaller(
             await bundle(join(SOURCES, "viewer/viewer.ts"), {

@@ -1,6 +1,6 @@
 // `node --expose-gc measure.mjs FOLDER`: decode 0.bsm, 1.bsm, ... there, or the stream that is named, and print for
 // each, as a line of JSON, what it took:
-// bytes of memory beyond what there was before, and seconds of CPU; `escaped` is what is no error of a stream.
+// bytes of memory beyond what there was before, and seconds of CPU; `escaped` counts errors that are not errors of a stream.
 import { readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";

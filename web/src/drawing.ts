@@ -86,7 +86,7 @@ export class Drawing {
     accept(event: Event): void {
         switch (event.type) {
             case "header":
-                return event.header.run > 0 ? this.turn(event.header.run) : this.show(event);
+                return event.header.run > 0 ? this.startRun(event.header.run) : this.show(event);
             case "connectivity":
                 return this.begin(event);
             case "block":
@@ -115,7 +115,7 @@ export class Drawing {
         }
     }
 
-    private turn(run: number): void {
+    private startRun(run: number): void {
         this.flush();
         [this.run, this.growing] = [run, false];
         this.faces = new Int32Array(0);

@@ -33,7 +33,7 @@ export async function compiled(url: URL): Promise<WebAssembly.Module> {
     if (/^http/.test(url.protocol)) {
         const response = await answered(url);
         if (/^application\/wasm\b/.test(response.headers.get("content-type") ?? ""))
-            // Read as a whole, what is wrong can be said.
+            // After a complete read, the error can be named.
             return WebAssembly.compileStreaming(response).catch(async () => ofBytes(url, await bytesAt(url)));
         return ofBytes(url, await response.arrayBuffer());
     }

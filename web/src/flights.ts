@@ -1,16 +1,15 @@
 /**
- * Streams that are fetched: one request for all who ask for an address at the same time, and none for those who ask when
- * THREE.Cache has it.
+ * Streams that are fetched: one request for all loads of an address at the same time, and none if THREE.Cache has it.
  *
  * FileLoader gives a file when all of it is there, and streams are decoded while they come. So requests are made here:
  * each keeps the pieces that came, for who joins later, and puts the whole into the cache that FileLoader uses, under its
- * key. It stops when the last of those who wait for it has gone.
+ * key. It stops when its last waiting load is cancelled.
  */
 import { Cache } from "three";
 
 /** What is heard of a request: pieces, how much of how much was received (0: not known), and the end. */
 export interface Passenger {
-    /** A piece, which several may have: nobody changes it. */
+    /** A piece, which several loads may share: it must not be changed. */
     onPiece: (piece: Uint8Array) => void;
     onProgress?: (loaded: number, total: number) => void;
     signal?: AbortSignal;
@@ -57,7 +56,7 @@ function begun(key: string, address: URL, request: RequestInit): Flight {
     const flight: Flight = { pieces: [], passengers: new Set(), stop: new AbortController(), over: Promise.resolve() };
     flight.over = received(flight, address, request).finally(() => flights.delete(key));
     flight.stop.signal.addEventListener("abort", () => flights.delete(key));
-    flight.over.catch(() => {}); // those who wait hear of it
+    flight.over.catch(() => {}); // waiting loads get the error
     flights.set(key, flight);
     return flight;
 }

@@ -53,7 +53,7 @@ export class BSMGeometry extends BufferGeometry {
         super();
     }
 
-    /** Frames per second; 0: the stream is no sequence, or does not say. */
+    /** Frames per second; 0: the stream is not a sequence, or does not say. */
     get frameRate(): number {
         const rate = this.metadata.get("frame_rate");
         return typeof rate === "number" && rate > 0 && rate < Infinity ? rate : 0;

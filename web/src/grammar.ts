@@ -22,7 +22,7 @@ export class Grammar {
         return this.last === "end";
     }
 
-    /** Take note of a packet, or throw what is wrong with it here. */
+    /** Record a packet, or throw an error if it may not come here. */
     accept(packet: Packet): void {
         const { header, nextVertex, entryNames } = this;
         const may = packet.type === "metadata" ? header : FOLLOWERS[this.last]?.includes(packet.type);

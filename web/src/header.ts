@@ -24,7 +24,7 @@ type Lists = Record<"center" | "refinement" | "grid" | "lattice" | "corner", num
 
 /** The names are those of the specification. */
 export interface Header extends Numbers, Lists {
-    /** Of a sequence, 0 if nobody knew; and the most frames of a GOP, 0 for a static mesh. */
+    /** Of a sequence, 0 if unknown; and the most frames of a GOP, 0 for a static mesh. */
     frames: number;
     gopFrames: number;
     run: number;

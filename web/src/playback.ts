@@ -42,7 +42,7 @@ export class Playback {
     step(seconds: number, there: number, all: boolean): void {
         if (there === 0) return;
         if (this.waiting) this.waiting = !all && there - this.at < RESERVE * this.rate;
-        else if (this.playing) this.at += Math.max(0, seconds) * this.rate || 0; // a speed that is no number stops nothing for good
+        else if (this.playing) this.at += Math.max(0, seconds) * this.rate || 0; // a NaN speed must not stop the clock for good
         if (this.at < there) return;
         if (all && this.playing && this.loop) {
             this.at = EARLY;

@@ -36,7 +36,7 @@ const TAP = 6; // pixels that a finger may move while it taps
 const NEAR = "20%";
 /** From where it is looked at first, in front and a little above, and how much farther away than would do. */
 const [FRONT, ROOM] = [new Vector3(0.4, 0.3, 1).normalize(), 1.02];
-/** Where there are no pages the class can be named, too. */
+/** Without a document, the class can still be imported. */
 const Base = (globalThis.HTMLElement ?? Object) as typeof HTMLElement;
 
 /**

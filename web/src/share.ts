@@ -1,7 +1,7 @@
 /** What those that share the chains of a stream have in common. */
 import type { Described } from "./errors";
 
-/** A block that a helper has decoded, before it is blended with others, in BSM units; or what is wrong with it. */
+/** A block that a helper has decoded, before it is blended with others, in BSM units; or its error. */
 export interface SharedBlock {
     index: number;
     block?: Record<"positions" | "weights", Float64Array> & { vertices: Int32Array };

@@ -37,7 +37,7 @@ function imported(address: () => URL): Worker | undefined {
 
 /** Say once that the work is done in the thread that draws, and what that means. */
 export function sayAlone(): void {
-    if (isSaid || typeof Worker === "undefined") return; // where there are none, nobody expects any
+    if (isSaid || typeof Worker === "undefined") return; // without workers in the platform there is nothing to report
     isSaid = true;
     console.warn(
         "BSM: no thread can be started here, so the page waits while it decodes; see worker-src of its policy",

@@ -31,7 +31,7 @@ export type Order = { task: number } & ({ start: Start } | { data: Uint8Array | 
 export type Message = Order | { help: MessagePort };
 
 /**
- * Of a task: an event or a picture, a block, the end of blocks, events before what is wrong, that, bytes taken, or the
+ * Of a task: an event or a picture, a block, the end of blocks, events before an error, the error, bytes taken, or the
  * end.
  */
 export type Report =
@@ -58,7 +58,7 @@ export interface StreamWorker {
 }
 
 export type Guard = (work: () => void) => void;
-/** `close` is called once, at the end or after what is wrong: everything is given back there. */
+/** `close` is called once, at the end or after an error: everything is released there. */
 export type Open = (
     start: Start,
     kernels: Kernels,

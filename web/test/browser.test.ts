@@ -1,4 +1,4 @@
-/** The page in headless Chromium: streams in pieces, draws what it should, says what is wrong with a damaged stream. */
+/** The page in headless Chromium: streams in pieces, draws them, reports the error of a damaged stream. */
 import assert from "node:assert/strict";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -30,7 +30,7 @@ const SEQUENCES = [
     ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : []),
 ];
 
-/** What stands over the mesh is no part of it, nor is what changes behind it. */
+/** Overlays and changes behind the mesh do not count. */
 const BARE = ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: #e9ecf0 !important }";
 
 /** Shares of the pixels that are red and green, and how high these are on the mean, from the top. */

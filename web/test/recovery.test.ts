@@ -9,7 +9,7 @@ import { frameOf } from "../src/reader";
 import { parseVarint } from "../src/varint";
 import { kernels, VECTORS } from "./shared";
 
-/** Where whoever starts the tests has put damaged streams, and what Python makes of each. */
+/** The folder with damaged streams, and what Python makes of each. */
 const FOLDER = process.env.BSM_DAMAGED;
 
 /** What a tolerant decoder tells of a stream that comes in pieces. */

@@ -142,7 +142,7 @@ def _peeled(positions: Positions, probe: Probe) -> Positions:
             rest -= operator @ step
     vertices = np.flatnonzero(amounts)
     if len(vertices) > MOST_SHARE * len(positions):
-        # This many are no exceptions: the filters remove noise that is everywhere.
+        # So many are not outliers: the filters remove noise that is everywhere.
         return positions
     # The first ones were measured beside neighbors that were off as well: all of them again, together.
     amounts[vertices] += linalg.lsqr(operator[:, vertices], rest, iter_lim=REFINEMENTS)[0]

@@ -1,7 +1,7 @@
 /* Creases that shading hangs on. Encoder only.
  *
  * Viewers shade faces that are bent by less than some angle as one smooth surface, and others each by itself. Where the
- * bend is near that angle, an error that nobody would see turns one into the other, which is plain to see. */
+ * bend is near that angle, an invisible error changes one into the other, and that change is visible. */
 #include "codec/geometry/geometry.h"
 #include "codec/static/choice/choice.h"
 

@@ -104,12 +104,12 @@ int64_t fit_cells(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstIn
         gather_cells(mesh, own, rounds, from, to, z, image, m);
         add_bend(cells, way, (float)bent, SMALL, room, image);
         add_products(way, image, m, along);
-        FourSingles length = {0.0f, 0.0f, 0.0f, 0.0f}, turn = length;
+        FourSingles length = {0.0f, 0.0f, 0.0f, 0.0f}, beta = length;
         for (int d = 0; d < 3; d++) length[d] = along[d] > 0.0 ? (float)(before[d] / along[d]) : 0.0f;
         for (int64_t c = 0; c < m; c++) found[c] += length * way[c], rest[c] -= length * image[c];
         add_products(rest, rest, m, after);
-        for (int d = 0; d < 3; d++) turn[d] = before[d] > 0.0 ? (float)(after[d] / before[d]) : 0.0f;
-        for (int64_t c = 0; c < m; c++) way[c] = rest[c] + turn * way[c];
+        for (int d = 0; d < 3; d++) beta[d] = before[d] > 0.0 ? (float)(after[d] / before[d]) : 0.0f;
+        for (int64_t c = 0; c < m; c++) way[c] = rest[c] + beta * way[c];
         for (int d = 0; d < 3; d++) before[d] = after[d];
     }
     for (int64_t c = 0; c < m; c++)

@@ -70,8 +70,8 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
     many = asked(Batch, args, report=str(work / "tiles.json"))
     with console.progress(until=0.5 if args.tileset else 0.96):
         done = run_many(many, asked_for, console, tile_one, _jobs(plan, work, args.finest), ended)
-    # Without all tiles there is no manifest, so that no reader takes a part for the whole. The work stays, to be
-    # resumed.
+    # The manifest is written after the last tile, so that a reader never takes a part for the whole. The work stays and
+    # can be resumed.
     if failed := [facts for facts in done if "error" in facts]:
         console.note(f"{len(failed)} of {len(done)} tiles failed; --resume repeats these and the tiles above them")
         return int(failed[0]["exit"])

@@ -62,8 +62,8 @@ class Wishes:
         said = as_said(self.keywords)
         try:
             encode_options(**said)
-        # It is not known yet whether the input is a mesh or a sequence. Only what is wrong for both is an error here;
-        # that of the mesh is the one told, since meshes are more frequent.
+        # It is not known yet whether the input is a mesh or a sequence. Only wishes that are wrong for both are errors
+        # here; the message is that for meshes, which are more frequent.
         except BsmError as error:
             try:
                 sequence_options(**said)

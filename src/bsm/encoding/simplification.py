@@ -71,7 +71,7 @@ def encode_source(mesh: TriangleMesh, options: EncodeOptions, progress: Progress
         return Chosen(encoder, encoder.result(progress), mesh)
     source = Source(mesh, options)
     with progress.part("encoding all triangles", 0.3):
-        # All triangles come first: whatever follows must beat this stream, so nobody gets a larger file for having
+        # All triangles come first: each later attempt must beat this stream, so no file is larger for having
         # asked.
         encoder = Encoder(mesh, options)
         best = Chosen(encoder, encoder.result(progress), source.whole)

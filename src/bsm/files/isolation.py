@@ -135,7 +135,7 @@ def _end_of(number: int, words: bytes, asked: dict[str, Any]) -> BsmError:
 @contextmanager
 def shared(data: bytes) -> Iterator[int]:
     """Memory that other processes can read and write."""
-    # Memory without a name in any folder: nobody else can open it, and the kernel frees it with the last process.
+    # Memory without a name in any folder: no other process can open it, and the kernel frees it with the last user.
     memory = os.memfd_create("bsm")
     try:
         os.pwrite(memory, data, 0)

@@ -176,7 +176,7 @@ def in_words(error: Exception) -> str:
         return f"{error} is missing"
     words = re.sub(r"^\w*(Error|Exception)( \d+)?: *", "", " ".join(str(error).split()))[-200:]
     ours = isinstance(error, LookupError | TypeError | AttributeError | ArithmeticError | AssertionError) or not words
-    # Such a text speaks of our program, not of the file. The line that failed helps whoever reports it.
+    # Such a text describes our program, not the file. The line that failed helps in a bug report.
     if ours or _OF_PYTHON.search(words):
         own = [at for at in walk_tb(error.__traceback__) if at[0].f_code.co_filename.startswith(_PACKAGE)]
         place = "".join(f" ({Path(frame.f_code.co_filename).name}, line {line})" for frame, line in own[-1:])

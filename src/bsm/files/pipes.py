@@ -266,7 +266,7 @@ class Input:
     def is_file(self) -> bool:
         return self._file is None and self.name != "-" and os.path.isfile(self.name)
 
-    # A file is opened a second time for its head, so that whoever reads it later finds it at its beginning, without a
+    # A file is opened a second time for its head, so that its reader finds it at its beginning, without a
     # seek that pipes would not have.
     def peek(self, size: int) -> bytes:
         """The first bytes that are still to be read, up to `size` of them; fewer only at the end."""
@@ -344,7 +344,7 @@ def as_input(source: Source) -> Input:
     return source if isinstance(source, Input) else Input(source)
 
 
-# A name that does not exist is no pipe: opening it then says so, as of any file.
+# A name that does not exist is not a pipe: opening it reports that, as for any file.
 def is_pipe(source: Source) -> bool:
     """Whether a path names what can be read once only: standard input ("-"), a named pipe, a socket or a terminal."""
     if not isinstance(source, (str, os.PathLike)):

@@ -54,7 +54,7 @@ def open_sequence(
     isolated: bool | None = None,
 ) -> Frames | None:
     """The sequence that `source` names, or None if it is not one but perhaps a mesh; `isolated` as in `read_mesh`."""
-    # Nothing may be taken from a pipe to look at it: whoever reads the mesh in it needs every byte.
+    # A look at a pipe must not consume bytes: the reader of the mesh needs all of them.
     if is_pipe(source) and file_format != "npy":
         return None
     given, asked = as_input(source), wanted or Wanted()

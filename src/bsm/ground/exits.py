@@ -81,7 +81,7 @@ def report_error(
 ) -> None:
     """Write an error to standard error, as a line of JSON if all lines are; `options` are those of the command."""
     if isinstance(error, BrokenPipeError):
-        # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
+        # The rest of the buffer has no reader; flushing it at exit would fail again.
         # Python's own advice for SIGPIPE. Without it the interpreter prints a second error when it ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return

@@ -118,7 +118,7 @@ def run_many(
 
     tasks = _tasks(order, task)
     try:
-        # Closed however the loop ends: processes would go on working for nobody otherwise.
+        # Closed however the loop ends, since processes would otherwise go on working.
         with console.progress() as progress, closing(_outcomes(run, console, work, tasks, sizes)) as outcomes:
             for number, outcome in _in_order(taken(outcomes, progress)):
                 ended(jobs[number], outcome)
@@ -195,7 +195,7 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
         n for n in replaceable if (pipes.state_of_remote(n) is not None if pipes.is_url(n) else os.path.lexists(n))
     }
     named = replaceable & earlier.outputs.keys()
-    # A file that an earlier run wrote may be replaced as long as nobody else has changed it. Its digest tells that.
+    # A file that an earlier run wrote may be replaced if it has not been changed since. Its digest tells that.
     mine = frozenset(name for name in named if name not in there or earlier.outputs[name] == pipes.digest_of(name))
     return replace(
         asked,

@@ -163,7 +163,7 @@ def _end_with_parent() -> None:
     parent = multiprocessing.parent_process()
     if parent is None:
         return
-    # The parent may be killed, and can then end nobody. Its handle tells the system's own view of it.
+    # A parent that is killed cannot end its children, so they watch it. Its handle tells the system's own view of it.
     sentinel = parent.sentinel
 
     def watch() -> None:

@@ -320,7 +320,7 @@ def given_at(path: str, limits: Limits = DEFAULT_LIMITS, wanted: Wanted | None =
     if path == "-":
         raise FormatError(NO_STREAM)
     if PurePath(path).suffix.lower() == ".bsm":
-        decode_whole(iter([data]))  # says what is wrong with it
+        decode_whole(iter([data]))  # raises the error of the stream
     found = read_mesh(path, limits=limits)
     parts = {} if is_url(path) else parts_of(path, found.mesh.metadata)
     missing = tuple(name for name, part in parts.items() if part is None)

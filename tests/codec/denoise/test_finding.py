@@ -103,7 +103,7 @@ def test_vertices_that_rounding_has_merged_part_and_rehearsals_know_it() -> None
     # the forecast, although it is right here, is not called reliable.
     assert theta(clean, result, faces) < 2.0 and not choice.reliable
     assert 0.5 * choice.expected < theta(clean, result, faces) < 1.3 * choice.at_most
-    # Of a soup nobody knows which corners to part.
+    # In a triangle soup it is unknown which corners to split.
     corners, soup = noisy[faces.ravel()], np.arange(faces.size, dtype=np.int32).reshape(-1, 3)
     together = denoise_automatically(corners, soup)[0]
     assert len(np.unique(together, axis=0)) <= len(np.unique(corners, axis=0)) and (together != corners).any()

@@ -49,7 +49,7 @@ def assert_kept(mesh: bsm.TriangleMesh, options: bsm.EncodeOptions) -> bsm.Encod
 
 
 def patterned(mesh: bsm.TriangleMesh) -> bsm.TriangleMesh:
-    """With normals that have nothing to do with its shape: edges are seen that are no creases."""
+    """With normals that have nothing to do with its shape: edges are visible that are not creases."""
     normals = np.repeat(np.random.default_rng(0).normal(size=(len(mesh.faces), 3)), 3, axis=0)
     return bsm.TriangleMesh(mesh.positions, mesh.faces, (bsm.Attribute("normal", normals, "corner", "normal"),))
 

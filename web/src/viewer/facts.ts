@@ -6,7 +6,7 @@ import type { Inlined } from "./inlined";
 const SECOND = 1000;
 const CLOSE = 2; // look distance up to which two meshes are close
 const MOST_NAMES = 6;
-/** What a file may have that nobody sees, as notes name it. */
+/** Invisible contents of a file, as notes name them. */
 const UNSEEN =
     /^(cameras?|(punctual )?lights?|(other )?(scenes|animations)|extras|comments?|.*metadata.*)( of .*)?( \(.*\))?$/i;
 const PIXEL = 1e-3; // of the diagonal: what a pixel is of a mesh that fills a large picture

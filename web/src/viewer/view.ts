@@ -6,7 +6,7 @@
  * that the reader may cut or slow the stream: then it is decoded again from the first byte, and the old mesh stays on
  * the stage until the new one can be drawn. Everything that is drawn or said is renewed once a picture, in `step`; what
  * changes in between only marks itself as stale, so a fast stream cannot make the page draw more often than the screen.
- * Callbacks of streams and files may come late: each asks whether its turn is still the latest (`turn`) or whether the
+ * Callbacks of streams and files may come late: each asks whether its task is still the latest (`begin`) or whether the
  * content is still the same. States are attributes of the element (`data-state`), which tests and styles read.
  */
 import type { BufferAttribute } from "three";
@@ -59,7 +59,7 @@ export class View {
     private tiles?: TileSet;
     private looked?: string;
     private choose: (index: number) => void = () => this.restart();
-    private turns = 0;
+    private begun = 0;
     /** Frames that the camera has made room for. */
     private fitted = 1;
     private readonly watch = new ResizeObserver(() => this.meshes.place());
@@ -87,7 +87,7 @@ export class View {
         this.meshes = new Comparison(this.form, this.stage);
         this.sequence = new SequenceBar(this.form);
         const show = (content: Content, bytes: Uint8Array): void => {
-            this.turn();
+            this.begin();
             this.open(content);
             this.receive(bytes);
             this.finish();
@@ -115,9 +115,9 @@ export class View {
     }
 
     /** Begin to show something else; returns whether nothing else has been begun since. */
-    turn(): () => boolean {
-        const turn = ++this.turns;
-        return () => turn === this.turns;
+    begin(): () => boolean {
+        const own = ++this.begun;
+        return () => own === this.begun;
     }
 
     /** Show another stream, whose bytes will come; `index` if it is one of those that are offered. */

@@ -27,7 +27,7 @@ async function* piecesOf({ body }: Response): AsyncGenerator<Uint8Array> {
     }
 }
 
-/** Have the server encode a file; it stops when nobody listens. */
+/** Have the server encode a file; it stops when its reader cancels. */
 const encode: Encode = async (files, preset, report, signal) => {
     const body = new Blob(files);
     if (body.size > MOST_BYTES)
@@ -58,7 +58,7 @@ const encode: Encode = async (files, preset, report, signal) => {
     throw new Error("The server has stopped.");
 };
 
-/** Encode files in a thread of the page; it ends when nobody listens. */
+/** Encode files in a thread of the page; it ends when its reader cancels. */
 function inThread(job: Job, report: (stage: string, share: number) => void, signal: AbortSignal): Promise<Content> {
     const worker = new Worker(encoder!, { type: "module", name: "BSM encoder" });
     return new Promise<Content>((resolve, fail) => {
@@ -92,10 +92,10 @@ async function fillPage(list: HTMLElement): Promise<void> {
         encoder ? BITS : undefined,
     );
     const open = async (index: number): Promise<void> => {
-        const mine = view.turn();
+        const mine = view.begin();
         const content = contents[index];
         try {
-            await pool.preload().catch(() => {}); // so that decoding alone is timed; who decodes says what is wrong
+            await pool.preload().catch(() => {}); // so that only decoding is timed; errors come from the decoder
             if (!mine()) return;
             if (content.tiles !== undefined) return await view.openTiles(content, index);
             const { url } = content.layers[content.main];

@@ -259,7 +259,7 @@ def parse_remarks(lines: Iterable[str]) -> dict[str, Value]:
         try:
             value = json.loads(match[2])
             if isinstance(value, str):
-                value.encode()  # a half of a surrogate pair is no text
+                value.encode()  # a lone surrogate cannot be encoded
         except (ValueError, RecursionError):
             continue
         number = isinstance(value, int | float) and not isinstance(value, bool)

@@ -102,8 +102,8 @@ class _Document:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             try:
-                # Not float() of each word, which takes much longer. It only warns of what is no number, so warnings are
-                # errors.
+                # Not float() of each word, which takes much longer. It only warns of words that are not numbers, so
+                # warnings are errors.
                 values = np.fromstring(text, np.float64 if kind.kind == "f" else np.int64, sep=" ")
             except (ValueError, DeprecationWarning) as error:
                 raise MeshError(f"expected numbers: {error}") from error
@@ -182,7 +182,7 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     at = data.find(b"<AppendedData")
     end = data.find(b">", at) if at >= 0 else -1
     found = _UNDERSCORE.match(data, end + 1) if end >= 0 else None
-    # Bytes after the XML are no XML. The parser gets what stands before them, closed by hand.
+    # The bytes after the XML are not XML. The parser gets the part before them, closed by hand.
     text, appended = (data, b"") if found is None else (data[:at] + b"</VTKFile>", data[found.end() :])
     require_inflated(8 * len(text) + 2 * TAG * text.count(b"<"), len(data), limits)
     document = _Document(text, appended, b"raw" in data[at : end + 1], limits, len(data))

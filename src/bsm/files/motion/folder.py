@@ -135,8 +135,8 @@ def _require_one_series(ordered: Sequence[str]) -> None:
         raise MeshError(f"these files are {len(series)} series of frames, {those}; name the files of one, as a pattern")
 
 
-# An order that was guessed wrong still makes an animation, and nobody sees why it jerks; so what can be read in two
-# ways is refused.
+# A wrong guess still gives an animation, which jerks for no visible reason; so names that can be read in two
+# ways are refused.
 def _require_clear(ordered: Sequence[str]) -> None:
     """Refuse names whose numbers can be read in two ways, with another order each."""
     bases = _differing(ordered)

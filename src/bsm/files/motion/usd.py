@@ -750,7 +750,7 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     first, last = stage.span or (times[0], times[-1])
     if not np.isfinite([first, last, codes, (last - first) * rate / codes]).all():
         raise FormatError(f"the stage runs from {first:g} to {last:g} at {codes:g} codes per second")
-    # A little more, as 1/24 of a second is no double, and the last frame would be lost by rounding.
+    # A little more, since 1/24 s is not exact in binary, and rounding would lose the last frame.
     count = int(np.floor(max(last - first, 0.0) * rate / codes + 1e-6)) + 1
     require_counts(limits, frames=count)
     still = stage.frame(first)
