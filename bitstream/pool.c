@@ -9,14 +9,16 @@
 #ifdef BSMDEC_POOL
 #include <sys/mman.h>
 
-enum { PAGE = 1 << 21, UNIT = 1 << 15, UNITS = 1 << 11, ENOUGH = 1 << 22 };
+enum { PAGE = 1 << 21, UNIT = 1 << 15, UNITS = 1 << 11, REGION = UNITS * UNIT, ENOUGH = 1 << 22 };
 
-/* Much more than most decoders take: pages of it that are never written take no memory. */
+/* The beginning of its own memory, which is much more than most decoders take: pages never written take none. */
 struct Region {
     Region *next;
-    char *memory;
-    uint8_t used[UNITS];
+    uint8_t used[UNITS]; /* but for the first unit, which is this */
 };
+
+/* Of the decoder that was closed last, for the next one. */
+static Region *spare;
 
 static void lock(Pool *pool) {
     while (__atomic_test_and_set(&pool->locked, __ATOMIC_ACQUIRE)) {}
@@ -26,12 +28,12 @@ static void unlock(Pool *pool) { __atomic_clear(&pool->locked, __ATOMIC_RELEASE)
 
 /* The first that are free: they were written before, most likely. NULL where fewer are free in a row. */
 static void *take_units(Region *region, size_t units) {
-    for (size_t at = 0, run = 0; at < UNITS; at++) {
+    for (size_t at = 1, run = 0; at < UNITS; at++) {
         run = region->used[at] ? 0 : run + 1;
         if (run < units) continue;
         size_t first = at + 1 - units;
         memset(region->used + first, 1, units);
-        return region->memory + first * UNIT;
+        return (char *)region + first * UNIT;
     }
     return NULL;
 }
@@ -50,41 +52,32 @@ static void *take_pages(size_t size) {
 
 static void give_pages(void *memory, size_t size) { munmap(memory, (size + PAGE - 1) / PAGE * PAGE); }
 
-static Region *add_region(Pool *pool) {
-    Region *region = calloc(1, sizeof *region);
-    if (region == NULL) return NULL;
-    region->memory = take_pages((size_t)UNITS * UNIT);
-    if (region->memory == NULL) {
-        free(region);
-        return NULL;
-    }
-    region->next = pool->regions;
-    return pool->regions = region;
-}
-
 static void *take_of_regions(Pool *pool, size_t units) {
     for (Region *region = pool->regions; region != NULL; region = region->next) {
         void *memory = take_units(region, units);
         if (memory != NULL) return memory;
     }
-    Region *region = add_region(pool);
-    return region != NULL ? take_units(region, units) : NULL;
+    Region *region = __atomic_exchange_n(&spare, NULL, __ATOMIC_ACQUIRE);
+    if (region == NULL) region = take_pages(REGION);
+    if (region == NULL) return NULL;
+    region->next = pool->regions;
+    pool->regions = region;
+    return take_units(region, units);
 }
 
 /* Whether memory was of a region. */
-static bool give_to_regions(const Pool *pool, const char *memory, size_t units) {
-    const size_t whole = (size_t)UNITS * UNIT;
+static bool give_to_regions(const Pool *pool, const void *memory, size_t units) {
     Region *region = pool->regions;
-    while (region != NULL && (memory < region->memory || memory >= region->memory + whole)) region = region->next;
+    while (region != NULL && (uintptr_t)memory - (uintptr_t)region >= REGION) region = region->next;
     if (region == NULL) return false;
-    memset(region->used + (memory - region->memory) / UNIT, 0, units);
+    memset(region->used + ((uintptr_t)memory - (uintptr_t)region) / UNIT, 0, units);
     return true;
 }
 
 static void *take(void *host, size_t size) {
     Pool *pool = host;
     if (pool == NULL || size < UNIT || size > SIZE_MAX / 2) return malloc(size);
-    if (size > (size_t)UNITS * UNIT) return take_pages(size);
+    if (size > REGION) return take_pages(size);
     lock(pool);
     bool enough = pool->taken >= ENOUGH;
     pool->taken += enough ? 0 : size;
@@ -95,13 +88,13 @@ static void *take(void *host, size_t size) {
 
 static void give(void *host, void *memory, size_t size) {
     Pool *pool = host;
-    if (pool != NULL && size >= UNIT && size <= (size_t)UNITS * UNIT) {
+    if (pool != NULL && size >= UNIT) {
         lock(pool);
         bool given = give_to_regions(pool, memory, (size + UNIT - 1) / UNIT);
         unlock(pool);
         if (given) return;
     }
-    if (pool != NULL && size > (size_t)UNITS * UNIT)
+    if (pool != NULL && size > REGION)
         give_pages(memory, size);
     else
         free(memory);
@@ -117,8 +110,14 @@ bsmdec_allocator without_pool(bsmdec_allocator host) {
     while (pool != NULL && pool->regions != NULL) {
         Region *region = pool->regions;
         pool->regions = region->next;
-        give_pages(region->memory, (size_t)UNITS * UNIT);
-        free(region);
+        if (pool->regions == NULL) {
+            /* The next decoder writes these pages without a page fault. The system may take them back, and they are 0
+             * then. */
+            memset(region->used, 0, sizeof region->used);
+            madvise(region, REGION, MADV_FREE);
+            region = __atomic_exchange_n(&spare, region, __ATOMIC_ACQ_REL);
+        }
+        if (region != NULL) give_pages(region, REGION);
     }
     if (pool != NULL) host.host = NULL;
     return host;

@@ -16,9 +16,10 @@
  *     bsmdec_close(decoder);
  *
  * Threads: one thread at a time may use a decoder. Separate decoders are independent: they share nothing but
- * constant tables.
- * Memory: all memory comes from the allocator in the options, and bsmdec_close releases it. The library copies the
- * bytes you push. Pointers that it returns point into the decoder. They are valid until bsmdec_close unless it says
+ * constant tables and, one after the other, memory.
+ * Memory: all memory comes from the allocator in the options, and bsmdec_close releases it. Without an allocator, Linux
+ * may keep up to 64 MB of a closed decoder for the next one, until anything needs them. The library copies the bytes
+ * you push. Pointers that it returns point into the decoder. They are valid until bsmdec_close unless it says
  * otherwise.
  * Input: a stream may come from an untrusted source. Its memory and time are bounded by the limits in the options.
  * Nothing is printed, and no file is opened.
