@@ -56,7 +56,6 @@ def read_networks(path: Path = WEIGHTS) -> tuple[Network, ...]:
 
 
 VERTEX_ITERATIONS = 15  # as the networks were trained
-JOINED_ITERATIONS = 6  # after which vertices lie well enough; 15 leave 0.4 % more of the angle, 4 a little less
 
 
 def regressed_normals(described: Iterable[tuple[Singles, Floats]], network: Network) -> Floats:
@@ -86,4 +85,4 @@ def joined(positions: Positions, other: Learnt, share: float, topology: Topology
     # Only along the normals: the networks leave vertices where noise has put them along the surface.
     up = unit(topology.incidence @ normals)
     start = positions + share * np.einsum("ij,ij->i", other.positions - positions, up)[:, None] * up
-    return follow_normals(start, topology, normals, JOINED_ITERATIONS)
+    return follow_normals(start, topology, normals, VERTEX_ITERATIONS)

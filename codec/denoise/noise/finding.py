@@ -12,7 +12,7 @@ from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.surface import Topology
 
-LATTICE_HEAP, LATTICE_USUAL = 8, 0.25  # vertices that a plane of a lattice has at least, and over the usual
+LATTICE_USUAL = 0.25  # vertices that a plane of a lattice has at least, over the usual
 LATTICE_SHARE = 0.9  # of the vertices that lie on its lines
 
 
@@ -23,9 +23,8 @@ def lattice_step(positions: Positions) -> float:
     for column in positions.T:
         # Marching cubes leave two coordinates of each vertex on planes of the lattice: heaps of equal values.
         values, counts = np.unique(np.round((column - column.min()) / (SAME * extent or 1.0)), return_counts=True)
-        values, counts = values[counts >= LATTICE_HEAP], counts[counts >= LATTICE_HEAP]
         # Symmetric shapes have smaller heaps beside.
-        usual = np.median(np.repeat(counts, counts)) if len(counts) else 0.0
+        usual = np.median(np.repeat(counts, counts))
         planes.append(values[counts > LATTICE_USUAL * usual] * SAME * extent)
     # A box has heaps as well, at its sides.
     if min(len(heaps) for heaps in planes) < FEWEST_VALUES:
@@ -84,7 +83,6 @@ class Finding:
 
 MEASURES = ("level", "whiteness", "off", "uneven", "broadly uneven", "irregular", "few")
 MANY_WINDOWS = 25  # fewer say less about the spread of levels
-LEAST_ACROSS = 0.01  # in mean edges; depths have nothing across
 SLOPE, SHIFT = 0.6, 0.15  # of the broad level over the whiteness (logarithms), for all lengths of correlation
 
 
@@ -123,7 +121,7 @@ class Evidence:
         uneven = (min(spread(levels, self.probe.windows), 1.5) for levels in (fine, broad))
         off = abs(broader + SLOPE * whiteness + SHIFT)
         across = self.across[windows[self.probe.windows.labels] & self.probe.counted]
-        irregular = np.log(max(float(np.quantile(across, 0.9)), LEAST_ACROSS))
+        irregular = np.log(max(float(np.quantile(across, 0.9)), 1e-9))
         # Few windows make every measure uncertain, and rules want more evidence then.
         few = max(1.0 / np.sqrt(len(fine)) - 1.0 / np.sqrt(MANY_WINDOWS), 0.0)
         return np.array([level, whiteness, off, *uneven, irregular, few])

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bsm.codec.arrays import Floats, Mask, Positions
-from bsm.codec.denoise.noise.causes import Box, Spacing, find_grid
+from bsm.codec.denoise.noise.causes import FARTHEST, Box, Spacing, find_grid
 from bsm.codec.denoise.noise.finding import Evidence, Finding, is_random, lattice_step, look, spread
 from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
 from bsm.codec.denoise.noise.view import find_view, pixel
@@ -32,10 +32,9 @@ RULES = {
 fits them, and names the meshes that it holds out."""
 FAINTEST = 0.03  # level in mean edges, or widths of pixels, below which nothing is suspected
 FAINTEST_SHARED, MUCH_SHARED = 0.024, 0.6  # if whiteness is below the second: fine levels hold little of such noise
-FEWEST_WINDOWS, FEWEST_INNER = 5, 3  # fewest windows for an estimate, and fewest wholly inside a noisy part
+FEWEST_WINDOWS = 5  # for an estimate
 WHITE = 0.82  # whiteness below which noise is correlated
-LOCAL_STEP, LOCAL_SHARE, NEARBY = 1.5, 0.1, 4
-"""Noise here and there: its level over the rest's, its share of the mesh, and rings of a vertex that tell its side."""
+NEARBY = 4  # rings of a vertex that tell the side where noise ends
 CALM = 0.05  # level up to which the rest counts as clean
 TERRACED = 0.05  # fewer depths per vertex mean a camera with few depth levels
 FUSED_LEVEL, FUSED_UNEVEN, NARROWER = 0.05, 1.0, 1.04
@@ -55,9 +54,8 @@ AXIS_ALONE, AXIS_EVEN = 1.25, (0.55, 1.7)
 to 0.8 there, triangles that are longer one way 1.8 and more."""
 AXIS_BARE = 0.58
 """On sides along the axis, noise along normals over that along it: detail reads up to 0.45, noise along normals 0.7."""
-AXIS_MOST, SNAP = 5.0, 0.995  # deviations that a vertex was moved at most; cosine from which on it is x, y or z
-DEPTH_WORTH, DEPTH_MOST = 0.7, 3.0
-"""Noise that grows with depth: the rest of the spread, and the logarithm of the ratio between both ends."""
+SNAP = 0.995  # cosine from which on an axis is x, y or z
+DEPTH_WORTH = 0.7  # of noise that grows with depth: the rest of the spread
 
 
 class Suspect(NamedTuple):
@@ -227,7 +225,7 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
     if growth is not None:
         reason += f", {growth.max() / growth.min():.1f} times as strong at one end as at the other"
     facing = np.abs(evidence.normals @ axis)
-    bound = Box(axis[None], AXIS_MOST * amount.max(keepdims=True))
+    bound = Box(axis[None], FARTHEST * amount.max(keepdims=True))
     finding = Finding("axis", level * edge, amount * facing, edge, reason, axis=axis, growth=growth, bound=bound)
     return _suspect("axis", along, finding)
 
@@ -239,7 +237,7 @@ def _growth(along: Evidence, depth: Floats) -> Floats | None:
     levels, middles = along.levels[windows.valid], windows.means(depth)[windows.valid]
     rate = np.polyfit(middles, np.log(np.maximum(levels, 1e-9)), 1)[0]
     even = spread(levels / np.exp(rate * middles), windows) < DEPTH_WORTH * spread(levels, windows)
-    return np.exp(rate * depth) if abs(rate) < DEPTH_MOST and even else None
+    return np.exp(rate * depth) if even else None
 
 
 def _everywhere(positions: Positions, evidence: Evidence) -> Suspect | None:
@@ -260,11 +258,9 @@ def _here_and_there(positions: Positions, evidence: Evidence) -> Suspect | None:
     # Otsu's threshold: the one that leaves two groups which differ most.
     above = levels > np.exp(_otsu(np.sort(np.log(np.maximum(levels[windows.valid], 0.02)))))
     inner = above & ~windows.beside(~above & windows.valid)
-    if inner.sum() < FEWEST_INNER or above.sum() < LOCAL_SHARE * windows.count:
+    if not inner.any():
         return None
     level, weak = float(np.median(levels[inner])), float(np.median(levels[windows.valid & ~above]))
-    if level < LOCAL_STEP * weak:
-        return None
     # Where windows of both sorts meet, the vertices decide: by what is about each of them.
     inside = inner[windows.labels]
     unsure = ((above & ~inner) | (~above & windows.beside(above)))[windows.labels]
