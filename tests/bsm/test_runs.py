@@ -58,6 +58,28 @@ def test_every_frame_comes_back_with_its_faces(stream, tmp_path, kind, capsys):
     assert "look_worst" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("way", ["corner", "order", "copy"])
+def test_runs_that_differ_in_numbers_or_in_faces_without_area_are_compared(tmp_path, way, capsys):
+    """The stream needs one run for them."""
+    meshes = capture((10, 6))
+    for number, mesh in enumerate(meshes):
+        positions, faces = mesh.positions, mesh.faces
+        late = number >= 3
+        if way == "copy" and late:  # a vertex at the place of another
+            faces = faces.copy()
+            faces[tuple(np.argwhere(faces == 0)[0])] = len(positions)
+            positions = np.vstack([positions, positions[:1]])
+        elif way != "copy":  # a face that has two corners at one place
+            faces = np.vstack([faces, [[0, 0, 1] if not late else [0, 1, 1] if way == "corner" else [1, 0, 0]]])
+        meshes[number] = bsm.TriangleMesh(positions, faces)
+    written(tmp_path / "capture", meshes)
+    assert run("encode", tmp_path / "capture", "-o", tmp_path / "a.bsm", *RUNS, "-q") == 0
+    capsys.readouterr()
+    assert run("compare", tmp_path / "capture", tmp_path / "a.bsm", "--json", "--look") == 0
+    found = json.loads(capsys.readouterr().out)
+    assert len(found["frames"]) == 6 and 0.0 < found["max_error_relative"] <= 0.01 and found["look_worst"] > 0.0
+
+
 def test_what_cannot_hold_them_says_so(stream, tmp_path, capsys):
     for kind in ("npz", "npy"):
         assert run("decode", stream, "-o", tmp_path / f"a.{kind}") != 0

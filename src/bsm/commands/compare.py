@@ -2,9 +2,10 @@
 
 import argparse
 import errno
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import asdict, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -291,23 +292,21 @@ def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
 
 
 Attributes = Sequence[Attribute]
-Pieces = list[tuple[Positions, Faces, list[Attributes]]]
-"""Frames, shape (T, n, 3), their faces, shape (m, 3), and the attributes of each, of one run after the other."""
+Frames = list[tuple[Positions, Faces, Attributes]]
 
 
-def _pieces_of(frames: Iterable[tuple[Positions, Faces, Attributes]]) -> Pieces:
-    found: list[tuple[list[Positions], Faces, list[Attributes]]] = []
-    for positions, faces, attributes in frames:
+def _runs_of(original: Frames, decoded: Frames) -> Iterator[tuple[Frames, Frames]]:
+    """Frames between which the faces of neither side change: one may have fewer runs, if faces lose their area."""
+    starts = [0]
+    for number, (one, other) in enumerate(zip(pairwise(original), pairwise(decoded), strict=True), 1):
         # Equal faces, not the same array: some readers make new ones for each frame.
-        same = found and len(found[-1][0][0]) == len(positions) and np.array_equal(found[-1][1], faces)
-        if not same:
-            found.append(([], faces, []))
-        found[-1][0].append(positions)
-        found[-1][2].append(attributes)
-    return [(np.array(positions), faces, attributes) for positions, faces, attributes in found]
+        if any(len(a[0]) != len(b[0]) or not np.array_equal(a[1], b[1]) for a, b in (one, other)):
+            starts.append(number)
+    for begin, end in pairwise([*starts, len(original)]):
+        yield original[begin:end], decoded[begin:end]
 
 
-def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -> Pieces | None:
+def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -> Frames | None:
     """The frames and faces of a file, folder or stream; None if it is a mesh."""
     with about(path):
         scene = Path(path).is_file() and is_scene(path)
@@ -318,36 +317,31 @@ def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -
             if header is None or not header.gop_frames:
                 return None
             stream = SequenceStream(chunks, limits=limits_of(args.limits))
-            return _pieces_of((frame, stream.faces, stream.attributes) for _, frame in stream.changing_frames())
+            return [(frame, stream.faces, stream.attributes) for _, frame in stream.changing_frames()]
         source = open_sequence(path, wanted=wanted)
         if source is None:
             return None
         if source.meshes is None:
-            return _pieces_of((frame, source.faces, source.attributes) for frame in source.frames)
-        return _pieces_of((mesh.positions, mesh.faces, mesh.attributes) for mesh in source.meshes)
+            return [(frame, source.faces, source.attributes) for frame in source.frames]
+        return [(mesh.positions, mesh.faces, mesh.attributes) for mesh in source.meshes]
 
 
-def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pieces, progress: Progress) -> str:
+def _compared_sequences(args: argparse.Namespace, original: Frames, decoded: Frames, progress: Progress) -> str:
     """Return the errors of a sequence, as text."""
-    counts = [[len(frames) for frames, _, _ in side] for side in (original, decoded)]
-    if sum(counts[0]) != sum(counts[1]):
-        raise MeshError(f"{args.original} has {sum(counts[0])} frames and {args.decoded} {sum(counts[1])}")
-    # Runs are compared pair by pair. With other borders, a frame would be held against one with other faces.
-    if counts[0] != counts[1]:
-        starts = [np.cumsum(side)[:-1].tolist() or "none" for side in counts]
-        raise MeshError(
-            f"the faces of {args.original} change at frames {starts[0]} and of {args.decoded} at {starts[1]}"
-        )
-    if args.permutation and len(original) > 1:
+    if len(original) != len(decoded):
+        raise MeshError(f"{args.original} has {len(original)} frames and {args.decoded} {len(decoded)}")
+    found = list(_runs_of(original, decoded))
+    if args.permutation and len(found) > 1:
         raise OptionError("--permutation is the order of one mesh, and the faces change")
     order = read_permutation(args.permutation) if args.permutation else None
     runs: list[tuple[Positions, Positions, Faces]] = []
     attributes: dict[str, Errors | None] = {}
-    for first, second in zip(original, decoded, strict=True):
-        paired = paired_frames(*first[:2], *second[:2], order)
-        kept, faces = one_each(paired.before, paired.after, paired.faces, len(second[1]))
+    for first, second in found:
+        (before, (own, *_), given), (after, (other, *_), shown) = zip(*first), zip(*second)
+        paired = paired_frames(np.array(before), own, np.array(after), other, order)
+        kept, faces = one_each(paired.before, paired.after, paired.faces, len(other))
         done = sum(len(before) for before, _, _ in runs)
-        for name, errors in errors_of_frames(first[2], second[2], (first[1], second[1]), paired, done).items():
+        for name, errors in errors_of_frames(given, shown, (own, other), paired, done).items():
             known = attributes.get(name, errors)
             # None stands for a missing attribute, and once it is missing in some run, the whole must say so.
             larger = (errors and known) and max(errors, known, key=lambda one: one["max_error"])
@@ -360,7 +354,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
         result.update(_looks(runs, progress))
         progress.stage("comparing")
     if Path(args.decoded).is_file() and is_stream(args.decoded):
-        samples = sum(frames[..., 0].size for frames, _, _ in decoded)
+        samples = sum(len(positions) for positions, _, _ in decoded)
         # By the size of the file itself, so that everything counts: header, metadata and checksums.
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / samples
     if args.picture:
