@@ -123,7 +123,7 @@ class Search:
         """Trials that keep a contract, the smallest ones last; and what to expect of others."""
         usual, ways = grid.at(grid.first), self._ways(aim.bounds, grid)
         made_on = Gridded(self._prepared, aim.bounds).made()
-        hopeful = (made for made in made_on if made.about() < 2 * (usual.about() or usual.draft.size))
+        hopeful = (made for made in made_on if (made.about() or made.draft.size) < (usual.about() or usual.draft.size))
         kept = [made for made in hopeful if aim.bounds.keeps(made)]
         if aim.bounds.contract.look < math.inf:
             queue = self._queue(ways, grid, aim, usual)
@@ -168,20 +168,18 @@ class Search:
         """What to expect of ways whose looks count, of which some have begun."""
         begun: dict[Way, Trial] = {}
         sizes: dict[Way, float] = {}
-        for refined in [way for way in ways if isinstance(way, Refined)][:1]:
+        first, about = grid.repeat(usual), 0
+        for refined in [way for way in ways if isinstance(way, Refined) and not grid.repeats][:1]:
             with suppress(LimitError):  # blocks that decoders would refuse
                 made = begun[refined] = refined.at(min(max(refined.first, refined.least), refined.most))
-                sizes[refined] = aim.bytes(refined, made)
-        about = usual.about() if begun else 0
-        if begun and min(sizes.values()) < math.log(
-            max((1.0 - DOUBT) * (about - aim.rest), 1.0)
-        ):  # no grid is coded in full
-            first, other = next(iter(begun.values())), math.log(about)
+                sizes[refined], about = aim.bytes(refined, made), usual.about()
+        if begun and min(sizes.values()) < math.log(max((1.0 - DOUBT) * (about - aim.rest), 1.0)):
+            first, other = next(iter(begun.values())), math.log(about)  # no grid is coded in full
         else:
-            begun[grid] = first = grid.repeat(usual)
-            other = sizes[grid] = aim.bytes(grid, first)
-            if grid.repeats:  # few chosen places are images of others
-                other = max(other, math.log((1.0 - DOUBT) * usual.draft.size))
+            begun[grid], other = first, aim.bytes(grid, first)
+            sizes[grid] = other
+            if grid.repeats:  # few chosen places are images of others, and blocks take more bytes than a usual grid
+                other = max(other, math.log(usual.draft.size))
         return [self._hopes(way, aim, begun.get(way, first), sizes.get(way, other), begun=way in begun) for way in ways]
 
     def _hopes(self, way: Way, aim: Smallest, like: Trial, size: float | None = None, *, begun: bool) -> Hopes:
