@@ -51,7 +51,8 @@ export type PictureOf<Type> = Extract<Picture, { type: Type }>;
 
 type Show = (picture: Picture, moved?: Transferable[]) => void;
 
-const PAUSE = 30; // milliseconds, at least, before each picture of what grows
+const PAUSE = 30; // milliseconds, at least, before each picture of what grows, but the first one of several blocks
+const LIGHT_PAUSE = 100; // before the first one of a light grid, whose decoder is as fast as a picture
 const SHARE = 4; // times what such a picture takes
 /** What happens to vertices: they move or come, or a face at them is whole now. */
 const [MOVED, CAME, BESIDE] = [1, 2, 4];
@@ -66,8 +67,9 @@ export class Drawing {
     private news = new Uint8Array(0);
     private isStale = false;
     private blocks = 0;
-    /** When there may be another picture of what grows. */
+    /** When there may be another picture of what grows, and how long what it shows waits for the first. */
     private due = 0;
+    private first = PAUSE;
     private timer?: ReturnType<typeof setTimeout>;
     private readonly carried: Attribute[] = [];
     private shape?: Shape;
@@ -86,7 +88,7 @@ export class Drawing {
     accept(event: Event): void {
         switch (event.type) {
             case "header":
-                return event.header.run > 0 ? this.startRun(event.header.run) : this.show(event);
+                return this.startRun(event);
             case "connectivity":
                 return this.begin(event);
             case "block":
@@ -115,7 +117,10 @@ export class Drawing {
         }
     }
 
-    private startRun(run: number): void {
+    private startRun(event: EventOf<"header">): void {
+        const { run, light, blocks } = event.header;
+        this.first = light > 0 ? LIGHT_PAUSE : blocks > 1 ? 0 : PAUSE;
+        if (run === 0) return this.show(event);
         this.flush();
         [this.run, this.growing] = [run, false];
         this.faces = new Int32Array(0);
@@ -168,7 +173,7 @@ export class Drawing {
         this.points = new Float32Array(3 * size);
         loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
         this.news = new Uint8Array(size);
-        this.due = performance.now() + PAUSE; // what is whole until then needs no picture before
+        this.due = performance.now() + this.first; // what is whole until then needs no picture before
         if (this.growing) this.show({ type: "begun", vertices: size, corners: faces.length, loose });
     }
 
@@ -188,7 +193,8 @@ export class Drawing {
 
     private take(positions: Float64Array): void {
         this.points = new Float32Array(positions);
-        this.origin = this.origin.map((block) => Math.max(block, 0));
+        if (this.blocks === 0) this.origin.fill(0);
+        else this.origin = this.origin.map((block) => Math.max(block, 0));
     }
 
     private addFrame({ index, positions: points, attributes: moved }: EventOf<"frame">): void {
@@ -215,12 +221,15 @@ export class Drawing {
     private finish(): void {
         const { faces, origin, points, carried, blocks } = this;
         const isThere = (corner: number): boolean => origin[faces[corner]] >= 0;
-        const all = new Int32Array(faces.length / 3).map((_, face) => face);
-        const whole = origin.includes(-1)
-            ? all.filter((face) => isThere(3 * face) && isThere(3 * face + 1) && isThere(3 * face + 2))
-            : all;
+        const isWhole = !origin.includes(-1);
+        const chosen = (): Int32Array =>
+            new Int32Array(faces.length / 3)
+                .map((_, face) => face)
+                .filter((face) => isWhole || (isThere(3 * face) && isThere(3 * face + 1) && isThere(3 * face + 2)));
         const { index, vertices, pieces, attributes, own } =
-            carried.length > 0 ? drawnFaces(faces, whole, carried, points.length / 3) : this.bare(whole);
+            carried.length > 0
+                ? drawnFaces(faces, chosen(), carried, points.length / 3)
+                : bare(isWhole ? new Uint32Array(faces) : cornersOf(faces, chosen()));
         const positions = spread(points, 3, vertices);
         const normals = own ?? spread(normalsOf(faces, origin, points), 3, vertices);
         const shape = (this.shape = {
@@ -240,16 +249,11 @@ export class Drawing {
         this.growing = false; // nothing is "grown" after the whole picture
         this.show({ type: "whole", shape, run: this.run, growth }, buffers);
     }
+}
 
-    private bare(faces: Int32Array): DrawnFaces {
-        const index =
-            3 * faces.length === this.faces.length ? new Uint32Array(this.faces) : cornersOf(this.faces, faces);
-        return {
-            index,
-            pieces: index.length > 0 ? [{ part: 0, material: 0, start: 0, count: index.length }] : [],
-            attributes: [],
-        };
-    }
+function bare(index: Uint32Array): DrawnFaces {
+    const pieces = index.length > 0 ? [{ part: 0, material: 0, start: 0, count: index.length }] : [];
+    return { index, pieces, attributes: [] };
 }
 
 /** Normals of all vertices, shape (n, 3): sums of those of faces, as long as twice their areas; no face may lack a corner. */
@@ -267,11 +271,14 @@ function normalsOf(faces: Int32Array, origin: Int32Array, p: ArrayLike<number>):
         const vx = p[c] - p[a];
         const vy = p[c + 1] - p[a + 1];
         const vz = p[c + 2] - p[a + 2];
+        const x = uy * vz - uz * vy;
+        const y = uz * vx - ux * vz;
+        const z = ux * vy - uy * vx;
         for (let corner = k; corner < k + 3; corner++) {
             const to = 3 * faces[corner];
-            n[to] += uy * vz - uz * vy;
-            n[to + 1] += uz * vx - ux * vz;
-            n[to + 2] += ux * vy - uy * vx;
+            n[to] += x;
+            n[to + 1] += y;
+            n[to + 2] += z;
         }
     }
     for (let i = 0; i < n.length; i += 3) {
@@ -291,7 +298,9 @@ function boundsOf(p: Float32Array): Pick<Shape, "center" | "radius" | "low" | "h
     }
     const [x, y, z] = low.map((least, d) => (least + high[d]) / 2);
     let most = 0;
-    for (let i = 0; i < p.length; i += 3)
-        most = Math.max(most, (p[i] - x) ** 2 + (p[i + 1] - y) ** 2 + (p[i + 2] - z) ** 2);
+    for (let i = 0; i < p.length; i += 3) {
+        const far = (p[i] - x) ** 2 + (p[i + 1] - y) ** 2 + (p[i + 2] - z) ** 2;
+        if (far > most) most = far;
+    }
     return { center: [x, y, z], radius: Math.sqrt(most), low, high };
 }

@@ -28,6 +28,12 @@ export class BsmError extends Error {
         this.located(place);
     }
 
+    /** Files of this package have classes of their own, where that saves a request: errors are told by their names. */
+    static override [Symbol.hasInstance](error: unknown): boolean {
+        const { name, problem } = Object(error) as BsmError;
+        return problem !== undefined && (this === BsmError || name === new this("").name);
+    }
+
     get described(): Described {
         return { name: this.name, problem: this.problem, place: this.place };
     }

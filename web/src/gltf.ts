@@ -2,8 +2,8 @@
 import { Mesh } from "three";
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/addons/loaders/GLTFLoader.js";
 import type { Picture, Shape } from "./index";
-import { BSMGeometry, BSMSequence } from "./three";
-import { Pool, type StreamDecoding } from "./pool";
+import type { StreamDecoding } from "./pool";
+import { BSMGeometry, BSMSequence, Pool } from "./three";
 import { CodedViews, EXTENSION, placeOf, type Coded } from "./views";
 
 let shared: Pool | undefined;

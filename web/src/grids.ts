@@ -152,8 +152,11 @@ export class GridDecoder {
     /** Compare the checksum of positions, if the stream has one (F 5.10). */
     private check(expected?: number): void {
         if (expected === undefined) return;
-        const places = this.positions.map((place) => place + 0); // -0 counts as 0
-        if (crc32(new Uint8Array(places.buffer)) !== expected)
+        const { buffer } = this.positions;
+        const parts = new Uint16Array(buffer);
+        for (let i = 3; i < parts.length; i += 4)
+            if (parts[i] === 0x8000 && (parts[i - 1] | parts[i - 2] | parts[i - 3]) === 0) parts[i] = 0; // -0 is 0
+        if (crc32(new Uint8Array(buffer)) !== expected)
             throw new CorruptError(
                 "the checksum of decoded positions is wrong: they are not those that the encoder saw",
             );
@@ -170,7 +173,8 @@ export class GridDecoder {
             });
         }
         this.places = this.light.decode(data, first, count);
-        const vertices = new Int32Array(count).map((_, i) => first + i);
+        const vertices = new Int32Array(count);
+        for (let i = 0; i < count; i++) vertices[i] = first + i;
         const positions = this.light.doubles(this.places + 24 * first, 3 * count);
         this.queue.push({
             type: "block",

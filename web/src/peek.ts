@@ -7,6 +7,11 @@ import { parseVarint } from "./varint";
 /** The decoders that there are: of light grids, of those with congruent parts, of static meshes, of sequences, of all. */
 export type Build = "quick" | "parts" | "small" | "moving" | "whole";
 
+/** The files of threads: one with the decoder of everything, one with all others. */
+export type Thread = Extract<Build, "small" | "whole">;
+
+export const threadOf = (build: Build): Thread => (build === "whole" ? build : "small");
+
 /** Whether a decoder knows light grids alone, which one thread decodes. */
 export const isLight = (build: Build): boolean => build === "quick" || build === "parts";
 

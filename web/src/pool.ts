@@ -2,20 +2,21 @@
  * Threads that decode, kept warm: streams are shared among them, and large ones are decoded by several.
  *
  * A stream goes in as bytes; its header tells which build of the decoder it needs (`peek.ts`), the smallest that knows
- * it. Builds are fetched once and threads keep theirs, so streams that begin together wait a moment for each other's
+ * it. A thread starts before that, because it takes longer than the first bytes: threads know all builds but the whole
+ * one, which has threads of its own. Builds are fetched once, so streams that begin together wait a moment for each other's
  * headers and take one build that reads all of them: three small decoders would cost more than the large one. A stream
- * has one thread, and idle threads of the same build help with its chains. All bytes are kept until the end, because a
+ * has one thread, and idle ones help with its chains. All bytes are kept until the end, because a
  * small build that meets something unknown or wrong leaves the stream to the whole one, which begins again and reports
  * only what was not reported yet; so only that one needs the texts of errors. A thread that never began takes its
  * streams back to the line; after two of those the pool decodes in the calling thread, piece by piece, so that a page
  * without threads still draws. Order matters in `hands`: threads that worked last come last, and the first idle one
- * makes room for another build.
+ * makes room for one of the other kind.
  */
 import type { Reply, StreamWorker, DrawnEvent, Message, Report, Start } from "./worker";
 import type { Picture } from "./drawing";
 import { errorLike, type BsmError } from "./errors";
 import type { Limits } from "./limits";
-import { isLight, needOf, type Build, type Need } from "./peek";
+import { isLight, needOf, threadOf, type Build, type Need, type Thread } from "./peek";
 import { isPage, PAGE } from "./fetched";
 import { here, type Source } from "./source";
 import { processors, sayAlone, WORTHWHILE } from "./threads";
@@ -35,7 +36,11 @@ export interface Listener {
     onTaken?: (bytes: number) => void;
 }
 
-export type StreamWishes = Pick<Start, "tolerant" | "drawing" | "worthwhile"> & { limits?: Partial<Limits> };
+export type StreamWishes = Pick<Start, "tolerant" | "drawing" | "worthwhile"> & {
+    limits?: Partial<Limits>;
+    /** What the stream is thought to need: a thread for that starts before the first bytes come. */
+    guess?: Build;
+};
 
 /** A stream whose bytes are given as they come; what they say is heard later, in its order. */
 export type StreamDecoding = Pick<PooledStream, "receiveData" | "receiveEof" | "close">;
@@ -55,7 +60,7 @@ const BUILDS = Object.keys(READS) as Build[];
 
 /** A thread, and the streams that it works on, as their decoder or as a helper. */
 interface Hand {
-    build: Build;
+    thread: Thread;
     worker: Worker;
     ready: boolean;
     streams: Set<PooledStream>;
@@ -88,7 +93,7 @@ export class Pool {
 
     async preload(build: Build = "small"): Promise<void> {
         this.asked.add(build);
-        if (!this.alone && !this.hands.some((hand) => hand.build === build)) this.start(build);
+        if (!this.alone && !this.hands.some(({ thread }) => thread === threadOf(build))) this.start(build);
         await this.source.kernels(build);
     }
 
@@ -100,6 +105,7 @@ export class Pool {
             () => this.end(stream),
         );
         this.streams.add(stream);
+        queueMicrotask(() => stream.known || stream.closed || this.expect(wishes));
         return stream;
     }
 
@@ -144,6 +150,13 @@ export class Pool {
         return found;
     }
 
+    /** Have a thread without work, if there may be one more, before a stream says what it needs. */
+    private expect({ tolerant, guess = "small" }: StreamWishes): void {
+        if (this.alone || this.hands.length >= this.limit || this.hands.some(({ streams }) => streams.size === 0))
+            return;
+        this.start(tolerant ? "whole" : guess);
+    }
+
     /** Give a stream to a thread that has none, or to a new one; or let it wait for the next that is free. */
     private place(stream: PooledStream): void {
         const { build } = stream.need;
@@ -162,12 +175,12 @@ export class Pool {
     }
 
     /**
-     * A thread of a build without work, started if there may be one more, in the place of another that has none if
+     * A thread for a build without work, started if there may be one more, in the place of another that has none if
      * there may not.
      */
     private free(build: Build): Hand | undefined {
         const idle = this.hands.filter((hand) => hand.streams.size === 0);
-        const found = idle.find((hand) => hand.build === build);
+        const found = idle.find(({ thread }) => thread === threadOf(build));
         if (found) return found;
         if (this.hands.length >= this.limit) {
             if (idle.length === 0) return undefined;
@@ -192,9 +205,10 @@ export class Pool {
     }
 
     private start(build: Build): Hand | undefined {
-        const worker = this.source.worker(build);
+        const thread = threadOf(build);
+        const worker = this.source.worker(thread);
         if (!worker) return void this.settle();
-        const hand: Hand = { build, worker, ready: false, streams: new Set() };
+        const hand: Hand = { thread, worker, ready: false, streams: new Set() };
         worker.onmessage = ({ data }: MessageEvent<Reply>) => {
             if ("ready" in data) [hand.ready, this.failed] = [true, 0];
             else for (const stream of hand.streams) if (stream.task === data.task) stream.hear(data);
@@ -312,10 +326,11 @@ class PooledStream {
 
     work(say: (message: Message, moved: Transferable[]) => void, helpers: MessagePort[]): void {
         const { tolerant, drawing, worthwhile, limits = {} } = this.wishes;
-        const { kernels, reported } = this;
+        const { kernels, reported, need } = this;
         if (!kernels || this.closed) return;
         this.say = say;
-        say({ task: this.task, start: { kernels, limits, tolerant, drawing, reported, worthwhile, helpers } }, helpers);
+        const start = { kernels, build: need.build, limits, tolerant, drawing, reported, worthwhile, helpers };
+        say({ task: this.task, start }, helpers);
         for (const data of this.pieces) say({ task: this.task, data }, []);
     }
 

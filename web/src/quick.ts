@@ -3,4 +3,4 @@ export * from "./errors";
 export { DEFAULT_LIMITS, type Limits } from "./limits";
 export { Kernels } from "./kernels";
 export { decode, END_OF_STREAM, GridDecoder as Decoder, type GridEvent, NEED_DATA } from "./grids";
-export { openDesk, serve } from "./workerFast";
+export { openDesk } from "./workerFast";

@@ -3,4 +3,3 @@ export * from "./errors";
 export { DEFAULT_LIMITS, type Limits } from "./limits";
 export { Kernels } from "./kernels";
 export * from "./decoder";
-export { openDesk, serve } from "./workerFull";

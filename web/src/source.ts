@@ -2,28 +2,24 @@
 import type { StreamWorker, Say, Start } from "./worker";
 import { compiled, once } from "./fetched";
 import { started } from "./threads";
-import { isLight, type Build } from "./peek";
+import { isLight, type Build, type Thread } from "./peek";
 
 export interface Source {
     /** A thread that decodes; undefined where there can be none. */
-    worker(build: Build): Worker | undefined;
+    worker(thread: Thread): Worker | undefined;
     kernels(build: Build): Promise<WebAssembly.Module>;
     /** The decoder for this thread, where there are no others. */
     local(build: Build): Promise<{ openDesk(start: Start, say: Say): StreamWorker }>;
 }
 
 /** What is written out here is what bundlers look for; webpack would make one file of all threads of one name. */
-const WORKERS: Record<Build, () => Worker> = {
+const WORKERS: Record<Thread, () => Worker> = {
     whole: () => new Worker(new URL("./worker.js", import.meta.url), { type: "module", name: "BSM" }),
     small: () => new Worker(new URL("./small-worker.js", import.meta.url), { type: "module", name: "BSM-small" }),
-    quick: () => new Worker(new URL("./quick-worker.js", import.meta.url), { type: "module", name: "BSM-quick" }),
-    parts: () => new Worker(new URL("./quick-worker.js", import.meta.url), { type: "module", name: "BSM-parts" }),
-    moving: () => new Worker(new URL("./moving-worker.js", import.meta.url), { type: "module", name: "BSM-moving" }),
 };
 /** Where this file is, for those that are not found by bundlers. */
 const HERE = import.meta.url;
-const threadOf = (build: Build): string =>
-    build === "whole" ? "worker.js" : isLight(build) ? "quick-worker.js" : `${build}-worker.js`;
+const fileOf = (thread: Thread): string => (thread === "whole" ? "worker.js" : "small-worker.js");
 const KERNELS: Record<Build, () => URL> = {
     whole: () => new URL("./kernels.wasm", import.meta.url),
     small: () => new URL("./small.wasm", import.meta.url),
@@ -48,7 +44,7 @@ const local: Source["local"] = (build) => (isLight(build) ? import("./quick") : 
 
 /** The files beside this one. */
 export const here: Source = {
-    worker: (build) => started(WORKERS[build], () => new URL(threadOf(build), HERE)),
+    worker: (thread) => started(WORKERS[thread], () => new URL(fileOf(thread), HERE)),
     kernels: once(async (build) => compiled(beside(KERNELS[build]))),
     local,
 };
@@ -59,12 +55,12 @@ export function placeOf(path: string): Source {
         path.endsWith("/") ? path : `${path}/`,
         globalThis.document?.baseURI ?? globalThis.location?.href,
     );
-    const address = (build: Build): URL => new URL(threadOf(build), base);
+    const address = (thread: Thread): URL => new URL(fileOf(thread), base);
     return {
-        worker: (build) =>
+        worker: (thread) =>
             started(
-                () => new Worker(address(build), { type: "module", name: "BSM" }),
-                () => address(build),
+                () => new Worker(address(thread), { type: "module", name: "BSM" }),
+                () => address(thread),
             ),
         kernels: once((build) => compiled(new URL(`${build === "whole" ? "kernels" : build}.wasm`, base))),
         local,

@@ -7,7 +7,7 @@ import type { Limits } from "./index";
 import { placeOf, Pool, type Build, type StreamDecoding } from "./pool";
 import { BSMSequence, type SequenceEvents } from "./sequences";
 
-export { BSMGeometry, BSMSequence, type Progress, type SequenceEvents };
+export { BSMGeometry, BSMSequence, placeOf, Pool, type Progress, type SequenceEvents };
 
 /** Threads of all loaders that name no decoder's path of their own. */
 let shared: Pool | undefined;
@@ -108,7 +108,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
 
     /** A group of meshes, one for each part and material, with their textures; y is up. */
     async loadScene(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<Group> {
-        const loading = this.loadAsync(url, onProgress, progress);
+        const loading = this.loadAsync(url, onProgress, { guess: "whole", ...progress });
         const [geometry, { sceneOf }] = await Promise.all([loading, import("./scene")]);
         return sceneOf(geometry);
     }
@@ -168,7 +168,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
             const drawing = progress?.onBlock || progress?.onConnectivity ? "growing" : "whole";
             const stream = this.pool.open(
                 { onPicture: (picture) => geometry.accept(picture), onEnd: () => keep(geometry), onError: fail },
-                { drawing, limits: this.limits },
+                { drawing, limits: this.limits, guess: progress?.guess },
             );
             const fall = (error: unknown): void => {
                 stream.close();

@@ -6,6 +6,7 @@ import { BsmError, type Described } from "./errors";
 import type { Share, SharedBlock } from "./share";
 import { Kernels } from "./kernels";
 import type { Limits } from "./limits";
+import type { Build } from "./peek";
 import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Signal } from "./signals";
 
 /** What a thread reports of a stream; frames come in single precision, as they are drawn. */
@@ -14,6 +15,8 @@ export type DrawnEvent = Exclude<Event, FrameEvent> | FrameEvent<Float32Array>;
 /** How to begin; with a share, as a helper. */
 export interface Start {
     kernels: WebAssembly.Module;
+    /** Of which the kernels are; the decoder of everything without one. */
+    build?: Build;
     limits: Partial<Limits>;
     tolerant?: boolean;
     /** Report pictures, not events: only the whole one, or each that can be drawn. */
@@ -92,14 +95,15 @@ function opened(open: Open, start: Start, say: Say, kernels = new Kernels(start.
     return { take: (data) => guarded(() => worker?.take(data)), stop };
 }
 
-/** Take orders from one end of a line. A thread has the kernels of its first stream for all. */
-function attend(end: Endpoint, open: Open, own: { kernels?: Kernels } = {}): void {
+/** Take orders from one end of a line. A thread has the kernels of a stream for the next ones of the same build. */
+function attend(end: Endpoint, open: Open, own: Partial<Pick<Start, "build"> & { kernels: Kernels }> = {}): void {
     const workers = new Map<number, StreamWorker>();
     end.onmessage = ({ data: order }: MessageEvent<Message>) => {
         if ("help" in order) return attend(order.help, open, own);
         const { task } = order;
         if ("start" in order) {
-            own.kernels ??= new Kernels(order.start.kernels);
+            const { build, kernels } = order.start;
+            if (!own.kernels || own.build !== build) Object.assign(own, { build, kernels: new Kernels(kernels) });
             workers.set(
                 task,
                 opened(

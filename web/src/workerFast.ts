@@ -1,9 +1,8 @@
 /** The worker of the decoder of light grids. */
-import { deskOf, Reporter } from "./worker";
+import { deskOf, Reporter, type Open } from "./worker";
 import { GridDecoder } from "./grids";
 
-// Not taken apart in one step: bundlers would lose what `serve` does.
-const desk = deskOf((start, kernels, say) => {
+export const openFast: Open = (start, kernels, say) => {
     const reporter = new Reporter(new GridDecoder(kernels, start.limits), start, say);
     return {
         close: () => reporter.close(),
@@ -12,6 +11,6 @@ const desk = deskOf((start, kernels, say) => {
             reporter.report();
         },
     };
-});
-export const openDesk = desk.openDesk;
-export const serve = desk.serve;
+};
+
+export const { openDesk } = deskOf(openFast);

@@ -42,7 +42,7 @@ class DecodingWorker implements Taking {
     }
 
     private findHelpers(header: Header): number {
-        const { kernels, limits, tolerant, helpers = [], worthwhile } = this.start;
+        const { kernels, build, limits, tolerant, helpers = [], worthwhile } = this.start;
         const pieces = this.pieces ?? [];
         const found = helpers.slice(0, helpersFor(header, worthwhile));
         this.pieces = undefined;
@@ -51,7 +51,7 @@ class DecodingWorker implements Taking {
         const onBlock = (shared: SharedBlock): void => heard(() => this.decoder.receiveBlock(shared));
         this.team = new Team(
             found,
-            { kernels, limits, tolerant },
+            { kernels, build, limits, tolerant },
             { onBlock, onOver: (why) => heard(() => (this.over = why)) },
         );
         for (const piece of pieces) this.team.take(piece);
@@ -92,10 +92,12 @@ class HelpingWorker implements Taking {
     }
 }
 
+export const openFull: Open = (start, kernels, say, guarded) =>
+    start.share
+        ? new HelpingWorker(start, kernels, start.share, say)
+        : new DecodingWorker(start, kernels, say, guarded);
+
 // Not taken apart in one step: bundlers would lose what `serve` does.
-const desk = deskOf((start, kernels, say, guarded) => {
-    if (start.share) return new HelpingWorker(start, kernels, start.share, say);
-    return new DecodingWorker(start, kernels, say, guarded);
-});
+const desk = deskOf(openFull);
 export const openDesk = desk.openDesk;
 export const serve = desk.serve;

@@ -6,6 +6,7 @@ import { isLight } from "../src/peek";
 import type { Build, Source } from "../src/pool";
 import * as fast from "../src/workerFast";
 import * as full from "../src/workerFull";
+import * as small from "../src/workerSmall";
 import { WEB } from "./shared";
 
 /** Numbers in [0, 1), the same in every run (Park and Miller, 1988). */
@@ -146,10 +147,10 @@ export function staged(
         Object.defineProperty(globalThis, name, { value, configurable: true, writable: true });
     performance.now = () => lines.now;
     const source: Source = {
-        worker: (build) => {
-            const [page, thread] = pair();
-            Object.defineProperty(globalThis, "self", { value: thread, configurable: true, writable: true });
-            (isLight(build) ? fast : full).serve();
+        worker: (thread) => {
+            const [page, end] = pair();
+            Object.defineProperty(globalThis, "self", { value: end, configurable: true, writable: true });
+            (thread === "whole" ? full : small).serve();
             return page as unknown as Worker;
         },
         kernels: (build) => KERNELS[build],
