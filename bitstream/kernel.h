@@ -129,3 +129,10 @@ BSM_ARRAY(Doubles, double)
 
 INLINE int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
 INLINE int64_t largest(int64_t a, int64_t b) { return a > b ? a : b; }
+
+/* Whether all numbers are from 0 to below `limit`; without a branch, so that many are looked at at once. */
+INLINE bool all_below(const int32_t *numbers, int64_t count, int64_t limit) {
+    int32_t outside = 0, last = (int32_t)least(limit - 1, INT32_MAX);
+    for (int64_t i = 0; i < count; i++) outside |= numbers[i] | (numbers[i] > last ? -1 : 0);
+    return outside >= 0;
+}

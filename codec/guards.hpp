@@ -186,20 +186,16 @@ inline bool wanted(const Wanted &given) {
     return below(given.faces, n) && graph(Lists{given.around_starts, given.around}, n, given.faces.rows)
         && fits_rows(given.beside_starts, given.beside, n, n);
 }
-inline bool flapped(const Wanted &given, ConstInts2 flaps, ConstInts starts, ConstInts members) {
+inline bool flapped(const Wanted &given, Flaps edges) {
     int64_t n = given.positions.rows;
-    return wanted(given) && below(flaps, n) && fits_rows(starts, members, n, 2 * flaps.rows);
+    return wanted(given) && below(edges.rows, n) && fits_rows(edges.starts, edges.members, n, 2 * edges.rows.rows);
 }
-inline bool shape_levels(Wanted given, Aim, Doubles2, Ints2, ConstDoubles2, ConstDoubles, double, Bytes) {
-    return wanted(given);
+inline bool shape_levels(Wanted given, Aim, Shaped, ConstDoubles2, ConstDoubles, double) { return wanted(given); }
+inline bool shape_grid(Wanted given, Aim, Shaped, double, Flaps edges, Ints2, ConstDoubles) {
+    return flapped(given, edges);
 }
-inline bool shape_grid(Wanted given, Aim, Doubles2, Ints2, double, ConstInts2 flaps, ConstInts starts,
-    ConstInts members, Ints2, ConstDoubles, Bytes) {
-    return flapped(given, flaps, starts, members);
-}
-inline bool unfold_levels(Wanted given, ConstDoubles, Doubles2, Ints2, ConstDoubles2, ConstInts2 flaps,
-    ConstInts starts, ConstInts members, int64_t, Bytes, Bytes) {
-    return flapped(given, flaps, starts, members);
+inline bool unfold_levels(Wanted given, ConstDoubles, Shaped, ConstDoubles2, Flaps edges, int64_t, Bytes) {
+    return flapped(given, edges);
 }
 
 }  // namespace guards

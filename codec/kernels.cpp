@@ -22,6 +22,12 @@ BSM_STRUCT(Canvas, Singles2, Singles2, Singles2, Ints2, Ints)
 BSM_STRUCT(Bends, double, double, double)
 BSM_STRUCT(Tree, ConstDoubles2, ConstDoubles2, ConstDoubles2, ConstLongs, ConstLongs, ConstLongs)
 BSM_STRUCT(Aim, double, double, int64_t)
+BSM_STRUCT(NearCreases, Ints2, Bytes, Doubles)
+BSM_STRUCT(Settled, ConstDoubles2, ConstDoubles2, ConstDoubles2, ConstDoubles2, ConstDoubles2, ConstDoubles)
+BSM_STRUCT(Rates, ConstDoubles2, double, Doubles2)
+BSM_STRUCT(Shaped, Doubles2, Ints2, Bytes)
+BSM_STRUCT(Flaps, ConstInts2, ConstInts, ConstInts)
+BSM_STRUCT(MotionScratch, Ints, Ints, Bytes, Doubles)
 BSM_STRUCT(Creases, ConstInts2, ConstInts2, ConstBytes, ConstDoubles, ConstInts, ConstInts, double)
 
 using namespace nb::literals;

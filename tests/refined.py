@@ -11,7 +11,8 @@ from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.ways.grid import grid_field, levels_field
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
-from tools.surgery import scan, write_stream
+from tests.streams import write_stream
+from tools.surgery import scan
 
 BASE = EncodeOptions(block_size=30, keep=0.3, step=1 / 256, smoothing=0.0, threads=1)
 

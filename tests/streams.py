@@ -7,7 +7,14 @@ from contextlib import contextmanager
 from typing import Any
 
 from bsm import END_OF_STREAM, Decoder, FrameEvent, SequenceDecoder, Signal
+from bsm.bitstream.container.packets import Packet, SectionWriter
 from tools.surgery import scan
+
+
+def write_stream(packets: list[Packet]) -> bytes:
+    """Return a whole stream: preamble, the packets given, END."""
+    writer = SectionWriter()
+    return b"".join([writer.start(), *(writer.write(packet) for packet in packets), writer.end()])
 
 
 def events_of(data: bytes, pieces: Sequence[bytes] | None = None, **options: Any) -> list[Any]:

@@ -9,7 +9,7 @@ from typing import Any
 import msgpack
 
 from bsm.bitstream.container.header import HEADER_FIELDS, LAW, LAW_OF_SEQUENCES, PAPER, Declaration, Header, fields_of
-from bsm.bitstream.container.packets import BRIEF, BRIEF_TURNED, WRITERS, Declared, End, Metadata, Packet, SectionWriter
+from bsm.bitstream.container.packets import BRIEF, BRIEF_TURNED, WRITERS, Declared, End, Metadata, Packet
 from bsm.bitstream.container.wire import (
     MAGIC,
     MAX_VARINT_BYTES,
@@ -144,12 +144,6 @@ def record_of(kind: Any, payload: bytes) -> Any:
         return kind(**{name: declared.normalize(value) for name, declared, value in entries})
     except (KeyError, TypeError, ValueError) as error:
         raise CorruptError(f"this cannot be read: {error}") from error
-
-
-def write_stream(packets: list[Packet]) -> bytes:
-    """Return a whole stream: preamble, the packets given, END."""
-    writer = SectionWriter()
-    return b"".join([writer.start(), *(writer.write(packet) for packet in packets), writer.end()])
 
 
 def stream_of(frames: Frames, version: int | None = None, positions: bytes = b"") -> bytes:

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Write the stubs of the built kernels, and typed keywords, into this checkout, for mypy: tools/write_stubs.sh [PYTHON]
+# Write the stubs of the built kernels, of public names and typed keywords into this checkout, for mypy: tools/write_stubs.sh [PYTHON]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mkdir -p src/bsm/_core

@@ -18,23 +18,29 @@ INLINE int32_t sum_class(int64_t sum, int32_t most) {
     return (int32_t)least(size_class((int32_t)least(sum >> 2, ONE)), most);
 }
 
-/* Code whether a vertex is in the cell of candidate c; `beside`: 0: it is the last, 1: the next is there, too, 2: not;
- * `hits`: the answers at the first flap. */
-static int code_hit(RangeCoder *coder, Twins *t, const Candidate *c, const int32_t *cell, int32_t beside, int32_t hits,
-    const int32_t *base, int32_t errors, int bit) {
+/* What is known of a vertex: its expected place, the answers at its first flap, and the class of the errors nearby. */
+typedef struct {
+    const int32_t *base;
+    int32_t hits, errors;
+} Known;
+
+/* Code whether a vertex is in the cell of candidate c. `beside` is 0 for the last candidate, 1 if the next one has the
+ * same cell, else 2. */
+static int code_hit(RangeCoder *coder, Twins *t, const Candidate *c, const int32_t *cell, int32_t beside,
+    const Known *known, int bit) {
     int32_t trust = t->image[c->image].trust, support = (int32_t)least(c->support, 3), off = 0;
     int64_t away = 0;
     for (int j = 0; j < AXES; j++) {
         off += size_of(c->place[j] - FINE * cell[j]);
-        away += size_of(c->place[j] - base[j]);
+        away += size_of(c->place[j] - known->base[j]);
     }
     int32_t latest = t->latest[c->image] & 15;
     int64_t context[WHOLE_CONTEXTS] = {
         ((trust >> 12) * 4 + support) * 2 + c->same_degree,
-        (hits * 3 + beside) * 4 + support,
+        (known->hits * 3 + beside) * 4 + support,
         ((c->image * 3 + beside) * 2 + c->same_degree) * 2 + (support > 1),
         (latest * 3 + (off >= 3) + (off >= 9)) * 3 + beside,
-        sum_class(away, 23) * 16 + errors,
+        sum_class(away, 23) * 16 + known->errors,
     };
     for (int i = 0; i < WHOLE_CONTEXTS; i++) context[i] = 2 * (context[i] + i * CONTEXT_SIZE);
     int trusted = (trust >= ONE / 5) + (trust >= ONE / 2) + (trust >= ONE / 5 * 4);
@@ -51,8 +57,8 @@ bool code_whole(RangeCoder *coder, Twins *t, const Corners *corners, const Ints2
     if (!is_reading(coder) && t->wanted) mend_place(corners, *values, t->wanted, largest, v);
     if (t->candidates == 0) return false;
     const Flap *f = around->flap;
-    int32_t hits = around->flaps > 0 ? (t->hit[f->a] * 3 + t->hit[f->b]) * 3 + t->hit[f->c] : 0;
-    int32_t errors = sum_class((int64_t)near[0] + near[1] + near[2], 15);
+    Known known = {base, around->flaps > 0 ? (t->hit[f->a] * 3 + t->hit[f->b]) * 3 + t->hit[f->c] : 0,
+        sum_class((int64_t)near[0] + near[1] + near[2], 15)};
     for (int i = 0; i < t->candidates && t->misses < MOST_MISSES; i++) {
         int32_t *cell = t->missed[t->misses], next[AXES] = {0};
         find_cell(t->candidate + i, largest, cell);
@@ -61,7 +67,7 @@ bool code_whole(RangeCoder *coder, Twins *t, const Corners *corners, const Ints2
         int32_t beside = i + 1 == t->candidates ? 0 : same_cell(next, cell) ? 1 : 2;
         int bit = !is_reading(coder)
             && (same_cell(x, cell) || (t->wanted && go_to_cell(corners, *values, t->wanted, v, cell)));
-        bit = code_hit(coder, t, t->candidate + i, cell, beside, hits, base, errors, bit);
+        bit = code_hit(coder, t, t->candidate + i, cell, beside, &known, bit);
         if (t->misses == 0) t->hit[v] = (uint8_t)(1 + bit);
         for (int j = 0; j < AXES && bit; j++) x[j] = cell[j];
         if (bit) return true;

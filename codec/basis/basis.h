@@ -5,12 +5,11 @@
 
 /* The fronts of a block of n rows, in the order of elimination: see fronts.c. */
 typedef struct {
-    ConstWords rows, steps, owners, firsts, starts, borders, places;
-    ConstDoubles sums;
+    Words rows, steps, owners, firsts, starts, borders, places;
+    Doubles sums;
 } Fronts;
 
-int64_t find_fronts(ConstInts offsets, ConstInts neighbors, double most_work, Words scratch, Words rows, Words steps,
-                    Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums);
+int64_t find_fronts(ConstInts offsets, ConstInts neighbors, double most_work, Words scratch, Fronts *fronts);
 void ISA(factorize_fronts)(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal,
                              Fronts fronts, Words column, Singles scratch, Singles values, Singles inverse);
 void ISA(solve_columns)(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles2 columns, Singles scratch,

@@ -6,6 +6,13 @@
  */
 #include "codec/basis/vectors.h"
 
+/* A front with its border, its matrix, and D^-1 of its own steps. */
+typedef struct {
+    Front front;
+    const uint32_t *border;
+    const float *matrix, *pivots;
+} Factored;
+
 /* Column of each of its steps in the matrix of a front. */
 INLINE void find_columns(const Fronts *fronts, const Front *front, uint32_t *column) {
     for (int64_t j = 0; j < front->own; j++) column[front->first + j] = (uint32_t)j;
@@ -26,37 +33,34 @@ INLINE void eliminate(const int vectors, int64_t p, float *matrix, int64_t apart
     EACH(v, vectors) store(row + v * WIDTH, lanes[v]);
 }
 
-/* Part of one or two rows, `apart` from each other, less what the steps of a front take from its columns i and i +
- * 1. */
-INLINE void leave(const int vectors, int64_t p, const int rows, const float *matrix, int64_t apart,
-    const float *inverse, int64_t own, int64_t i, float *result) {
+/* Subtract from part of one or two rows, which are as far apart as those of the front, the terms of the front's steps
+ * for its columns i and i + 1. */
+INLINE void leave(const int vectors, int64_t p, const int rows, const Factored *f, int64_t i, float *result) {
+    int64_t apart = f->front.apart;
     Vector lanes[2][VECTORS];
     EACH(r, rows) EACH(v, vectors) lanes[r][v] = load(result + r * apart + p + v * WIDTH);
-    for (int64_t k = 0; k < own; k++) {
-        const float *from = matrix + k * apart;
+    for (int64_t k = 0; k < f->front.own; k++) {
+        const float *from = f->matrix + k * apart;
         EACH(r, rows) {
-            float share = -from[i + r] * inverse[k];
+            float share = -from[i + r] * f->pivots[k];
             EACH(v, vectors) lanes[r][v] = add_scaled(lanes[r][v], share, load(from + p + v * WIDTH));
         }
     }
     EACH(r, rows) EACH(v, vectors) store(result + r * apart + p + v * WIDTH, lanes[r][v]);
 }
 
-/* Take from one or two rows of a target's matrix what the steps of a front take from its columns i and i + 1. `places`
- * says which column of the target each column of the front up to `end` is; `left` is scratch. */
-INLINE void take_from(const int rows, const Fronts *fronts, const Front *front, const float *matrix,
-    const float *inverse, int64_t i, int64_t end, const Front *target, float *matrices, const uint32_t *places,
-    float *left) {
-    const uint32_t *border = fronts->borders.data + front->edge - front->own;
-    int64_t apart = front->apart;
+/* Subtract the terms of a front's steps for its columns i and i + 1 from one or two rows of the target's matrix.
+ * `places` gives the target's column for each column of the front up to `end`; `left` is scratch. */
+INLINE void take_from(const int rows, const Factored *f, int64_t i, int64_t end, const Front *target, float *matrix,
+    const uint32_t *places, float *left) {
+    int64_t apart = f->front.apart;
     float *to[2];
     EACH(r, rows) {
-        to[r] = matrices + target->place + (border[i + r] - target->first) * target->apart;
+        to[r] = matrix + (f->border[i + r - f->front.own] - target->first) * target->apart;
         for (int64_t j = i + r; j < end; j++) left[r * apart + j] = to[r][places[j]];
     }
     for (int64_t p = i / WIDTH * WIDTH; p < end; p += LANES)
-        WITH_VECTORS(least(VECTORS, (whole_vectors(end) - p) / WIDTH), p, leave, rows, matrix, apart, inverse,
-            front->own, i, left);
+        WITH_VECTORS(least(VECTORS, (whole_vectors(end) - p) / WIDTH), p, leave, rows, f, i, left);
     EACH(r, rows) for (int64_t j = i + r; j < end; j++) to[r][places[j]] = left[r * apart + j];
 }
 
@@ -105,16 +109,17 @@ void ISA(factorize_fronts)(ConstInts offsets, ConstInts neighbors, ConstDoubles 
                 WITH_VECTORS(least(VECTORS, (columns - p) / WIDTH), p, eliminate, matrix, apart, pivots, k);
             pivots[k] = 1.0f / matrix[k * apart + k];
         }
-        const uint32_t *border = fronts.borders.data + front.edge - own;
+        Factored done = {front, fronts.borders.data + front.edge, matrix, pivots};
+        const uint32_t *border = done.border - own;
         int64_t end = width - (width > own && border[width - 1] == n);
         for (int64_t i = own; i < end;) {
             uint32_t owner = fronts.owners.data[border[i]];
             Front target = front_at(&fronts, owner);
             find_places(&fronts, &front, i, end, &target, places);
             for (; i + 1 < end && fronts.owners.data[border[i + 1]] == owner; i += 2)
-                take_from(2, &fronts, &front, matrix, pivots, i, end, &target, matrices, places, left);
+                take_from(2, &done, i, end, &target, matrices + target.place, places, left);
             if (i < end && fronts.owners.data[border[i]] == owner)
-                take_from(1, &fronts, &front, matrix, pivots, i++, end, &target, matrices, places, left);
+                take_from(1, &done, i++, end, &target, matrices + target.place, places, left);
         }
         for (int64_t k = 0; k < own; k++)
             for (int64_t p = 0; p < apart; p += WIDTH)
@@ -124,15 +129,30 @@ void ISA(factorize_fronts)(ConstInts offsets, ConstInts neighbors, ConstDoubles 
 
 /* Forward and back substitution for all columns at once: R^z X, with R = (C D C^T)^-1 (paper, section 4). */
 
-/* Rows `start` to `end` of a panel, less what some rows of a front take of each; these stay in registers. */
-INLINE void take_rows(const int vectors, const int rows, Vector taken[ROWS][VECTORS], const float *entries,
-    int64_t apart, const uint32_t *border, int64_t start, int64_t end, float *x, int64_t lane) {
-    for (int64_t j = start; j < end; j++) {
-        float *row = x + (border ? border[j] : j) * lane;
+/* Columns `start` to `end` of some rows of a front's matrix, and the row of a panel that each multiplies: that of its
+ * step in the border, or, without a border, the row with its own number. */
+typedef struct {
+    const float *entries;
+    int64_t apart; /* from one row of the matrix to the next */
+    const uint32_t *border;
+    int64_t start, end;
+} Columns;
+
+INLINE int64_t panel_row(const Columns *columns, int64_t j) { return columns->border ? columns->border[j] : j; }
+
+INLINE Columns border_columns(const Factored *f, const float *entries) {
+    return (Columns){entries + f->front.own, f->front.apart, f->border, 0, f->front.width - f->front.own};
+}
+
+/* Subtract from each row of a panel the terms of some rows of a front; these stay in registers. */
+INLINE void take_rows(const int vectors, const int rows, Vector taken[ROWS][VECTORS], Columns columns, float *x,
+    int64_t lane) {
+    for (int64_t j = columns.start; j < columns.end; j++) {
+        float *row = x + panel_row(&columns, j) * lane;
         Vector lanes[VECTORS];
         EACH(v, vectors) lanes[v] = load(row + v * WIDTH);
         EACH(i, rows) {
-            float entry = entries[i * apart + j];
+            float entry = columns.entries[i * columns.apart + j];
             EACH(v, vectors) lanes[v] = add_scaled(lanes[v], entry, taken[i][v]);
         }
         EACH(v, vectors) store(row + v * WIDTH, lanes[v]);
@@ -141,11 +161,11 @@ INLINE void take_rows(const int vectors, const int rows, Vector taken[ROWS][VECT
 
 /* C X = B for successive rows of a front from its row k on: what they take of each other, of the later rows of the
  * front, and of its border. */
-INLINE void take_forward(const int vectors, const int rows, int64_t lane, const Front *front, int64_t k,
-                         const uint32_t *border, const float *matrix, float *x) {
+INLINE void take_forward(const int vectors, const int rows, int64_t lane, const Factored *f, int64_t k, float *x) {
     Vector taken[ROWS][VECTORS];
+    const Front *front = &f->front;
     float *own = x + front->first * lane;
-    const float *entries = matrix + k * front->apart;
+    const float *entries = f->matrix + k * front->apart;
     EACH(i, rows) {
         EACH(v, vectors) taken[i][v] = load(own + (k + i) * lane + v * WIDTH);
         EACH(j, rows) if (j < i) {
@@ -154,18 +174,17 @@ INLINE void take_forward(const int vectors, const int rows, int64_t lane, const 
         }
         EACH(v, vectors) store(own + (k + i) * lane + v * WIDTH, taken[i][v]);
     }
-    take_rows(vectors, rows, taken, entries, front->apart, 0, k + rows, front->own, own, lane);
-    take_rows(vectors, rows, taken, entries + front->own, front->apart, border, 0, front->width - front->own, x, lane);
+    take_rows(vectors, rows, taken, (Columns){entries, front->apart, 0, k + rows, front->own}, own, lane);
+    take_rows(vectors, rows, taken, border_columns(f, entries), x, lane);
 }
 
-/* Sums of rows on the way back, each row of which is multiplied by what it has at rows `start` to `end` of a panel, the
- * last first. */
-INLINE void add_rows(const int vectors, const int rows, Vector sums[ROWS][VECTORS], const float *entries, int64_t apart,
-                     const uint32_t *border, int64_t start, int64_t end, const float *x, int64_t lane) {
-    for (int64_t j = end - 1; j >= start; j--) {
-        const float *row = x + (border ? border[j] : j) * lane;
+/* Add to the sums of some rows of a front the products of their columns with rows of a panel, the last first. */
+INLINE void add_rows(const int vectors, const int rows, Vector sums[ROWS][VECTORS], Columns columns, const float *x,
+    int64_t lane) {
+    for (int64_t j = columns.end - 1; j >= columns.start; j--) {
+        const float *row = x + panel_row(&columns, j) * lane;
         EACH(i, rows) {
-            float entry = entries[i * apart + j];
+            float entry = columns.entries[i * columns.apart + j];
             EACH(v, vectors) sums[i][v] = add_scaled(sums[i][v], entry, load(row + v * WIDTH));
         }
     }
@@ -173,15 +192,15 @@ INLINE void add_rows(const int vectors, const int rows, Vector sums[ROWS][VECTOR
 
 /* D C^T X = B for successive rows of a front from its row k on: each divided by its pivot, less its share of the rows
  * after it, the last first. */
-INLINE void take_back(const int vectors, const int rows, int64_t lane, const Front *front, int64_t k,
-                      const uint32_t *border, const float *matrix, const float *inverse, float *x) {
+INLINE void take_back(const int vectors, const int rows, int64_t lane, const Factored *f, int64_t k, float *x) {
     Vector sums[ROWS][VECTORS];
+    const Front *front = &f->front;
     float *own = x + front->first * lane;
-    const float *entries = matrix + k * front->apart;
+    const float *entries = f->matrix + k * front->apart;
     EACH(i, rows)
-        EACH(v, vectors) sums[i][v] = scaled(load(own + (k + i) * lane + v * WIDTH), inverse[front->first + k + i]);
-    add_rows(vectors, rows, sums, entries + front->own, front->apart, border, 0, front->width - front->own, x, lane);
-    add_rows(vectors, rows, sums, entries, front->apart, 0, k + rows, front->own, own, lane);
+        EACH(v, vectors) sums[i][v] = scaled(load(own + (k + i) * lane + v * WIDTH), f->pivots[k + i]);
+    add_rows(vectors, rows, sums, border_columns(f, entries), x, lane);
+    add_rows(vectors, rows, sums, (Columns){entries, front->apart, 0, k + rows, front->own}, own, lane);
     EACH(down, rows) {
         const int i = rows - 1 - down;
         EACH(up, rows) if (rows - 1 - up > i) {
@@ -192,37 +211,30 @@ INLINE void take_back(const int vectors, const int rows, int64_t lane, const Fro
     }
 }
 
-INLINE void substitute_forward(const int vectors, int64_t lane, const Fronts *fronts, const float *matrices, float *x) {
-    for (int64_t t = 0; t < fronts->firsts.size - 1; t++) {
-        Front front = front_at(fronts, t);
-        const uint32_t *border = fronts->borders.data + front.edge;
-        const float *matrix = matrices + front.place;
-        int64_t k = 0;
-        for (; k + ROWS <= front.own; k += ROWS) take_forward(vectors, ROWS, lane, &front, k, border, matrix, x);
-        if (ROWS > 3 && front.own - k == 3) take_forward(vectors, 3, lane, &front, k, border, matrix, x);
-        else if (ROWS > 2 && front.own - k == 2) take_forward(vectors, 2, lane, &front, k, border, matrix, x);
-        else if (front.own > k) take_forward(vectors, 1, lane, &front, k, border, matrix, x);
-    }
-}
-
-INLINE void substitute_back(const int vectors, int64_t lane, const Fronts *fronts, const float *matrices,
-                            const float *inverse, float *x) {
-    for (int64_t t = fronts->firsts.size - 2; t >= 0; t--) {
-        Front front = front_at(fronts, t);
-        const uint32_t *border = fronts->borders.data + front.edge;
-        const float *matrix = matrices + front.place;
-        int64_t k = front.own;
-        for (; k >= ROWS; k -= ROWS) take_back(vectors, ROWS, lane, &front, k - ROWS, border, matrix, inverse, x);
-        if (ROWS > 3 && k == 3) take_back(vectors, 3, lane, &front, 0, border, matrix, inverse, x);
-        else if (ROWS > 2 && k == 2) take_back(vectors, 2, lane, &front, 0, border, matrix, inverse, x);
-        else if (k > 0) take_back(vectors, 1, lane, &front, 0, border, matrix, inverse, x);
-    }
+INLINE Factored factored_at(const Fronts *fronts, const float *matrices, const float *inverse, int64_t t) {
+    Front front = front_at(fronts, t);
+    return (Factored){front, fronts->borders.data + front.edge, matrices + front.place, inverse + front.first};
 }
 
 INLINE void substitute_panel(const int vectors, float *x, int64_t lane, const Fronts *fronts, const float *matrices,
                              const float *inverse) {
-    substitute_forward(vectors, lane, fronts, matrices, x);
-    substitute_back(vectors, lane, fronts, matrices, inverse, x);
+    int64_t count = fronts->firsts.size - 1;
+    for (int64_t t = 0; t < count; t++) {
+        Factored f = factored_at(fronts, matrices, inverse, t);
+        int64_t k = 0;
+        for (; k + ROWS <= f.front.own; k += ROWS) take_forward(vectors, ROWS, lane, &f, k, x);
+        if (ROWS > 3 && f.front.own - k == 3) take_forward(vectors, 3, lane, &f, k, x);
+        else if (ROWS > 2 && f.front.own - k == 2) take_forward(vectors, 2, lane, &f, k, x);
+        else if (f.front.own > k) take_forward(vectors, 1, lane, &f, k, x);
+    }
+    for (int64_t t = count - 1; t >= 0; t--) {
+        Factored f = factored_at(fronts, matrices, inverse, t);
+        int64_t k = f.front.own;
+        for (; k >= ROWS; k -= ROWS) take_back(vectors, ROWS, lane, &f, k - ROWS, x);
+        if (ROWS > 3 && k == 3) take_back(vectors, 3, lane, &f, 0, x);
+        else if (ROWS > 2 && k == 2) take_back(vectors, 2, lane, &f, 0, x);
+        else if (k > 0) take_back(vectors, 1, lane, &f, 0, x);
+    }
 }
 
 /* Overwrite panels of X, their rows in the order of elimination, by (C D C^T)^-1 X. */

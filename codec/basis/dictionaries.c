@@ -78,24 +78,23 @@ double work_of_dictionary(const Header *header, const Patch *patch, bool follows
     return iteration_work(patch, schedule_of(header, patch->size, follows), width, 0);
 }
 
-/* `width` columns of U: those of the iterations, then any that are orthogonal to them (M 8.7). */
+/* Columns of U: those of the iterations, then any that are orthogonal to them (M 8.7). */
 static bool iterate_and_complete(Context *context, const Patch *patch, const Factor *factor, Singles2 start,
-    Schedule plan, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
-    int64_t first = least(width, plan.most), rows = patch->size;
-    if (!take_singles2(arena, rows, width, dictionary)) return false;
-    Singles2 iterated = *dictionary;
+    Schedule plan, Arena *scratch, Singles2 dictionary) {
+    int64_t width = dictionary.columns, first = least(width, plan.most), rows = patch->size;
+    Singles2 iterated = dictionary;
     if (first < width && !take_singles2(scratch, rows, first, &iterated)) return false;
     if (!iterate_columns(context, patch, factor, start, plan, scratch, iterated)) return false;
     if (first == width) return true;
     if (!charge(context, completion_work((double)rows, (double)plan.most, (double)width), 0)) return false;
     Singles room;
     if (!take_singles(scratch, completion_space(first), &room)) return false;
-    return complete_columns(const_singles2(iterated), room, *dictionary)
+    return complete_columns(const_singles2(iterated), room, dictionary)
         || FAIL(context, NUMERIC, "the columns of a dictionary cannot be completed");
 }
 
 bool key_dictionary(Context *context, const Header *header, const Patch *patch, ConstDoubles springs,
-    const Factor *held, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
+    const Factor *held, Arena *scratch, Singles2 dictionary) {
     const Paper *paper = &header->paper;
     Schedule plan = schedule_of(header, patch->size, false);
     Factor own;
@@ -105,20 +104,21 @@ bool key_dictionary(Context *context, const Header *header, const Patch *patch, 
         if (!factorize_patch(patch, springs, paper->exact ? EXACT_SHIFT : paper->shift, scratch, &own)) return false;
         held = &own;
     }
-    if (!resize((Singles2){NULL, 0, 0}, patch->size, least(width, plan.most), scratch, &start)) return false;
+    if (!resize((Singles2){NULL, 0, 0}, patch->size, least(dictionary.columns, plan.most), scratch, &start))
+        return false;
     if (!paper->exact && !look_for_pieces(patch, scratch, &noisy)) return false;
     if (noisy) add_noise(start, START_NOISE);
-    return iterate_and_complete(context, patch, held, start, plan, width, arena, scratch, dictionary);
+    return iterate_and_complete(context, patch, held, start, plan, scratch, dictionary);
 }
 
 bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor,
-    Singles2 previous, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
+    Singles2 previous, Arena *scratch, Singles2 dictionary) {
     Schedule plan = schedule_of(header, patch->size, true);
-    int64_t first = least(width, plan.most);
+    int64_t first = least(dictionary.columns, plan.most);
     Singles2 start = previous;
     bool noisy;
     if (!look_for_pieces(patch, scratch, &noisy)) return false;
     if ((noisy || previous.columns < first) && !resize(previous, patch->size, first, scratch, &start)) return false;
     if (noisy) add_noise(start, FOLLOWING_NOISE);
-    return iterate_and_complete(context, patch, factor, start, plan, width, arena, scratch, dictionary);
+    return iterate_and_complete(context, patch, factor, start, plan, scratch, dictionary);
 }

@@ -96,71 +96,73 @@ static void leave_set(Sets *sets, uint32_t set, int64_t from, uint32_t owner) {
     sets->free |= UINT64_C(1) << set;
 }
 
-/* The borders of the fronts that `dissect` found, and all else that `Fronts` holds.
+/* Find the borders of the fronts that `dissect` found, and the rest of `Fronts`.
  *
  * Returns the size of `borders`; -1 if there is no room for them; -2 if a factorization takes more operations than
  * `most_work`, or rows are not in the order of a bisection. `scratch` has room for 3 n, `starts` and `places` for t +
  * 1.
  */
-static int64_t find_borders(ConstInts offsets, ConstInts neighbors, ConstWords rows, ConstWords firsts,
-    double most_work, Words scratch, Words steps, Words owners, Words starts, Words borders, Words places) {
-    int64_t n = rows.size, count = firsts.size - 1;
+static int64_t find_borders(ConstInts offsets, ConstInts neighbors, int64_t count, double most_work, Words scratch,
+    Fronts *fronts) {
+    int64_t n = offsets.size - 1;
+    const uint32_t *rows = fronts->rows.data, *firsts = fronts->firsts.data;
+    uint32_t *steps = fronts->steps.data, *owners = fronts->owners.data, *starts = fronts->starts.data,
+        *places = fronts->places.data, *borders = fronts->borders.data;
     Sets sets = open_sets(scratch.data, n);
     for (int64_t t = 0; t < count; t++) {
-        for (int64_t k = firsts.data[t]; k < firsts.data[t + 1]; k++) {
-            steps.data[rows.data[k]] = (uint32_t)k;
-            owners.data[k] = (uint32_t)t;
+        for (int64_t k = firsts[t]; k < firsts[t + 1]; k++) {
+            steps[rows[k]] = (uint32_t)k;
+            owners[k] = (uint32_t)t;
         }
     }
     int64_t size = 0, place = 0;
     double work = 0.0;
-    starts.data[0] = places.data[0] = 0;
+    starts[0] = places[0] = 0;
     for (int64_t t = 0; t < count; t++) {
-        int64_t first = firsts.data[t], end = firsts.data[t + 1], begin = size, from = end >> 6;
+        int64_t first = firsts[t], end = firsts[t + 1], begin = size, from = end >> 6;
         uint32_t set = sets.waiting[t] != NONE ? sets.waiting[t] : take_set(&sets);
-        if (borders.size < size + n + 2) return -1;
+        if (fronts->borders.size < size + n + 2) return -1;
         if (set == NONE) return -2;
         StepBits *bits = sets.bits + set * sets.words;
         for (int64_t k = first; k < end; k++) {
-            for (int64_t i = offsets.data[rows.data[k]]; i < offsets.data[rows.data[k] + 1]; i++) {
-                uint32_t step = steps.data[neighbors.data[i]];
+            for (int64_t i = offsets.data[rows[k]]; i < offsets.data[rows[k] + 1]; i++) {
+                uint32_t step = steps[neighbors.data[i]];
                 bits[step >> 6] |= UINT64_C(1) << (step & 63);
             }
         }
         uint64_t later = UINT64_MAX << (end & 63);
         for (int64_t w = from; w < sets.words; w++, later = UINT64_MAX)
             for (uint64_t left = bits[w] & later; left != 0; left &= left - 1)
-                borders.data[size++] = (uint32_t)(64 * w + __builtin_ctzll(left));
-        if (size > begin) leave_set(&sets, set, from, owners.data[borders.data[begin]]);
+                borders[size++] = (uint32_t)(64 * w + __builtin_ctzll(left));
+        if (size > begin) leave_set(&sets, set, from, owners[borders[begin]]);
         else sets.free |= UINT64_C(1) << set;
-        if ((size - begin) % 2 > 0) borders.data[size++] = (uint32_t)n;
+        if ((size - begin) % 2 > 0) borders[size++] = (uint32_t)n;
         double own = (double)(end - first), width = own + (double)(size - begin);
         work += own * width * width;
         place += (end - first) * whole_lines(end - first + size - begin);
-        if (work > most_work) return -2;
-        if (place > UINT32_MAX) return -2;
-        starts.data[t + 1] = (uint32_t)size;
-        places.data[t + 1] = (uint32_t)place;
+        if (work > most_work || place > UINT32_MAX) return -2;
+        starts[t + 1] = (uint32_t)size;
+        places[t + 1] = (uint32_t)place;
     }
     return size;
 }
 
-/* All that `Fronts` holds, of a graph of n rows in bisection order: `dissect`, `find_borders`, and of each front the
- * own steps times the width, once and twice, summed. Returns how many fronts there are, or what `find_borders` does
- * where that is below zero. `firsts`, `starts` and `places` have room for n + 1, `scratch` for 3 n. */
-int64_t find_fronts(ConstInts offsets, ConstInts neighbors, double most_work, Words scratch, Words rows, Words steps,
-                    Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums) {
+/* Find the fronts of a graph of n rows in bisection order: `dissect`, `find_borders`, and for each front its own steps
+ * times its width, once and twice, summed. Returns how many fronts there are, or the result of `find_borders` where
+ * that is negative. `fronts` comes with room: n + 1 for `firsts`, `starts` and `places`; `scratch` has 3 n. */
+int64_t find_fronts(ConstInts offsets, ConstInts neighbors, double most_work, Words scratch, Fronts *fronts) {
     int64_t n = offsets.size - 1;
-    int64_t count = dissect(offsets, neighbors, (Ints){(int32_t *)scratch.data, n}, rows, firsts);
-    for (int64_t t = 0; t <= count; t++) firsts.data[t] = firsts.data[n - count + t];
-    int64_t size = find_borders(offsets, neighbors, (ConstWords){rows.data, n}, (ConstWords){firsts.data, count + 1},
-                                most_work, scratch, steps, owners, starts, borders, places);
+    uint32_t *firsts = fronts->firsts.data, *starts = fronts->starts.data;
+    int64_t count = dissect(offsets, neighbors, (Ints){(int32_t *)scratch.data, n}, fronts->rows, fronts->firsts);
+    for (int64_t t = 0; t <= count; t++) firsts[t] = firsts[n - count + t];
+    int64_t size = find_borders(offsets, neighbors, count, most_work, scratch, fronts);
     if (size < 0) return size;
-    sums.data[0] = sums.data[1] = 0.0;
+    double *sums = fronts->sums.data;
+    sums[0] = sums[1] = 0.0;
     for (int64_t t = 0; t < count; t++) {
-        double own = firsts.data[t + 1] - firsts.data[t], width = own + (starts.data[t + 1] - starts.data[t]);
-        sums.data[0] += own * width;
-        sums.data[1] += own * width * width;
+        double own = firsts[t + 1] - firsts[t], width = own + (starts[t + 1] - starts[t]);
+        sums[0] += own * width;
+        sums[1] += own * width * width;
     }
     return count;
 }

@@ -95,13 +95,13 @@ typedef struct {
     Singles values, inverse;
 } Factor;
 
-/* U of a patch that follows none (M 8.3 to M 8.5), of `width` columns, in `arena`; `held` is the factor of L + springs
- * + shift, or NULL. */
+/* Compute U of a patch that follows none (M 8.3 to M 8.5), as many columns as `dictionary` has; `held` is the factor of
+ * L + springs + shift, or NULL. */
 bool key_dictionary(Context *context, const Header *header, const Patch *patch, ConstDoubles springs,
-    const Factor *held, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary);
+    const Factor *held, Arena *scratch, Singles2 dictionary);
 /* U of a patch whose predecessor has as many rows, and the dictionary `previous`. */
 bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor,
-    Singles2 previous, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary);
+    Singles2 previous, Arena *scratch, Singles2 dictionary);
 /* How a dictionary is iterated: z, t, at most how many columns that gives, and solutions before each Onorm in doubles
  * (M 8.4, M 8.7, M 8.9). */
 typedef struct {

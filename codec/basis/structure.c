@@ -97,8 +97,9 @@ static bool grow(Context *context, const Header *header, const Graph *graph, Int
         || !take_longs(scratch, CHAIN_NUMBERS * parts, &room) || !take_ints(arena, parts, &blocks->cores)
         || !take_longs(arena, parts + 1, &blocks->starts) || !take_longs(arena, parts, &blocks->edges))
         return false;
-    int64_t count = chain_blocks(graph->offsets, graph->neighbors, const_ints(order), const_ints(bounds),
-        const_ints(labels), size, linked, shares, room, seen, chain, blocks->starts, blocks->edges, members);
+    int64_t count = chain_blocks(graph->offsets, graph->neighbors,
+        (Partition){const_ints(order), const_ints(bounds), const_ints(labels)}, size, (PartLinks){linked, shares}, room,
+        seen, (BlockChain){chain, blocks->starts, blocks->edges, members});
     if (!take_ints(arena, count, &blocks->members)) return false;
     memcpy(blocks->members.data, members.data, (size_t)count * sizeof *members.data);
     for (int64_t i = 0; i < parts; i++)
@@ -141,24 +142,23 @@ bool order_patch(const Graph *graph, ConstInts members, Arena *arena, Patch *pat
     return true;
 }
 
-static ConstWords some(Words words, int64_t count) { return (ConstWords){words.data, count}; }
-
 /* Which rows are eliminated when. */
 bool find_patch_fronts(Context *context, Arena *arena, Patch *patch) {
     int64_t n = patch->size, room = 16 * n + 64, count = FULL;
-    Words rows, steps, owners, scratch, firsts, starts, places, borders = {NULL, 0};
-    Doubles sums;
-    if (!take_words(arena, n, &rows) || !take_words(arena, n, &steps) || !take_words(arena, n, &owners)
-        || !take_words(arena, 3 * n, &scratch) || !take_words(arena, n + 1, &firsts)
-        || !take_words(arena, n + 1, &starts) || !take_words(arena, n + 1, &places) || !take_doubles(arena, 2, &sums))
+    Words scratch;
+    Fronts fronts;
+    if (!take_words(arena, n, &fronts.rows) || !take_words(arena, n, &fronts.steps)
+        || !take_words(arena, n, &fronts.owners) || !take_words(arena, 3 * n, &scratch)
+        || !take_words(arena, n + 1, &fronts.firsts) || !take_words(arena, n + 1, &fronts.starts)
+        || !take_words(arena, n + 1, &fronts.places) || !take_doubles(arena, 2, &fronts.sums))
         return false;
     for (; count == FULL; room *= 4) {
-        if (!take_words(arena, room, &borders)) return false;
-        count = find_fronts(patch->offsets, patch->neighbors, (double)MOST_WORK * (double)n, scratch, rows, steps,
-            owners, firsts, starts, borders, places, sums);
+        if (!take_words(arena, room, &fronts.borders)) return false;
+        count = find_fronts(patch->offsets, patch->neighbors, (double)MOST_WORK * (double)n, scratch, &fronts);
     }
     if (count == TOO_MUCH) return FAIL(context, LIMIT, "the faces of a block of # vertices are too entangled", n);
-    patch->fronts = (Fronts){some(rows, n), some(steps, n), some(owners, n), some(firsts, count + 1),
-        some(starts, count + 1), some(borders, starts.data[count]), some(places, count + 1), {sums.data, 2}};
+    fronts.firsts.size = fronts.starts.size = fronts.places.size = count + 1;
+    fronts.borders.size = fronts.starts.data[count];
+    patch->fronts = fronts;
     return true;
 }

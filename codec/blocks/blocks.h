@@ -13,9 +13,27 @@ void group_by_label(ConstInts labels, Ints bounds, Ints order);
 int64_t order_scratch(int64_t rows, int64_t edges);
 int64_t order_block(ConstInts offsets, ConstInts neighbors, ConstInts rows, Ints vertices, Ints local_offsets,
                     Ints local_neighbors, Words scratch);
-int64_t chain_blocks(ConstInts offsets, ConstInts neighbors, ConstInts order, ConstInts bounds, ConstInts labels,
-                     int64_t size, Ints links, Longs shares, Longs scratch, Ints seen, Ints chain, Longs starts,
-                     Longs edges, Ints members);
+/* Vertices by their parts: `order` has those of part p from `bounds[p]` on; `labels` has the part of each. */
+typedef struct {
+    ConstInts order, bounds, labels;
+} Partition;
+
+/* Room for the pairs of parts that share edges: the other part, and how many edges. */
+typedef struct {
+    Ints ends;
+    Longs edges;
+} PartLinks;
+
+/* Blocks in the order of their chain: the part that each grew from, its first member in `members`, and how many ends
+ * of edges it sees. */
+typedef struct {
+    Ints chain;
+    Longs starts, edges;
+    Ints members;
+} BlockChain;
+
+int64_t chain_blocks(ConstInts offsets, ConstInts neighbors, Partition parts, int64_t size, PartLinks links,
+    Longs scratch, Ints seen, BlockChain blocks);
 int64_t find_cells(ConstInts offsets, ConstInts neighbors, int64_t reach, Bytes far, Ints waiting, Ints own);
 int64_t link_cells(ConstInts offsets, ConstInts neighbors, ConstInts own, Ints bounds, Ints order, Ints filled,
     Ints found, Ints links, Ints ends);

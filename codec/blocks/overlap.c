@@ -6,16 +6,17 @@ static const uint32_t FREE = 0xFFFFFFFFu;
 
 /* Breadth-first from each part, neighbors in ascending order, until `size` vertices are found; vertices with more than
  * `size` neighbors are left out. Returns the number of members. `seen` is scratch, one entry a vertex. */
-static int64_t grow_blocks(ConstInts offsets, ConstInts neighbors, ConstInts order, ConstInts bounds, ConstInts chain,
-                    int64_t size, Ints seen, Longs starts, Ints members) {
+static int64_t grow_blocks(ConstInts offsets, ConstInts neighbors, Partition parts, int64_t size, Ints seen,
+    BlockChain blocks) {
+    Ints members = blocks.members;
     int64_t count = 0;
     for (int64_t v = 0; v < seen.size; v++) seen.data[v] = -1;
-    for (int64_t index = 0; index < chain.size; index++) {
-        int64_t head = count, full = least(count + size, members.size), part = chain.data[index];
-        starts.data[index] = count;
-        for (int64_t i = bounds.data[part]; i < bounds.data[part + 1] && count < members.size; i++) {
-            members.data[count++] = order.data[i];
-            seen.data[order.data[i]] = (int32_t)index;
+    for (int64_t index = 0; index < blocks.chain.size; index++) {
+        int64_t head = count, full = least(count + size, members.size), part = blocks.chain.data[index];
+        blocks.starts.data[index] = count;
+        for (int64_t i = parts.bounds.data[part]; i < parts.bounds.data[part + 1] && count < members.size; i++) {
+            members.data[count++] = parts.order.data[i];
+            seen.data[parts.order.data[i]] = (int32_t)index;
         }
         while (head < count && count < full) {
             int32_t v = members.data[head++];
@@ -28,7 +29,7 @@ static int64_t grow_blocks(ConstInts offsets, ConstInts neighbors, ConstInts ord
             }
         }
     }
-    starts.data[chain.size] = count;
+    blocks.starts.data[blocks.chain.size] = count;
     return count;
 }
 
@@ -148,60 +149,61 @@ static bool chain_parts(ConstLongs starts, ConstInts ends, ConstLongs edges, Lon
 }
 
 /* The graph of the parts, as `chain_parts` takes it: a part's neighbors in ascending order. Vertices before the
- * `first` are in no part; `labels` are those of the others. `counts`, one entry a part, is scratch. False where `ends`
- * and `edges` have no room. */
-static bool link_parts(ConstInts offsets, ConstInts neighbors, ConstInts order, ConstInts bounds, ConstInts labels,
-                       Longs counts, Longs starts, Ints ends, Longs edges) {
-    int64_t found = 0, first = offsets.size - 1 - labels.size;
+ * `first` are in no part; `labels` are those of the others. `counts`, one entry a part, is scratch. False if `links`
+ * are too short. */
+static bool link_parts(ConstInts offsets, ConstInts neighbors, Partition parts, Longs counts, Longs starts,
+    PartLinks links) {
+    int64_t found = 0, first = offsets.size - 1 - parts.labels.size;
+    int32_t *ends = links.ends.data;
     for (int64_t p = 0; p < counts.size; p++) counts.data[p] = 0;
     for (int64_t p = 0; p < counts.size; p++) {
         starts.data[p] = found;
-        for (int64_t k = bounds.data[p]; k < bounds.data[p + 1]; k++) {
-            int32_t v = order.data[k];
+        for (int64_t k = parts.bounds.data[p]; k < parts.bounds.data[p + 1]; k++) {
+            int32_t v = parts.order.data[k];
             for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
                 if (neighbors.data[i] < first) continue;
-                int32_t other = labels.data[neighbors.data[i] - first];
+                int32_t other = parts.labels.data[neighbors.data[i] - first];
                 if (other == p || counts.data[other]++ > 0) continue;
-                if (found == ends.size || found == edges.size) return false;
-                ends.data[found++] = other;
+                if (found == links.ends.size || found == links.edges.size) return false;
+                ends[found++] = other;
             }
         }
-        sort_ascending(ends.data + starts.data[p], found - starts.data[p]);
+        sort_ascending(ends + starts.data[p], found - starts.data[p]);
         for (int64_t i = starts.data[p]; i < found; i++) {
-            edges.data[i] = counts.data[ends.data[i]];
-            counts.data[ends.data[i]] = 0;
+            links.edges.data[i] = counts.data[ends[i]];
+            counts.data[ends[i]] = 0;
         }
     }
     starts.data[counts.size] = found;
     return true;
 }
 
-/* The parts in a chain and grown to blocks: `chain_parts` and `grow_blocks`. Block i, in the order of the chain, sees
- * `edges[i]` ends of edges. `links` and `shares` have room for each pair of parts that share an
- * edge, `scratch` has seven entries a part. Returns the number of members. */
-int64_t chain_blocks(ConstInts offsets, ConstInts neighbors, ConstInts order, ConstInts bounds, ConstInts labels,
-                     int64_t size, Ints links, Longs shares, Longs scratch, Ints seen, Ints chain, Longs starts,
-                     Longs edges, Ints members) {
-    int64_t n = offsets.size - 1, parts = bounds.size - 1;
-    if (!fits_graph(offsets, neighbors) || parts < 1 || order.size != labels.size || labels.size > n || seen.size != n
-        || scratch.size < 7 * parts || chain.size != parts || starts.size != parts + 1 || edges.size != parts)
+/* The parts in a chain and grown to blocks: `chain_parts` and `grow_blocks`. `links` have room for each pair of parts
+ * that share an edge, `scratch` has seven entries a part. Returns the number of members. */
+int64_t chain_blocks(ConstInts offsets, ConstInts neighbors, Partition parts, int64_t size, PartLinks links,
+    Longs scratch, Ints seen, BlockChain blocks) {
+    int64_t n = offsets.size - 1, count = parts.bounds.size - 1;
+    if (!fits_graph(offsets, neighbors) || count < 1 || parts.order.size != parts.labels.size || parts.labels.size > n
+        || seen.size != n || scratch.size < 7 * count || blocks.chain.size != count || blocks.starts.size != count + 1
+        || blocks.edges.size != count)
         return MISUSED;
     int64_t *room = scratch.data;
-    Longs shared = {room, parts}, next = {room + parts, parts}, first = {room + 4 * parts, parts + 1};
-    Ints trail = {(int32_t *)(room + 2 * parts), parts};
-    Bytes visited = {(uint8_t *)(room + 3 * parts), parts};
-    if (!link_parts(offsets, neighbors, order, bounds, labels, shared, first, links, shares) ||
-        !chain_parts((ConstLongs){first.data, first.size}, (ConstInts){links.data, links.size},
-                     (ConstLongs){shares.data, shares.size}, shared, next, trail, visited, chain))
+    Longs shared = {room, count}, next = {room + count, count}, first = {room + 4 * count, count + 1};
+    Ints trail = {(int32_t *)(room + 2 * count), count};
+    Bytes visited = {(uint8_t *)(room + 3 * count), count};
+    if (!link_parts(offsets, neighbors, parts, shared, first, links)
+        || !chain_parts((ConstLongs){first.data, first.size}, (ConstInts){links.ends.data, links.ends.size},
+            (ConstLongs){links.edges.data, links.edges.size}, shared, next, trail, visited, blocks.chain))
         return MISUSED;
-    int64_t count =
-        grow_blocks(offsets, neighbors, order, bounds, (ConstInts){chain.data, parts}, size, seen, starts, members);
-    for (int64_t p = 0; p < parts; p++) {
-        edges.data[p] = 0;
-        for (int64_t i = starts.data[p]; i < starts.data[p + 1]; i++)
-            edges.data[p] += offsets.data[members.data[i] + 1] - offsets.data[members.data[i]];
+    int64_t found = grow_blocks(offsets, neighbors, parts, size, seen, blocks);
+    for (int64_t p = 0; p < count; p++) {
+        blocks.edges.data[p] = 0;
+        for (int64_t i = blocks.starts.data[p]; i < blocks.starts.data[p + 1]; i++) {
+            int32_t v = blocks.members.data[i];
+            blocks.edges.data[p] += offsets.data[v + 1] - offsets.data[v];
+        }
     }
-    return count;
+    return found;
 }
 
 /* Weighted sums over the copies of each vertex (paper, Algorithm 3; specification, M 12). */

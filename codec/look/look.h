@@ -19,13 +19,6 @@ typedef struct {
     Ints drawn;
 } Canvas;
 
-/* Whether all numbers are from 0 to below `limit`; without a branch, so that many are looked at at once. */
-INLINE bool all_below(const int32_t *numbers, int64_t count, int64_t limit) {
-    int32_t outside = 0, last = (int32_t)least(limit - 1, INT32_MAX);
-    for (int64_t i = 0; i < count; i++) outside |= numbers[i] | (numbers[i] > last ? -1 : 0);
-    return outside >= 0;
-}
-
 int64_t averaged(ConstSingles2 samples, Singles2 small);
 int64_t contrast(ConstSingles2 first, ConstSingles2 second, ConstSingles half, double steady, Singles2 scratch,
     Doubles sums);

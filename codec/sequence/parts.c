@@ -174,8 +174,9 @@ bool lend_dictionary(Parts *parts, int64_t index, Arena *scratch, Singles2 *dict
     double before = context->spent.spent;
     part->before = mark_of(&parts->dictionaries);
     context->prepaid = part->work >= 0; /* by who has reserved */
-    bool made = key_dictionary(context, parts->header, &part->patch, const_doubles(part->springs), NULL, part->width,
-        stays ? &parts->dictionaries : scratch, scratch, dictionary);
+    bool made = take_singles2(stays ? &parts->dictionaries : scratch, part->patch.size, part->width, dictionary)
+        && key_dictionary(context, parts->header, &part->patch, const_doubles(part->springs), NULL, scratch,
+            *dictionary);
     if (part->work < 0 && made) part->work = context->spent.spent - before;
     context->prepaid = false;
     if (stays) release_to(scratch, mark);

@@ -132,11 +132,12 @@ static bool suspend_block(Chains *chains, Arena *scratch, Suspended *block) {
 bool make_dictionary(Chains *chains, const Suspended *block, int64_t width, Arena *scratch, Singles2 *dictionary) {
     Arena *arena = &chains->subspaces[!chains->present];
     const Patch *patch = &block->patch;
+    if (!take_singles2(arena, patch->size, width, dictionary)) return false;
     if (chains->subspace.rows == patch->size)
-        return following_dictionary(chains->context, chains->header, patch, &block->factor, chains->subspace, width,
-            arena, scratch, dictionary);
-    return key_dictionary(chains->context, chains->header, patch, const_doubles(block->springs), &block->factor, width,
-        arena, scratch, dictionary);
+        return following_dictionary(
+            chains->context, chains->header, patch, &block->factor, chains->subspace, scratch, *dictionary);
+    return key_dictionary(chains->context, chains->header, patch, const_doubles(block->springs), &block->factor,
+        scratch, *dictionary);
 }
 
 void commit_block(Chains *chains, Singles2 dictionary, const DecodedBlock *decoded) {

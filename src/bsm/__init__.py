@@ -44,10 +44,41 @@ if _built != __version__:
         "`pip install .` (or `pip install -e .`) in the folder of pyproject.toml"
     )
 
-# The module of each public name, which is loaded when the name is first asked for.
-with open(__path__[0] + "__init__.pyi", encoding="utf-8") as _stub:
-    _imports = [line.split() for line in _stub if line.startswith("from ")]
-_HOMES = {name: module for _, module, _, name, *_ in _imports}
+# The public names of each module, which is loaded when one of them is first asked for. The build makes a stub of them
+# for type checkers (tools/keywords.py).
+_NAMES = {
+    "bsm.account.comparison": "MeshComparison",
+    "bsm.api": (
+        "compare decode decode_frames decode_sequence denoise encode encode_frames encode_many "
+        "encode_sequence load look save"
+    ),
+    "bsm.bitstream.errors": (
+        "ArgumentError BsmError BsmWarning CorruptError DependencyError FormatError HarmError LimitError "
+        "MeshError NumericError OptionError TargetError TruncatedError UnsupportedError VerificationError"
+    ),
+    "bsm.bitstream.limits": "Limits",
+    "bsm.codec.decoding": "Decoder SequenceDecoder",
+    "bsm.codec.denoise": "DenoiseOptions",
+    "bsm.codec.events": (
+        "END_OF_STREAM NEED_DATA AttributeEvent BlockEvent ConnectivityEvent EndEvent FrameEvent HeaderEvent "
+        "LossEvent RefinementEvent Signal"
+    ),
+    "bsm.codec.geometry.attributes": "Attribute",
+    "bsm.codec.geometry.mesh": "TriangleMesh",
+    "bsm.codec.geometry.metrics": "Comparison",
+    "bsm.codec.look.measure": "Look",
+    "bsm.codec.sequence.encoder": "SequenceEncoder",
+    "bsm.codec.sequence.options": "SequenceOptions",
+    "bsm.codec.sequence.targets": "SequenceTarget",
+    "bsm.codec.static.encoder": "Encoder",
+    "bsm.codec.static.options": "PRESETS EncodeOptions Paper",
+    "bsm.codec.static.targets": "Contract Target",
+    "bsm.files.formats.polygons": "MeshFile",
+    "bsm.files.mesh": "read_mesh",
+    "bsm.tiles.shards": "Tiles open_tiles",
+    "bsm.viewer.notebook": "show",
+}
+_HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
 
 __all__ = ["__version__", *_HOMES]
 

@@ -7,10 +7,9 @@ import pytest
 
 import bsm
 from bsm.bitstream.container.packets import Connectivity, Header
-from tests.streams import events_of, frame_ends
+from tests.streams import events_of, frame_ends, write_stream
 from tools.attack.library import compare
 from tools.bsmdec import decode, of_sequence, released
-from tools.surgery import write_stream
 from tools.vectors.store import Vector, read_manifest
 
 STATUS = {"format": 3, "corrupt": 4, "unsupported": 5, "limit": 6, "numeric": 7, "truncated": 12}

@@ -432,11 +432,6 @@ def one_block(rows: int, columns: int, width: int, **fields: Any) -> bytes:
     return _blocky(("torus", rows, columns), columns=width, blocks=1, block_size=rows * columns, **fields)
 
 
-def entangled(vertices: int, faces: int) -> bytes:
-    """Return one block and column of faces between any vertices."""
-    return _blocky(("soup", vertices, faces), blocks=1, block_size=vertices)
-
-
 def ring(rows: int, columns: int) -> tuple[str, int, int]:
     """The shape of a torus."""
     return "torus", rows, columns

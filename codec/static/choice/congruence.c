@@ -298,19 +298,19 @@ static int64_t choose_pool(Motion *votes) {
 
 /* Motions of positions (n x 3, in steps of a grid, from the middle of their box) with their faces (m x 3) and valences
  * (n): rows of a turn (9), a shift (3) and the share of vertices that they take to others in `found`, in the order of
- * what each explains that those before do not, each at least `worth` vertices. `heads` has room for a power of two;
- * `links`: n + m; others are 0. Returns how many. */
-KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts degrees, double worth, Ints heads,
-                            Ints links, Bytes covered, Doubles room, Doubles2 found) {
+ * what each explains that those before do not, each at least `worth` vertices. Returns how many. */
+KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts degrees, double worth,
+    MotionScratch scratch, Doubles2 found) {
     int64_t n = positions.rows, m = faces.rows, count = 0, moving = 0;
-    Motion *pool = (Motion *)room.data;
+    Ints heads = scratch.heads, links = scratch.links;
+    Bytes covered = scratch.covered;
+    Motion *pool = (Motion *)scratch.pool.data;
     if (n < 1 || positions.columns != 3 || faces.columns != 3 || degrees.size != n || heads.size < 2
         || (heads.size & (heads.size - 1)) != 0 || links.size < n + m || covered.size < FITTED * COUNTED
-        || room.size * (int64_t)sizeof(double) < (int64_t)(VOTES * sizeof(Motion) + (1 << NEAR_BITS))
+        || scratch.pool.size * (int64_t)sizeof(double) < (int64_t)(VOTES * sizeof(Motion) + (1 << NEAR_BITS))
         || found.columns != 13)
         return MISUSED;
-    for (int64_t k = 0; k < 3 * m; k++)
-        if (faces.data[k] < 0 || faces.data[k] >= n) return MISUSED;
+    if (!all_below(faces.data, 3 * m, n)) return MISUSED;
     for (int64_t k = 0; k < 3 * n; k++)
         if (!(__builtin_fabs(positions.data[k]) < 0x1p30)) return MISUSED;
     Space s = {positions, heads.data, links.data, (uint32_t)heads.size - 1, (uint8_t *)(pool + VOTES),

@@ -70,7 +70,7 @@ def motions_between(positions: Matrix, faces: Faces) -> Matrix:
     links, covered, room = np.empty(count + len(faces), np.int32), np.zeros(48 << 14, np.uint8), np.zeros(1 << 18)
     middle = (positions.min(axis=0) + positions.max(axis=0)) / 2.0
     centered = np.ascontiguousarray(positions - middle)
-    kept = _kernels.find_motions(centered, faces, degrees, WORTH, heads, links, covered, room, found)
+    kept = _kernels.find_motions(centered, faces, degrees, WORTH, (heads, links, covered, room), found)
     found[:kept, 9:12] += middle - found[:kept, :9].reshape(-1, 3, 3) @ middle
     return found[:kept]
 

@@ -13,27 +13,15 @@ INLINE bool has(const int32_t *face, int32_t vertex) {
     return false;
 }
 
-static bool fits_faces(ConstInts2 faces, int64_t vertices) {
-    if (faces.columns != SIDES) return false;
-    for (int64_t i = 0; i < SIDES * faces.rows; i++)
-        if (faces.data[i] < 0 || faces.data[i] >= vertices) return false;
-    return true;
+static bool fits_columns(ConstInts2 rows, int64_t columns, int64_t limit) {
+    return rows.columns == columns && all_below(rows.data, columns * rows.rows, limit);
 }
 
 bool fits_rows(ConstInts starts, ConstInts members, int64_t rows, int64_t count) {
     if (starts.size != rows + 1 || starts.data[0] != 0 || starts.data[rows] > members.size) return false;
     for (int64_t i = 0; i < rows; i++)
         if (starts.data[i] > starts.data[i + 1]) return false;
-    for (int64_t i = 0; i < members.size; i++)
-        if (members.data[i] < 0 || members.data[i] >= count) return false;
-    return true;
-}
-
-static bool fits_pairs(ConstInts2 pairs, int64_t faces) {
-    if (pairs.columns != 2) return false;
-    for (int64_t i = 0; i < 2 * pairs.rows; i++)
-        if (pairs.data[i] < 0 || pairs.data[i] >= faces) return false;
-    return true;
+    return all_below(members.data, members.size, count);
 }
 
 /* How many pairs of faces around a vertex have a bend near that of a crease; `pairs` (k x 2) gets the first k of them,
@@ -41,17 +29,17 @@ static bool fits_pairs(ConstInts2 pairs, int64_t faces) {
  * both faces at each vertex that they share. Of more than `most` faces around a vertex each is shaded by itself.
  * `crosses` is room for four numbers a face. */
 KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, Lists around, int64_t most, Bends bends,
-    Doubles2 crosses, Ints2 pairs, Bytes sharp, Doubles costs) {
+    Doubles2 crosses, NearCreases near) {
     const int64_t *starts = around.starts.data;
     const int32_t *members = around.members.data;
     int64_t n = positions.rows, found = 0;
-    if (positions.columns != 3 || !fits_faces(faces, n) || around.starts.size != n + 1 || crosses.rows != faces.rows ||
-        crosses.columns != 4 || pairs.columns != 2 || sharp.size != pairs.rows || costs.size != pairs.rows)
+    if (positions.columns != 3 || !fits_columns(faces, SIDES, n) || around.starts.size != n + 1 ||
+        crosses.rows != faces.rows || crosses.columns != 4 || near.pairs.columns != 2 ||
+        near.sharp.size != near.pairs.rows || near.costs.size != near.pairs.rows)
         return MISUSED;
     for (int64_t v = 0; v < n; v++)
         if (starts[v] < 0 || starts[v] > starts[v + 1] || starts[v + 1] > around.members.size) return MISUSED;
-    for (int64_t i = 0; i < around.members.size; i++)
-        if (members[i] < 0 || members[i] >= faces.rows) return MISUSED;
+    if (!all_below(members, around.members.size, faces.rows)) return MISUSED;
     for (int64_t f = 0; f < faces.rows; f++) {
         double *cross = crosses.data + 4 * f;
         cross_of_face(positions.data, faces.data + SIDES * f, cross);
@@ -72,10 +60,10 @@ KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, Lists 
                 for (int k = 0; k < SIDES; k++)
                     if (has(other, face[k])) shared++, first &= face[k] >= v;
                 if (!first) continue;
-                if (found < pairs.rows) {
-                    pairs.data[2 * found] = members[i], pairs.data[2 * found + 1] = members[j];
-                    sharp.data[found] = !(bend > bends.crease * unit);
-                    costs.data[found] = shared * (f[3] + g[3]) / SIDES;
+                if (found < near.pairs.rows) {
+                    near.pairs.data[2 * found] = members[i], near.pairs.data[2 * found + 1] = members[j];
+                    near.sharp.data[found] = !(bend > bends.crease * unit);
+                    near.costs.data[found] = shared * (f[3] + g[3]) / SIDES;
                 }
                 found++;
             }
@@ -84,8 +72,9 @@ KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, Lists 
 }
 
 bool fits_creases(const Creases *c, int64_t vertices) {
-    return fits_faces(c->faces, vertices) && fits_pairs(c->pairs, c->faces.rows) && c->sharp.size == c->pairs.rows &&
-           c->costs.size == c->pairs.rows && fits_rows(c->starts, c->members, vertices, c->pairs.rows);
+    return fits_columns(c->faces, SIDES, vertices) && fits_columns(c->pairs, 2, c->faces.rows) &&
+           c->sharp.size == c->pairs.rows && c->costs.size == c->pairs.rows &&
+           fits_rows(c->starts, c->members, vertices, c->pairs.rows);
 }
 
 /* What it costs that pairs are wrong whose bend hangs on a vertex. */

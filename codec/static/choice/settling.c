@@ -59,17 +59,16 @@ INLINE void place(const double *frame, const double *origin, const double *error
 }
 
 /* One sweep over levels (n x 3), but for those of the first `fixed` axes: for each the least of its loss and its rate.
- * `offsets` (n x 3) is what is wanted, along axes of which a level moves a vertex by `steps` (n x 3). An error costs
- * `losses` (n x 2) times the square of its length, and times that of its share along `normals` (n x 3, in the same
- * axes). Rates have a row for each axis and class of what is around (mean size of the neighbors' levels), and depend on
- * the distance from `pull` times the neighbors' mean. `creases` that are wrong add their costs: `moved` (n x 3) is room
- * for where vertices come to lie, whose places are `places` (n x 3), in the axes `frames` (n x 9). No vertex ends up
- * farther from its place than its `reach`, unless it was. Counts, in the shape of rates, are of the levels that were
- * taken. Returns how often one moved. */
-KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, ConstDoubles2 losses, ConstDoubles2 steps,
-                             ConstDoubles reach, ConstInts starts, ConstInts members, ConstDoubles2 rates, double pull,
-                             int64_t fixed, Creases creases, ConstDoubles2 places, ConstDoubles2 frames, Doubles2 moved,
-                             Ints2 levels, Doubles2 counts) {
+ * A level moves a vertex by `steps` (n x 3) along its axes. Rates have a row for each axis and class of the mean size
+ * of the neighbors' levels; the counts of the levels taken have the same shape. Wrong `creases` add their costs:
+ * `moved` (n x 3) is room for where vertices come to lie. No vertex ends up farther from its place than its reach,
+ * unless it was. Returns how often one moved. */
+KERNEL int64_t settle_levels(Settled wanted, ConstDoubles2 steps, ConstInts starts, ConstInts members, Rates coding,
+    int64_t fixed, Creases creases, Doubles2 moved, Ints2 levels) {
+    ConstDoubles2 offsets = wanted.offsets, normals = wanted.normals, losses = wanted.losses, places = wanted.places,
+        frames = wanted.frames, rates = coding.rates;
+    ConstDoubles reach = wanted.reach;
+    Doubles2 counts = coding.counts;
     int64_t n = offsets.rows, moves = 0;
     if (offsets.columns != 3 || normals.rows != n || normals.columns != 3 || losses.rows != n || losses.columns != 2 ||
         steps.rows != n || steps.columns != 3 || levels.rows != n || levels.columns != 3 || fixed < 0 ||
@@ -106,7 +105,7 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
                 sum += other;
                 sizes += __builtin_fabs(other);
             }
-            int32_t center = nearest(pull * sum * share);
+            int32_t center = nearest(coding.pull * sum * share);
             int64_t row = (a * AROUND + class_of(sizes * share)) * SIZES;
             const double *rate = rates.data + row;
             int32_t ideal = nearest((offset + best_error(&x, a)) / step);

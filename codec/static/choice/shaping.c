@@ -106,21 +106,24 @@ static void open_around(const Wanted *wanted, int32_t v, Bytes open) {
         open.data[wanted->beside.data[i]] = 1;
 }
 
-static bool fits(const Wanted *wanted, Doubles2 moved, Ints2 levels, Bytes open) {
+static bool fits(const Wanted *wanted, const Shaped *shaped) {
     int64_t n = wanted->positions.rows;
     return wanted->positions.columns == 3 && wanted->faces.columns == 3 && wanted->normals.columns == 3 &&
            wanted->normals.rows == wanted->faces.rows && wanted->weights.size == wanted->faces.rows &&
-           wanted->around_starts.size == n + 1 && wanted->beside_starts.size == n + 1 && moved.rows == n &&
-           moved.columns == 3 && levels.rows == n && open.size == n;
+           wanted->around_starts.size == n + 1 && wanted->beside_starts.size == n + 1 &&
+           shaped->moved.rows == n && shaped->moved.columns == 3 && shaped->levels.rows == n && shaped->open.size == n;
 }
 
 /* Levels (n x axes) along `directions` (n x 3 axes, a level long); `moved` is where they bring the vertices, and kept
  * in step. A level costs its distance from `pull` times the mean of all neighbors', over the scale of its axis.
  * Returns how often a vertex moved. */
-KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
-                            ConstDoubles scales, double pull, Bytes open) {
+KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Shaped shaped, ConstDoubles2 directions, ConstDoubles scales,
+    double pull) {
+    Doubles2 moved = shaped.moved;
+    Ints2 levels = shaped.levels;
+    Bytes open = shaped.open;
     int64_t axes = levels.columns, moves = 0;
-    if (!fits(&wanted, moved, levels, open) || axes < 1 || axes > 3 || scales.size != axes ||
+    if (!fits(&wanted, &shaped) || axes < 1 || axes > 3 || scales.size != axes ||
         directions.rows != levels.rows || directions.columns != 3 * axes)
         return MISUSED;
     ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
@@ -168,13 +171,16 @@ KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels
     return moves;
 }
 
-/* Places on a grid (n x 3), `moved` their positions, kept in step. `flaps`: rows of four vertices, and `bends` the sum
- * of the first two places less that of the others; a vertex is in the flaps `members` / 2, on the second side where
- * odd. What a bend costs: `rates`. Returns how often a vertex moved. */
-KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double step, ConstInts2 flaps,
-                          ConstInts starts, ConstInts members, Ints2 bends, ConstDoubles rates, Bytes open) {
-    if (!fits(&wanted, moved, places, open) || places.columns != 3 || flaps.columns != 4 || bends.columns != 3 ||
-        bends.rows != flaps.rows || starts.size != places.rows + 1 || rates.size < 1)
+/* Places on a grid (n x 3). `bends`: of each edge the sum of the places of its ends less that of the opposite corners;
+ * `rates` is the cost of a bend. Returns how often a vertex moved. */
+KERNEL int64_t shape_grid(
+    Wanted wanted, Aim aim, Shaped shaped, double step, Flaps edges, Ints2 bends, ConstDoubles rates) {
+    Doubles2 moved = shaped.moved;
+    Ints2 places = shaped.levels;
+    Bytes open = shaped.open;
+    ConstInts starts = edges.starts, members = edges.members;
+    if (!fits(&wanted, &shaped) || places.columns != 3 || edges.rows.columns != 4 || bends.columns != 3 ||
+        bends.rows != edges.rows.rows || starts.size != places.rows + 1 || rates.size < 1)
         return MISUSED;
     ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
     double reach = aim.reach * aim.reach;
@@ -205,8 +211,8 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
                     at[a] = stay + by * step;
                     double away = apart(place, at), cost = aim.worth * rate[by + 1];
                     if ((away > reach && away > far) || cost >= best) continue;
-                    double turned = bent_by(&fan, a, (float)by);
-                    if (cost + turned < best) best = cost + turned, then = turned, pick = by;
+                    double bent = bent_by(&fan, a, (float)by);
+                    if (cost + bent < best) best = cost + bent, then = bent, pick = by;
                 }
                 at[a] = stay + pick * step;
                 if (!pick) continue;
@@ -263,19 +269,13 @@ int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps, Bytes folded) {
     return count;
 }
 
-/* Edges between faces, as rows of four vertices, `members` / 2 at each vertex, and which were folded: `wrong`. */
-typedef struct {
-    ConstInts2 flaps;
-    ConstInts starts, members;
-    ConstBytes wrong;
-} Edges;
-
-/* How many edges beside a vertex that lies `there` are folded, and were not. */
-INLINE int wrong_around(const Edges *edges, const double *positions, int32_t v, const double *there) {
+/* How many edges around a vertex that lies `there` are folded, and were not. */
+INLINE int wrong_around(
+    const Flaps *edges, const uint8_t *wrong, const double *positions, int32_t v, const double *there) {
     int count = 0;
     for (int32_t i = edges->starts.data[v]; i < edges->starts.data[v + 1]; i++) {
         int64_t f = edges->members.data[i] >> 1;
-        count += !edges->wrong.data[f] && is_folded(positions, edges->flaps.data + 4 * f, v, there);
+        count += !wrong[f] && is_folded(positions, edges->rows.data + 4 * f, v, there);
     }
     return count;
 }
@@ -283,16 +283,18 @@ INLINE int wrong_around(const Edges *edges, const double *positions, int32_t v, 
 /* Moves levels (n x 3) by up to two along `directions` (n x 9, or one row for all; a level long) where that turns faces
  * back, however small they are, which rounding has turned over, or folded onto another at more than `most` edges more
  * than there were. `moved` is kept in step. No vertex ends up farther from its place than its `reach`, unless it was.
- * `flaps` as in `shape_grid`; `wrong` is scratch. Returns how often one moved. */
-KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
-                             ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most, Bytes wrong,
-                             Bytes open) {
-    if (!fits(&wanted, moved, levels, open) || levels.columns != 3 || directions.columns != 9
+ * `wrong`, an entry for each edge, is scratch. Returns how often one moved. */
+KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Shaped shaped, ConstDoubles2 directions, Flaps edges,
+    int64_t most, Bytes wrong) {
+    Doubles2 moved = shaped.moved;
+    Ints2 levels = shaped.levels;
+    Bytes open = shaped.open;
+    ConstInts2 flaps = edges.rows;
+    if (!fits(&wanted, &shaped) || levels.columns != 3 || directions.columns != 9
         || reach.size != levels.rows || (directions.rows != levels.rows && directions.rows != 1) || flaps.columns != 4
-        || starts.size != levels.rows + 1 || wrong.size != flaps.rows)
+        || edges.starts.size != levels.rows + 1 || wrong.size != flaps.rows)
         return MISUSED;
     ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
-    Edges edges = {flaps, starts, members, {wrong.data, wrong.size}};
     double over = FOLD / (double)largest(wanted.faces.rows, 1);
     int64_t more = 0, moves = 0;
     Fan fan;
@@ -321,7 +323,7 @@ KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, 
             open.data[v] = 0;
             double *at = moved.data + 3 * (int64_t)v;
             gather(&wanted, now_at, v, &fan);
-            int folds = wrong_around(&edges, moved.data, v, at);
+            int folds = wrong_around(&edges, wrong.data, moved.data, v, at);
             bool any = folds > 0;
             for (int k = 0; k < fan.count; k++) any |= is_over(fan.normal[0][k], fan.normal[1][k], fan.normal[2][k]);
             if (!any) continue;
@@ -342,7 +344,7 @@ KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, 
                     if (wide && away > most_far && away > far) continue;
                     double then = folded_by(&fan, by, over);
                     if (then >= best) continue;
-                    int wrong_then = wrong_around(&edges, moved.data, v, there);
+                    int wrong_then = wrong_around(&edges, wrong.data, moved.data, v, there);
                     then += over * wrong_then;
                     if (then >= best) continue;
                     best = then, folds = wrong_then;

@@ -48,20 +48,17 @@ class Shaper:
         moved = np.ascontiguousarray(base + np.einsum("na,naj->nj", chosen.astype(np.float64), directions))
         flat = np.ascontiguousarray(directions.reshape(len(base), -1))
         aim = worth / len(base), reach, 6
-        _kernels.shape_levels(self._wanted, aim, moved, chosen, flat, scales, PULL, self._open)
+        _kernels.shape_levels(self._wanted, aim, (moved, chosen, self._open), flat, scales, PULL)
         return chosen
 
     def places(self, wanted: Levels, origin: Matrix, step: float, worth: float, reach: float) -> Levels:
         """Places on a grid."""
         chosen = np.array(wanted, np.int32, order="C")
-        flaps, starts, members = self._flaps
+        flaps = self._flaps[0]
         bends = chosen[flaps[:, 0]] + chosen[flaps[:, 1]] - chosen[flaps[:, 2]] - chosen[flaps[:, 3]]
         moved = np.ascontiguousarray(chosen * step + origin)
         aim = worth / (3 * len(chosen)), reach, 6
-        _kernels.shape_grid(
-            self._wanted, aim, moved, chosen, step, flaps, starts, members, bends, RATES,
-            self._open,
-        )  # fmt: skip
+        _kernels.shape_grid(self._wanted, aim, (moved, chosen, self._open), step, self._flaps, bends, RATES)
         return chosen
 
     def unfold(self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix) -> Levels | None:
@@ -69,9 +66,9 @@ class Shaper:
         if self.folded(positions) > FOLDED * len(self._original.faces):
             return None
         chosen, most = np.array(levels, np.int32, order="C"), -(-len(self._original.faces) // 10_000)
-        given = np.array(positions), chosen, np.ascontiguousarray(directions), *self._flaps, most
+        given = (np.array(positions), chosen, self._open), np.ascontiguousarray(directions), self._flaps, most
         wrong = np.empty(len(self._flaps[0]), np.uint8)
-        return chosen if _kernels.unfold_levels(self._wanted, reach, *given, wrong, self._open) else None
+        return chosen if _kernels.unfold_levels(self._wanted, reach, *given, wrong) else None
 
     def over(self, positions: Positions) -> Indices:
         """The vertices of edges that are folded over and were not; none if few edges are folded, or most."""

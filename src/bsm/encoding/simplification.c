@@ -255,9 +255,7 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Wo
         room.buckets.size != BUCKETS || positions.columns != 3 || faces.columns != 3 || wedges.rows != count ||
         wedges.columns != 3)
         return MISUSED;
-    for (int64_t k = 0; k < 3 * count; k++)
-        if (faces.data[k] < 0 || faces.data[k] >= size || wedges.data[k] < 0 || wedges.data[k] >= joins.size)
-            return MISUSED;
+    if (!all_below(faces.data, 3 * count, size) || !all_below(wedges.data, 3 * count, joins.size)) return MISUSED;
     WorkingMesh surface = {positions.data, faces.data, states.data, quadrics.data, starts.data, around.data,
                            wedges.data,    ends.data,  marks.data,  joins.data,    0,           along,       uneven};
     for (int64_t v = 0; v < size; v++) {

@@ -126,6 +126,22 @@ def test_skins_of_vtk_look_outwards_with_the_values_of_their_cells(kind, curved,
     assert (mesh.attributes[0].values[:, 0] == np.where(moved, 8, 3)).all()
 
 
+@pytest.mark.parametrize("suffix", ["vtu", "vtk"])
+@pytest.mark.parametrize("curved", [False, True])
+def test_surface_cells_on_the_sides_of_volumes_are_there_once(suffix, curved, tmp_path):
+    pairs = [(0, 1), (1, 3), (3, 0), (0, 6), (1, 6), (3, 6)] if curved else []
+    points = [*POINTS, *(POINTS[[a, b]].mean(axis=0) for a, b in pairs)]
+    solid = [0, 1, 3, 6, *range(12, 12 + len(pairs))]
+    shells = [[0, 3, 1, 14, 13, 12], [0, 1, 6, 12, 16, 15]] if curved else [[0, 3, 1], [0, 1, 6]]
+    cells = [(24 if curved else 10, solid), *((22 if curved else 5, shell) for shell in shells)]
+    save_grid(tmp_path / f"a.{suffix}", points, cells, {}, {"n": np.array([9, 1, 2])})
+    mesh = bsm.read_mesh(tmp_path / f"a.{suffix}").mesh
+    assert volume_of(mesh) == pytest.approx(1 / 6) and len(mesh.faces) == (16 if curved else 4)
+    assert np.bincount(mesh.attributes[0].values[:, 0].astype(int), minlength=10)[[1, 2, 9]].tolist() == (
+        [4, 4, 8] if curved else [1, 1, 2]
+    )
+
+
 def test_cells_of_another_piece_close_the_skin_and_go(tmp_path):
     save_grid(tmp_path / "a.vtu", POINTS, HEXAHEDRA, {}, {"vtkGhostType": np.array([0, 1], np.uint8)})
     mesh = bsm.read_mesh(tmp_path / "a.vtu").mesh

@@ -23,6 +23,7 @@ from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from bsm.bitstream.errors import FormatError, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Domain, Semantic
+from bsm.codec.geometry.welding import row_numbers
 from bsm.files.formats.cells import INSIDE, columns_of
 from bsm.files.formats.metadata import plain_fields
 from bsm.files.formats.polygons import Column, Part, Polygons, joined_parts, polygon_normals, turned_corners
@@ -131,22 +132,40 @@ def _part(data: Any, name: str, left: dict[str, None]) -> Part | None:
         surface, before = _through(vtkTriangleFilter(), surface), 0
     if not surface.GetNumberOfPolys():
         return None
+    return Part(*_polygons(data, surface, before, left), name)
+
+
+def _polygons(
+    data: Any, surface: Any, before: int, left: dict[str, None]
+) -> tuple[Doubles, Ints, Ints, list[Column], Ints]:
+    """The positions, sizes, corners, columns and materials of a surface, whose cells follow so many points and lines.
+
+    A surface that is meshed along with its volume is the skin there: the sides of the volume go.
+    """
     positions = np.array(vtk_to_numpy(surface.GetPoints().GetData()), np.float64)
     corners = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).astype(np.int64)
     sizes = np.diff(vtk_to_numpy(surface.GetPolys().GetOffsetsArray()).astype(np.int64))
-    columns: list[Column] = []
-    domains: tuple[tuple[Any, Domain, int], ...] = (
-        (surface.GetPointData(), "vertex", 0), (surface.GetCellData(), "face", before),
-    )  # fmt: skip
-    for given, domain, first in domains:
-        shown: tuple[tuple[Any, Semantic], ...] = ((given.GetTCoords(), "texcoord"), (given.GetNormals(), "normal"))
-        active = {array.GetName(): meaning for array, meaning in shown if array is not None}
-        columns += columns_of({name: v[first:] for name, v in _arrays(given, left)}, domain, left, active)
+    kept: Any = slice(None)
     if not data.IsA("vtkPolyData"):
         cells = vtk_to_numpy(surface.GetCellData().GetArray(_CELL))[before:]
-        inward = _inward(data, cells, positions, sizes, corners, left)
-        corners = corners[turned_corners(sizes, inward)]
-    return Part(positions, sizes, corners, columns, np.zeros(len(sizes), np.int64), name)
+        solid = _of_volumes(data, cells)
+        rows = np.full((len(sizes), sizes.max()), -1)
+        rows[np.arange(rows.shape[1]) < sizes[:, None]] = corners
+        numbers = row_numbers(np.sort(rows, axis=1))
+        kept = ~(solid & np.isin(numbers, numbers[~solid]))
+        corners, sizes, cells, solid = corners[np.repeat(kept, sizes)], sizes[kept], cells[kept], solid[kept]
+        left |= {INSIDE: None} if solid.any() else {}
+        corners = corners[turned_corners(sizes, solid & _inward(data, cells, positions, sizes, corners))]
+    columns: list[Column] = []
+    domains: tuple[tuple[Any, Domain, slice, Any], ...] = (
+        (surface.GetPointData(), "vertex", slice(None), slice(None)),
+        (surface.GetCellData(), "face", slice(before, None), kept),
+    )
+    for given, domain, those, rows in domains:
+        shown: tuple[tuple[Any, Semantic], ...] = ((given.GetTCoords(), "texcoord"), (given.GetNormals(), "normal"))
+        active = {array.GetName(): meaning for array, meaning in shown if array is not None}
+        columns += columns_of({name: v[those][rows] for name, v in _arrays(given, left)}, domain, left, active)
+    return positions, sizes, corners, columns, np.zeros(len(sizes), np.int64)
 
 
 def _through(step: Any, data: Any) -> Any:
@@ -158,17 +177,20 @@ def _through(step: Any, data: Any) -> Any:
     return step.GetOutput()
 
 
-def _inward(data: Any, cells: Ints, positions: Doubles, sizes: Ints, corners: Ints, left: dict[str, None]) -> Any:
-    """Which polygons of the skin of volumes look inwards: writers order the corners of wedges in either way."""
+def _of_volumes(data: Any, cells: Ints) -> Any:
+    """Return which polygons are sides of volumes."""
     kinds = np.array([data.GetCellType(cell) for cell in np.unique(cells).tolist()])
     dims = {kind: vtkGenericCell.InstantiateCell(kind).GetCellDimension() for kind in np.unique(kinds).tolist()}
-    solid = np.array([dims[kind] == 3 for kind in kinds.tolist()])[np.searchsorted(np.unique(cells), cells)]
-    left |= {INSIDE: None} if solid.any() else {}
+    return np.array([dims[kind] == 3 for kind in kinds.tolist()])[np.searchsorted(np.unique(cells), cells)]
+
+
+def _inward(data: Any, cells: Ints, positions: Doubles, sizes: Ints, corners: Ints) -> Any:
+    """Return which polygons look into their cells: writers order the corners of wedges in either way."""
     for given in (data.GetPointData(), data.GetCellData()):
         given.RemoveArray("vtkGhostType")  # cells that are hidden have middles, too
     middles = vtk_to_numpy(_through(vtkCellCenters(), data).GetPoints().GetData())[cells]
     centers = np.add.reduceat(positions[corners], np.cumsum(sizes) - sizes) / sizes[:, None]
-    return solid & ((polygon_normals(positions, sizes, corners) * (centers - middles)).sum(axis=1) < 0)
+    return (polygon_normals(positions, sizes, corners) * (centers - middles)).sum(axis=1) < 0
 
 
 def _arrays(given: Any, left: dict[str, None]) -> Iterator[tuple[str, Any]]:
