@@ -272,9 +272,9 @@ extern INSIDE int16_t LESS[ODDS_SIZE];
 void make_tables(void);
 
 /* Where writers put vertices on a grid; `wanted`, n x 4: where each would be, in cells, and the square of how far from
- * there it may come. See placing.c. */
+ * there it may come. See placing.c. `tried`: n zeros, for scratch. */
 void mend_place(const Corners *corners, Ints2 places, const double *wanted, const int32_t *most, int32_t v);
-void mend_places(const Corners *corners, Ints2 places, const double *wanted, const int32_t *most);
+void mend_places(const Corners *corners, Ints2 places, const double *wanted, const int32_t *most, uint8_t *tried);
 /* Put v into another cell, if it may go there. */
 bool go_to_cell(const Corners *corners, Ints2 places, const double *wanted, int32_t v, const int32_t *cell);
 

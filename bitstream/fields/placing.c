@@ -6,7 +6,7 @@
  * from where it would be than it may. What has no area or is folded in the first place does not count. */
 #include "bitstream/fields/fields.h"
 
-enum { AXES = 3, WANTED = 4, FOLD = 256 /* what a folded edge counts */, SWEEPS = 2 };
+enum { AXES = 3, WANTED = 4, FOLD = 256 /* what a folded edge counts */, SWEEPS = 2, TRIES = 4 };
 static const double FLAT = 1e-20, HEIGHT = 0.36;
 /* Of a face without area, the square of its area over that of its longest side's square; and what `height_of` may be
  * where a vertex goes to an image: in the plane of a surface hardly anything is seen. */
@@ -126,13 +126,18 @@ void mend_place(const Corners *corners, Ints2 places, const double *wanted, cons
     mend_vertex(&s, places.data + AXES * (int64_t)v, most, v);
 }
 
-void mend_places(const Corners *corners, Ints2 places, const double *wanted, const int32_t *most) {
+void mend_places(const Corners *corners, Ints2 places, const double *wanted, const int32_t *most, uint8_t *tried) {
     const int32_t *vertex = corners->faces.data;
     Sides s = {corners, places.data, wanted};
     for (int64_t i = 0; i < SWEEPS * corners->faces.rows; i++) {
         int32_t k = 3 * (int32_t)(i % corners->faces.rows);
-        for (int end = 0; end < 3 && (end > 0 || faults_of(&s, k) > 0); end++)
-            mend_vertex(&s, places.data + AXES * (int64_t)vertex[k + end], most, vertex[k + end]);
+        for (int end = 0; end < 3 && (end > 0 || faults_of(&s, k) > 0); end++) {
+            int32_t v = vertex[k + end];
+            /* A vertex of many faces would be tried again for each of them, all of which it looks at. */
+            if (tried[v] == TRIES) continue;
+            tried[v]++;
+            mend_vertex(&s, places.data + AXES * (int64_t)v, most, v);
+        }
     }
 }
 

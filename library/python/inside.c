@@ -199,7 +199,12 @@ bool encode_mended(Encoding *encoding, Ints2 places, const int32_t *largest, con
     if (field->kind != ON_GRID || places.rows != field->header.vertices
         || !are_below(places.data, 3 * places.rows, 0, INT32_MAX))
         return FAIL(&encoding->writer.context, MISUSED, "these places are not of this mesh");
-    mend_places(&field->grid.corners, places, wanted, largest);
+    Arena *scratch = &encoding->writer.scratch;
+    Mark mark = mark_of(scratch);
+    uint8_t *tried;
+    if (!TAKE_ZEROS(scratch, places.rows, tried)) return false;
+    mend_places(&field->grid.corners, places, wanted, largest, tried);
+    release_to(scratch, mark);
     return true;
 }
 
