@@ -191,7 +191,7 @@ class RunEncoder:
             lengths = tuple(body.frames for body in found.bodies)  # as the first attempt was cut, so are the others
             return found
 
-        search = StepSearch(group.positions, self._prepared.mesh.faces, promise, units.scale, options.threads)
+        search = StepSearch(group.positions, self._prepared.mesh.faces, promise, units, options.threads)
         bound = 0.01 if promise.absolute else promise.farthest
         # About what the bound leads to, for most motions. From the second GOP on, the one before is the better guess.
         first = step or min(0.45 * bound, 4.5e-3 * min(promise.look, 1e3))

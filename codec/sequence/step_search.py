@@ -4,34 +4,40 @@ Frames and a bound come in; the smallest encoding that keeps it in every frame g
 the others sets the step of all. So an attempt has two results: how far the worst frame is from its bound, which gives
 the next step, and how unlike frames look, which gives weights of frames: the temporal basis then spends more on those
 that look worse. Pictures are the dear part. The first attempt draws a few frames, each one those that are likely the
-worst; errors of normals, which cost little, tell of the others by a random walk in between. How a look follows from an
-error hardly changes from attempt to attempt, so that frames drawn before count as known, nearly. Only the encoding that
-would be returned has all of its own frames drawn that may exceed the bound: it is the promise, so that nothing is taken
-on trust. If one does exceed it, the search goes on from there. The search ends when another attempt would save less
-than its price in bytes, by the power law of bytes over the step; each attempt has to save more than the one before it.
+worst; errors of normals, which cost little, tell of the others: the logarithm of look over error is noise on a random
+walk in time. It hardly changes from attempt to attempt, so that frames drawn before count as known, nearly. Only the
+encoding that would be returned has all of its own frames drawn that may exceed the bound: it is the promise, so that
+nothing is taken on trust. If one does exceed it, the search goes on from there, or takes the next smallest. The search
+ends when another attempt would save less than its price in bytes, by the power law of bytes over the step; each attempt
+has to save more than the one before it.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
 from bsm._core import codec as _kernels
-from bsm.bitstream.errors import MeshError, TargetError
+from bsm.bitstream.errors import MeshError, OptionError, TargetError
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
 from bsm.codec.look.measure import POWER, LookMetric
 from bsm.codec.sequence.frames import same_frames
 from bsm.codec.static.targets import WIDEST as COARSEST_STEP
 from bsm.codec.static.targets import Contract
+from bsm.codec.static.units import Units
 from bsm.codec.threads import ordered_map
 
 KNOTS = 8  # frames, evenly over a GOP, that are drawn at the first attempt
 DRIFT = 0.05  # standard deviation of what the logarithm of look over error changes by from attempt to attempt
+PACE, NOISE, LIKE_SEEN = 0.05, 0.05, 3
+"""Of the logarithm of look over error: the variance by which it walks from frame to frame, over that of its noise; the
+standard deviation of this before frames are drawn, and how many differences of frames that counts as."""
 LIKELY, DEVIATIONS = 1.5, 4.0
 """Standard deviations: frames that may be the worst within the first are drawn at each attempt; an attempt is accepted
 once all frames that may exceed the bound within the second are drawn."""
@@ -47,8 +53,9 @@ EVENING, LEAST_LOOK, WIDEST = 1.6, 0.1, 1.4
 """Power of looks by which the first attempt weighs frames, the k-th by 1 / k of it; the least look that counts,
 relative to the largest; and the largest logarithm of a weight."""
 BELL = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)  # smooths weights, whose quick changes are dear in the temporal basis
-RELIEF = 0.3  # share of the largest change of a weight by which the excess falls, about
-TRIES = 20
+RELIEF = 0.15  # share of the largest change of a weight by which the excess falls, about
+TRIES, HELD = 20, 2  # attempts, and how many of them are held that seem to keep the promise
+LEAST_STEP, FINER = 1e-7, 0.8  # the finest step, and what steps shrink by at least once all attempts have failed
 _PIXEL = 4 * 6 / 16  # bytes of a `LookMetric` for each sample along the side of its pictures, squared
 
 
@@ -69,9 +76,9 @@ Found = TypeVar("Found", bound=Candidate)
 class StepSearch:
     """Searches for the widest step with which the frames of a GOP keep a promise."""
 
-    def __init__(self, frames: Positions, faces: Faces, promise: Contract, scale: float, threads: int | None) -> None:
+    def __init__(self, frames: Positions, faces: Faces, promise: Contract, units: Units, threads: int | None) -> None:
         self._frames, self._faces, self._promise, self._threads = frames, faces, promise, threads
-        self._reach = promise.farthest / scale if promise.absolute else promise.farthest
+        self._units, self._reach = units, promise.reach(1.0, units.scale if promise.absolute else 1.0)
         self._metrics: dict[int, LookMetric] = {}
         self._room = KEPT
         self._knots: set[int] = set()
@@ -85,36 +92,59 @@ class StepSearch:
     def run(self, encode: Callable[[float, Matrix], Found], first: float, finest: float, *, weighed: bool) -> Found:
         """Return the smallest encoding that keeps the promise in every frame; `encode` takes step and weights."""
         weighed = weighed and len(self._frames) > 1 and bool(self._knots)
-        kept: Tried[Found] | None = None
+        kept: list[Tried[Found]] = []  # the smallest that seem to keep the promise
         step, evened, missed, above, spare = first, np.zeros(len(self._frames)), 0, math.inf, SPARE
         for attempt in range(1, TRIES + 1):
             price = PRICE * attempt if len(self._frames) > 1 else PRICE_OF_ONE
             # Beyond these, levels do not fit, or nothing is left of the motion.
             step = min(max(step, finest), COARSEST_STEP)
-            found = encode(step, np.exp(evened))
-            latest = Tried(found, step, evened, self._measure(list(found.decoded_frames())))
+            try:
+                latest = self._tried(encode, step, evened)
+            except OptionError:
+                break  # with weights, levels may not fit, either
             missed = missed + 1 if latest.excess > 0.0 else 0
             if missed and not weighed:  # weights may make good what missed
                 above = min(above, step)
             # By bytes and not by steps: with weights, a finer step may give the smaller stream.
-            if latest.excess <= 0.0 and (kept is None or found.size <= kept.found.size):
-                kept = latest
+            kept = self._by_size([latest, *kept])
             while True:
                 step, evened = self._following(latest, attempt if weighed else 0, spare * (1 + missed))
                 step = min(step, math.sqrt(latest.step * above))
                 last = latest.step == (COARSEST_STEP if latest.excess <= 0.0 else finest)
                 # What the next attempt would take, about. It is made only if it can save more than its price.
                 likely = latest.found.size * (latest.step / step) ** SLOPE
-                if kept is None or not (last or attempt == TRIES or likely > (1.0 - price) * kept.found.size):
+                if not kept or not (last or attempt == TRIES or likely > (1.0 - price) * kept[0].found.size):
                     break
                 # Only here are all doubtful frames drawn: once, for the stream that would be returned.
-                if self._is_certain(kept):
-                    return kept.found
-                # Expected looks were too low once, and may be again.
-                latest, kept, missed, spare = kept, None, 1, spare + SPARE
+                if self._is_certain(kept[0]):
+                    return kept[0].found
+                # Expected looks were too low once, and may be again; the others are expected anew.
+                latest, missed, spare = kept[0], 1, spare + SPARE
+                kept = self._by_size(kept[1:])
             if last:
                 break
-        raise TargetError(f"{self._promise} cannot be kept in every frame, even with step {latest.step:.2g}")
+        certain = (tried.found for tried in kept if self._is_certain(tried))
+        return next(certain, None) or self._finer(encode, min(max(step, finest), COARSEST_STEP))
+
+    def _tried(self, encode: Callable[[float, Matrix], Found], step: float, evened: Matrix) -> Tried[Found]:
+        found = encode(step, np.exp(evened))
+        return Tried(found, step, evened, self._measure(list(found.decoded_frames())))
+
+    def _by_size(self, some: list[Tried[Found]]) -> list[Tried[Found]]:
+        """Those that seem to keep the promise, by the looks known now; the smallest first."""
+        for tried in some:
+            tried.measured.before = tried.measured.before | self._ratios
+        return sorted((tried for tried in some if tried.excess <= 0.0), key=lambda tried: tried.found.size)[:HELD]
+
+    def _finer(self, encode: Callable[[float, Matrix], Found], step: float) -> Found:
+        """Return the first encoding, with finer and finer steps, that keeps the promise."""
+        with suppress(OptionError):  # levels do not fit
+            while step >= LEAST_STEP:
+                tried = self._tried(encode, step, np.zeros(len(self._frames)))
+                if self._is_certain(tried):
+                    return tried.found
+                step *= min(FINER, math.exp(-tried.excess / POWER))
+        raise TargetError(f"{self._promise} cannot be kept in every frame, even with step {step:.2g}")
 
     def _following(self, tried: Tried[Found], attempt: int, spare: float) -> tuple[float, Matrix]:
         """The step after one that was tried, and weights; they stay if the `attempt` is 0."""
@@ -162,7 +192,9 @@ class StepSearch:
         # Equal pictures need not be drawn twice. The little more keeps the twin from setting the pace.
         if twin != index and np.array_equal(decoded[twin], decoded[index]):
             return TWIN * self._look(twin, decoded)
-        metric = self._metrics.get(index) or metric_of(self._frames[index], self._faces, self._threads)
+        # As users have them: where two normals are nearly a crease apart, rounding decides how they are shaded.
+        original = self._units.back(self._frames[index])
+        metric = self._metrics.get(index) or metric_of(original, self._faces, self._threads)
         if metric is None:
             return 0.0
         held = int(_PIXEL * metric.pixels**2)
@@ -170,7 +202,7 @@ class StepSearch:
         if index not in self._metrics and held <= self._room:
             self._room -= held
             self._metrics[index] = metric
-        return metric.look(decoded[index]).moving / self._promise.look
+        return metric.look(self._units.back(decoded[index])).moving / self._promise.look
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,22 +255,32 @@ class Measured:
         return {**self.before, **now}
 
     def looks(self, deviations: float = 0.0) -> Matrix:
-        """Return the looks of all frames, shape (T,), expected ones of those not drawn plus standard deviations. Looks
-        over errors are interpolated in time, as a Brownian bridge between frames that are drawn or were before."""
-        known = sorted(self.ratios.items())
-        if not known:
+        """Return the looks of all frames, shape (T,), expected ones of those not drawn plus standard deviations."""
+        if not (known := sorted(self.ratios.items())):
             return np.zeros(len(self.errors))
         seen, ratios = (np.array(column) for column in zip(*known))
-        steps, frames = np.diff(seen), np.arange(len(self.errors))
-        # The variance of a Brownian motion grows with time, and this is its rate.
-        rate = float(np.mean(np.diff(ratios) ** 2 / steps)) if len(steps) else 1.0
-        since = frames - seen[np.maximum(np.searchsorted(seen, frames, side="right") - 1, 0)]
-        until = seen[np.minimum(np.searchsorted(seen, frames), len(seen) - 1)] - frames
-        inside = np.minimum(since, until) >= 0
-        spans = np.where(inside, since * until / np.maximum(since + until, 1), np.maximum(since, until))
-        looks = self.errors * np.exp(np.interp(frames, seen, ratios) + deviations * np.sqrt(rate * spans + DRIFT**2))
+        doubts = np.where(np.isin(seen, list(self.drawn)), 0.0, DRIFT**2)
+        mean, variance = _foretold(seen, ratios, doubts, len(self.errors))
+        looks = self.errors * np.exp(mean + deviations * np.sqrt(variance))
         looks[list(self.drawn)] = list(self.drawn.values())
         return np.asarray(looks)
+
+
+def _foretold(seen: Matrix, ratios: Matrix, doubts: Matrix, count: int) -> tuple[Matrix, Matrix]:
+    """The mean and variance of a series of numbers, shape (T,), of which some were seen, each with a variance of its
+    own: noise on a random walk (kriging)."""
+    steps, frames = np.diff(seen), np.arange(count)
+    # By maximum likelihood of the differences of neighbors.
+    size, jumps = len(steps), np.diff(ratios)
+    spreads = np.diag(2.0 + PACE * steps) - np.eye(size, k=1) - np.eye(size, k=-1)
+    noise = (LIKE_SEEN * NOISE**2 + jumps @ np.linalg.solve(spreads, jumps)) / (LIKE_SEEN + size)
+    apart = np.abs(seen[:, None] - frames)
+    # Generalized covariances of a walk that begins anywhere; the last row is of its unknown mean.
+    shared = np.vstack([noise * ((apart == 0) - PACE * apart), np.ones(count)])
+    system = np.pad(shared[:-1, seen] + np.diag(doubts), (0, 1), constant_values=1.0)
+    system[-1, -1] = 0.0
+    weights = np.linalg.solve(system, shared)
+    return ratios @ weights[:-1], np.maximum(noise - (weights * shared).sum(axis=0), 0.0)
 
 
 def _evening(looks: Matrix) -> Matrix:

@@ -12,9 +12,12 @@ import bsm
 from bsm import Contract
 from bsm.codec.arrays import Matrix
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.sequence.step_search import Measured, StepSearch, _evening, shading_error
+from bsm.codec.sequence.step_search import Measured, StepSearch, _evening, _foretold, shading_error
 from bsm.codec.sequence.targets import compare_sequences
+from bsm.codec.static.units import Units
 from tests.motion import bending
+
+UNITS = Units((0.0, 0.0, 0.0), 1.0)
 
 
 def kept(
@@ -133,7 +136,7 @@ def test_a_search_does_not_end_far_below_its_bound(monkeypatch: pytest.MonkeyPat
         return Measured(float(decoded[0][0, 0]), np.zeros(0), {})
 
     monkeypatch.setattr(StepSearch, "_measure", measured)
-    search = StepSearch(*bending(4), Contract(0.02), 1.0, 1)
+    search = StepSearch(*bending(4), Contract(0.02), UNITS, 1)
     found = search.run(lambda step, _: Tried(step), 0.0033, 1e-6, weighed=False)
     assert 0.88 * 0.00014 < found.step <= 0.00014
 
@@ -158,7 +161,7 @@ def test_a_search_ends_when_another_attempt_saves_less_than_its_price(monkeypatc
     monkeypatch.setattr(StepSearch, "_measure", lambda _, decoded: Measured(float(decoded[0][0, 0]), np.zeros(0), {}))
     for first in (0.0005, 0.00495, 0.05):
         tried.clear()
-        found = StepSearch(*bending(4), Contract(0.02), 1.0, 1).run(encode, first, 1e-6, weighed=True)
+        found = StepSearch(*bending(4), Contract(0.02), UNITS, 1).run(encode, first, 1e-6, weighed=True)
         assert 0.9 * 0.005 < found.step <= 0.005 and len(tried) == (1 if first == 0.00495 else 2)
 
 
@@ -193,9 +196,76 @@ def test_frames_that_are_only_expected_to_exceed_the_bound_are_drawn_before_an_e
         return Measured(0.5, errors, {4: 0.99}, {frame: math.log(0.5) for frame in range(10) if frame != 4})
 
     monkeypatch.setattr(StepSearch, "_measure", measured)
-    search = StepSearch(positions, faces, Contract(0.02, look=1.0), 1.0, 1)
+    search = StepSearch(positions, faces, Contract(0.02, look=1.0), UNITS, 1)
     search.run(lambda step, _: Tried(step), 0.0033, 1e-6, weighed=True)
     assert len(attempts) < 5 and search.worst_look == pytest.approx(0.99)
+
+
+@pytest.mark.parametrize("fits", [0.0, 0.0004])
+def test_a_search_that_runs_out_of_attempts_ends_in_a_finer_stream(
+    fits: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The bound is kept only far below the steps that attempts lead to; one below `fits` cannot be coded."""
+
+    @dataclass
+    class Folded(Tried):
+        @property
+        def share(self) -> float:
+            return 1.01 if self.step > 0.0005 else 0.5
+
+    def encode(step: float, _: Matrix) -> Folded:
+        if step < fits:
+            raise bsm.OptionError("the step is too fine")
+        return Folded(step)
+
+    monkeypatch.setattr("bsm.codec.sequence.step_search.TRIES", 3)
+    monkeypatch.setattr(StepSearch, "_measure", lambda _, decoded: Measured(float(decoded[0][0, 0]), np.zeros(0), {}))
+    for finest in (1e-6, 0.001):
+        found = StepSearch(*bending(4), Contract(0.02), UNITS, 1).run(encode, 0.003, finest, weighed=True)
+        assert 0.0004 <= found.step <= 0.0005
+    monkeypatch.setattr(Folded, "share", 2.0)
+    with pytest.raises(bsm.TargetError, match="cannot be kept in every frame"):
+        StepSearch(*bending(4), Contract(0.02), UNITS, 1).run(encode, 0.003, 0.001, weighed=True)
+
+
+def test_where_the_smallest_stream_fails_the_next_one_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    tried: list[float] = []
+
+    def encode(step: float, _: Matrix) -> Tried:
+        tried.append(step)
+        return Tried(step)
+
+    monkeypatch.setattr(Tried, "share", property(lambda self: self.step / 0.005))
+    monkeypatch.setattr(Tried, "size", property(lambda self: round(1e6 / math.sqrt(self.step))))
+    monkeypatch.setattr(StepSearch, "_measure", lambda _, decoded: Measured(float(decoded[0][0, 0]), np.zeros(0), {}))
+    monkeypatch.setattr(StepSearch, "_is_certain", lambda _, one: one.step < 0.0047)
+    found = StepSearch(*bending(4), Contract(0.02), UNITS, 1).run(encode, 0.0046, 1e-6, weighed=True)
+    assert found.step == min(tried) == 0.0046 and len(tried) == 2
+
+
+def test_looks_are_of_positions_in_the_unit_of_the_mesh() -> None:
+    """Far from the origin positions are rounded, which users see."""
+    y, x = np.mgrid[0:19, 0:19].astype(float)
+    index = np.arange(361).reshape(19, 19)
+    left = np.stack([index[:-1, :-1], index[:-1, 1:], index[1:, :-1]], axis=-1).reshape(-1, 3)
+    right = np.stack([index[1:, :-1], index[:-1, 1:], index[1:, 1:]], axis=-1).reshape(-1, 3)
+    frames = np.repeat(np.stack([x, y, 0.0 * x], axis=-1).reshape(1, -1, 3) + 5e5, 9, axis=0)
+    promise = Contract(0.02, look=0.105236)
+    _, original, decoded, faces = kept(frames, np.concatenate([left, right]), promise, low_delay=4, gop=17)
+    assert max(looks(original, decoded, faces)) <= promise.look * (1 + 1e-6)
+
+
+def test_what_was_seen_of_a_series_foretells_the_rest() -> None:
+    random, seen = np.random.default_rng(0), np.arange(0, 200, 5)
+    noise = 0.04 * random.standard_normal(200)
+    for series, limit in ((noise, 0.05), (noise + np.linspace(0.0, 2.0, 200), 0.15), (noise + noise.cumsum(), 0.5)):
+        mean, variance = _foretold(seen, series[seen], np.zeros(len(seen)), 200)
+        others = np.setdiff1d(np.arange(200), seen)
+        assert mean[seen] == pytest.approx(series[seen]) and variance[seen].max() < 1e-9
+        scores = (series - mean)[others] / np.sqrt(variance[others])
+        assert 0.3 < scores.std() < 1.3 and np.sqrt(variance[others]).mean() < limit
+        doubted, more = _foretold(seen, series[seen], np.full(len(seen), 0.05**2), 200)
+        assert (more[seen] > 0.02**2).all() and np.abs(doubted - mean).max() < 0.2
 
 
 def test_frames_that_look_worse_weigh_more() -> None:
