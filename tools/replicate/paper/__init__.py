@@ -27,6 +27,8 @@ TABLES: dict[str, Callable[[Study], Iterator[Row]]] = {
         iterations.first_block,
         iterations.convergence,
         iterations.orthonormalization,
+        iterations.complexity,
+        iterations.shifts,
         segments.edge_effect,
         segments.number_of_segments,
         segments.overlap,

@@ -149,6 +149,7 @@ def times(study: Study) -> Iterator[Row]:
             numbers={
                 f"{role} gap": f"{max(map(abs, gaps)):.2f}",
                 f"{role} apart": f"{max(map(abs, apart)):.2f}",
+                f"{role} ends": f"{apart[0]:.2f} and {apart[-1]:.2f}",
                 f"{role}": f"{min(speeds):.0f} to {max(speeds):.0f}",
                 f"{role} whole": f"{min(whole):.0f} to {max(whole):.0f}",
                 f"{role} once": f"{min(once):.0f} to {max(once):.0f}",

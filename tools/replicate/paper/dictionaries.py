@@ -71,7 +71,7 @@ class Cut:
         return [eigenvectors(block, self.width) for block in self.blocks]
 
     def chain(
-        self, width: int, power: int, iterations: int = 1, order: Iterable[int] | None = None
+        self, width: int, power: int, iterations: int = 1, order: Iterable[int] | None = None, shift: float = SHIFT
     ) -> tuple[list[Floats], float]:
         """Dictionaries along a chain, each from the one before, the first exact; and seconds of a thread for them."""
         bases: list[Floats] = [np.empty(0)] * len(self.blocks)
@@ -82,7 +82,7 @@ class Cut:
                 previous = self.exact[index][:, :width]
             else:
                 begin = time.thread_time()
-                previous = iterated(block, previous, power, iterations)
+                previous = iterated(block, previous, power, iterations, shift)
                 seconds += time.thread_time() - begin
             bases[index] = previous
         return bases, seconds

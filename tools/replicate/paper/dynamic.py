@@ -252,5 +252,10 @@ def dynamic(study: Study) -> Iterator[Row]:
             "literal": f"{literal.iterations.mean():.0f}",
             "blocks": str(len(cut.blocks)),
             "iterations": f"{theirs.iterations.mean():.1f}",
+            "fixed s": f"{fixed.seconds:.2f}",
+            **{
+                f"{key} s": " and ".join(f"{tracks[f'{name}, eps_l = {b:g} eps_h'].seconds:.2f}" for b in BANDS)
+                for key, name in (("theirs", LIKE_TEXT), ("ours", CODEC))
+            },
         },
     )

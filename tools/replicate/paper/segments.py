@@ -14,6 +14,7 @@ from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.geometry.graph import graph_of_faces
 from tools.replicate.paper.dictionaries import Floats, degree_weights, eigenvectors
 from tools.replicate.paper.figures import save_boxes, save_surfaces
+from tools.replicate.paper.iterations import span
 from tools.replicate.paper.models import Model, Study
 from tools.replicate.paper.published import BUNNY, JULIO, OVERLAPS, Line, claim, printed
 from tools.replicate.rates import Row
@@ -83,7 +84,7 @@ def spreads(model: Model, cases: Cases, name: str) -> tuple[Floats, Floats]:
 
 def edge_effect(study: Study) -> Iterator[Row]:
     """Errors of inner and boundary vertices in three cases (Figures 4 and 5)."""
-    rows, panels, ratios = list[Line](), {}, dict[str, list[float]]()
+    rows, panels, ratios, means = list[Line](), {}, dict[str, list[float]](), dict[str, list[float]]()
     fandisk = study.model("fandisk 0.3")
     pictures, labels = [], []
     for model, parts in ((fandisk, 10), (fandisk, 15), (fandisk, 20), (study.model("bunny"), 70)):
@@ -95,6 +96,7 @@ def edge_effect(study: Study) -> Iterator[Row]:
             inner, boundary = (float(errors[chosen].mean()) for chosen in (~cases.boundary, cases.boundary))
             ours, theirs = (float(np.nanmedian(values)) for values in spreads(model, cases, name))
             ratios.setdefault(name, []).append(theirs / ours)
+            means.setdefault(name, []).append(boundary / inner)
             rows.append((f"{model.name}, {count} parts, {name}", (boundary / inner, theirs / ours), ()))
         if model is fandisk:
             pictures.append(cases.results)
@@ -102,6 +104,8 @@ def edge_effect(study: Study) -> Iterator[Row]:
     save_boxes(study.output, panels)
     save_surfaces(study.output, "figure-5", fandisk.faces, pictures, labels)
     off = {name: float(np.mean(np.abs(np.array(own) - 1.0))) for name, own in ratios.items()}
+    others = np.minimum(means["no overlap"], means["plain mean"])
+    best = f"{int((np.array(means['by degrees']) < others).sum())} of {len(others)}"
     yield printed(
         "The paper, 6.1 (Figures 4 and 5): errors at the boundaries of segments",
         ("mean error, boundary over inner", "standard deviation, boundary over inner"),
@@ -115,7 +119,11 @@ def edge_effect(study: Study) -> Iterator[Row]:
             fandisk,
             study.model("bunny"),
         ),
-        numbers={name: f"{value:.2f}" for name, value in off.items()},
+        numbers={
+            **{name: f"{value:.2f}" for name, value in off.items()},
+            **{f"mean, {name}": span(own) for name, own in means.items()},
+            "best": best,
+        },
     )
 
 
@@ -143,6 +151,7 @@ def number_of_segments(study: Study) -> Iterator[Row]:
         f"{model.name}. The paper does not say how strong its noise is, and MND follows it; compare the trend.",
         claim("The error rises with segments", rises, "each keeps its own lowest tenth.", model),
         claim("Weights are better", gains == len(rows), f"in {gains} of {len(rows)} rows.", model),
+        numbers={"rise": f"{100 * (rows[-1][1][2] / rows[0][1][2] - 1):.0f}"},
     )
 
 
@@ -153,7 +162,8 @@ def falls(rows: list[Line], column: int) -> bool:
 
 def overlap(study: Study) -> Iterator[Row]:
     """Mean normal difference by segments and overlap (Tables 2 to 4)."""
-    model = study.model("julio")
+    model, at_15 = study.model("julio"), dict[int, tuple[float, ...]]()
+    gains, theirs = list[float](), list[float]()
     for table, (count, published) in enumerate(JULIO.items(), 2):
         rows: list[Line] = []
         for factor, *there in study.some(zip(OVERLAPS, *published, strict=True)):
@@ -162,8 +172,15 @@ def overlap(study: Study) -> Iterator[Row]:
             fine = guided_normal_filtering(coarse, model.faces, FINE_ITERATIONS)
             errors = (model.reference.mnd(positions) for positions in (coarse, fine))
             rows.append((f"{factor:.2f} max", (size, *errors), tuple(there)))
-        enough = next(own[1] for label, own, _ in rows if float(label.split()[0]) >= 1.15)
-        last = rows[-1][1][1]
+        factors = [float(label.split()[0]) for label, *_ in rows]
+        some = next(place for place, factor in enumerate(factors) if factor >= 1.15)
+        enough, first, last = (rows[place][1][1] for place in (some, 0, -1))
+        at_15[count] = (enough, rows[some][1][2], rows[some][2][1])
+        gains.append(100 * (1 - enough / first))
+        theirs.append(100 * (1 - rows[some][2][1] / rows[0][2][1]))
+        tenth = max((place for place, factor in enumerate(factors) if factor <= 1.1), default=0)
+        counts = [*at_15]
+        more = [100 * (at_15[counts[-1]][k] / at_15[counts[0]][k] - 1) for k in (0, 2)]
         yield printed(
             f"The paper, 6.3 (Table {table}): size of the overlapping segments, {count} segments",
             ("n_d", "coarse MND", "fine MND"),
@@ -177,4 +194,12 @@ def overlap(study: Study) -> Iterator[Row]:
                 f"more lowers MND by {100 * (enough - last) / enough:.1f} %.",
                 model,
             ),
+            numbers={
+                f"{count} fine": f"{at_15[count][1]:.4f}",
+                f"{count} tenth": f"{100 * (1 - rows[tenth][1][1] / first):.1f}",
+                f"{count} falls": "yes" if falls(rows, 1) else "no",
+                "gains": f"{min(gains):.1f} to {max(gains):.1f}",
+                "their gains": f"{min(theirs):.1f} to {max(theirs):.1f}",
+                "more": f"{more[0]:.1f} % ({more[1]:.1f})",
+            },
         )

@@ -39,6 +39,7 @@ _READERS = {
 """The reader in each module of VTK, or of a suffix."""
 _ALL_OF = ("PointArrays", "CellArrays", "Bases", "Families", "PatchArrays")
 _CELL = "vtkCell"
+MOST_CORNERS = 9  # of polygons that are compared, in a table: one of thousands would make it gigabytes
 _OWN = re.compile(f"vtkGhostType|vtkValidPointMask|{_CELL}")
 _SAID = re.compile(r"(ERROR|Warning): In [^\n]*\n\w+ \(0x\w+\): ")
 
@@ -149,10 +150,11 @@ def _polygons(
     if not data.IsA("vtkPolyData"):
         cells = vtk_to_numpy(surface.GetCellData().GetArray(_CELL))[before:]
         solid = _of_volumes(data, cells)
-        rows = np.full((len(sizes), sizes.max()), -1)
-        rows[np.arange(rows.shape[1]) < sizes[:, None]] = corners
-        numbers = row_numbers(np.sort(rows, axis=1))
-        kept = ~(solid & np.isin(numbers, numbers[~solid]))
+        few = sizes <= MOST_CORNERS
+        rows = np.full((few.sum(), MOST_CORNERS), -1)
+        rows[np.arange(MOST_CORNERS) < sizes[few, None]] = corners[np.repeat(few, sizes)]
+        numbers, kept = row_numbers(np.sort(rows, axis=1)), np.ones(len(sizes), np.bool_)
+        kept[few] = ~(solid[few] & np.isin(numbers, numbers[~solid[few]]))
         corners, sizes, cells, solid = corners[np.repeat(kept, sizes)], sizes[kept], cells[kept], solid[kept]
         left |= {INSIDE: None} if solid.any() else {}
         corners = corners[turned_corners(sizes, solid & _inward(data, cells, positions, sizes, corners))]
