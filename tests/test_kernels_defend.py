@@ -91,12 +91,15 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     bare = torus(16, 12)
     mesh, size = dressed(bare), len(bare.positions)
     moved = gaussian_along_normals(bare.positions, bare.faces, 0.3, seed=1)
+    smooth = torus(24, 16)
+    scan = TriangleMesh(gaussian_along_normals(smooth.positions, smooth.faces, 0.1, seed=1), smooth.faces)
     cases: tuple[tuple[TriangleMesh, dict[str, Any]], ...] = (
         (mesh, {"bits": 12, "key_seed": "svd", "partition": "metis"}),
         (mesh, {"step": 0.01, "smoothing": 1.0}),
         (mesh, {"preset": "fine"}),
         (TriangleMesh(moved, bare.faces), {}),
-        (torus(24, 16), {}),
+        (smooth, {}),
+        (scan, {}),
         (mesh, {"effort": "quick", "contract": None, "grid": 9, "keep_order": True}),
         (mesh, {"exact": True, "contract": None}),
         (tangled(), {"grid": 9}),

@@ -131,7 +131,7 @@ class StepSearch:
         return Tried(found, step, evened, self._measure(list(found.decoded_frames())))
 
     def _by_size(self, some: list[Tried[Found]]) -> list[Tried[Found]]:
-        """Those that seem to keep the promise, by the looks known now; the smallest first."""
+        """Return those that seem to keep the promise, by the looks known now; the smallest first."""
         for tried in some:
             tried.measured.before = tried.measured.before | self._ratios
         return sorted((tried for tried in some if tried.excess <= 0.0), key=lambda tried: tried.found.size)[:HELD]
