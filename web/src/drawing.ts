@@ -120,7 +120,7 @@ export class Drawing {
     private startRun(event: EventOf<"header">): void {
         const { run, light, blocks } = event.header;
         this.first = light > 0 ? LIGHT_PAUSE : blocks > 1 ? 0 : PAUSE;
-        if (run === 0) return this.show(event);
+        if (!run) return this.show(event); // pages draw meshes of their own with a header of two numbers
         this.flush();
         [this.run, this.growing] = [run, false];
         this.faces = new Int32Array(0);
