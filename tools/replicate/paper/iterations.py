@@ -302,7 +302,7 @@ def complexity(study: Study) -> Iterator[Row]:
         ],
         f"{model.name}, one iteration of R from the block before; seconds of one thread with order, factors and Onorm. "
         "From row to row, OI's time grows with n_d to the power of "
-        f"{span(by_size)} and with c to that of {span(by_width)}, that of SVD with n_d to that of {span(exact)}.",
+        f"{span(by_size)} and with c to that of {span(by_width)}. SVD's grows with n_d to the power of {span(exact)}.",
         claim(
             "OI takes O(n_d c^2), SVD O(n_d^3)",
             max(by_size) < 1.5 and max(by_width) < 2.2 and max(exact) > 2.2,

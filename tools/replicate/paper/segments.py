@@ -166,18 +166,20 @@ def overlap(study: Study) -> Iterator[Row]:
     gains, theirs = list[float](), list[float]()
     for table, (count, published) in enumerate(JULIO.items(), 2):
         rows: list[Line] = []
+        their = list[float]()  # coarse
         for factor, *there in study.some(zip(OVERLAPS, *published, strict=True)):
             blocks, size = _cut(model, count, factor)
             coarse = low_pass(model, blocks, round(KEEP * size))(degree_weights)
             fine = guided_normal_filtering(coarse, model.faces, FINE_ITERATIONS)
             errors = (model.reference.mnd(positions) for positions in (coarse, fine))
             rows.append((f"{factor:.2f} max", (size, *errors), tuple(there)))
+            their.append(there[1])
         factors = [float(label.split()[0]) for label, *_ in rows]
         some = next(place for place, factor in enumerate(factors) if factor >= 1.15)
         enough, first, last = (rows[place][1][1] for place in (some, 0, -1))
-        at_15[count] = (enough, rows[some][1][2], rows[some][2][1])
+        at_15[count] = (enough, rows[some][1][2], their[some])
         gains.append(100 * (1 - enough / first))
-        theirs.append(100 * (1 - rows[some][2][1] / rows[0][2][1]))
+        theirs.append(100 * (1 - their[some] / their[0]))
         tenth = max((place for place, factor in enumerate(factors) if factor <= 1.1), default=0)
         counts = [*at_15]
         more = [100 * (at_15[counts[-1]][k] / at_15[counts[0]][k] - 1) for k in (0, 2)]
