@@ -173,7 +173,7 @@ export class Drawing {
         this.points = new Float32Array(3 * size);
         loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
         this.news = new Uint8Array(size);
-        this.due = performance.now() + this.first; // what is whole until then needs no picture before
+        this.due = performance.now() + this.first; // a mesh that is whole by then needs no earlier picture
         if (this.growing) this.show({ type: "begun", vertices: size, corners: faces.length, loose });
     }
 

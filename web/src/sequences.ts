@@ -6,7 +6,7 @@ import { Playback } from "./playback";
 /**
  * `frame`: another one is shown; `loop`: it begins again; `ended`: the last frame was shown, and it does not begin again;
  * `waiting`: frames come more slowly than they are shown; `error`: the rest of the stream cannot be decoded, the frames before
- * it are available; `dispose`: it is no longer needed, and its load stops.
+ * it are available; `dispose`: the sequence was disposed, and its load stops.
  */
 export type SequenceEvents = Record<"play" | "pause" | "loop" | "ended" | "waiting" | "dispose", object> & {
     frame: { index: number };

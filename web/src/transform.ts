@@ -27,7 +27,7 @@ import { errorLike, openDesk, type Shape } from "./index";
 import { here } from "./pool";
 import { CodedViews, EXTENSION, sizeOf, type Coded } from "./views";
 
-/** Makes what is drawn of a stream; throws its errors. */
+/** Makes the pictures of a stream; throws its errors. */
 export type SceneDecoder = (stream: Uint8Array) => Shape;
 
 /** What `EXTBSMCompression` needs: `io.registerDependencies({ "bsm.decoder": await loadSceneDecoder() })`. */
