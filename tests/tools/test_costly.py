@@ -8,7 +8,7 @@ import pytest
 
 import bsm
 from bsm.codec.look.pictures import Canvas
-from tools.attack.costly import Recipe, changed, drawn, encoded, search
+from tools.attack.costly import KINDS, Recipe, changed, drawn, encoded, search
 from tools.attack.manifests import Folder, used, walk
 
 FEWER = 2.5e8  # samples that a search may draw, about a second
@@ -37,6 +37,16 @@ def test_what_is_drawn_for_small_files_is_bounded_whatever_covers_what(samples, 
     taken = encoded(Recipe(shape, vertices, faces, 0.0, "none", "balanced", 1).ply, "balanced")
     assert taken.outcome.endswith(" bytes")
     assert 0 < sum(samples) < FEWER
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_is_drawn_for_every_kind_is_bounded(samples, kind):
+    of = KINDS[kind]
+    recipe = Recipe(of.shapes[0], 30, 60, 0.1, of.attributes[-1], of.presets[0], 3)
+    taken = encoded(recipe.ply, recipe.preset, kind)
+    assert taken.outcome.endswith(" bytes") and not taken.escaped
+    assert (sum(samples) > 0) == (kind != "paper")
+    assert sum(samples) < 2 * FEWER  # a long polygon of any corners covers more than most soups
 
 
 def test_recipes_are_files_that_are_read_and_mutants_are_others():

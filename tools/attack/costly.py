@@ -1,11 +1,13 @@
 """`python -m tools.attack costly`: search for small files of meshes that take long to encode, by mutating the worst.
 
 Each file is a binary PLY file with few bytes for its mesh. It is read under the limits of a service and encoded on one
-thread. The CPU time of both is compared with the bound of src/bsm/SERVICE.md: `SECONDS` and `SECONDS_PER_BYTE`.
+thread, as a sequence of some frames for that kind. The CPU time of both is compared with the bound of
+src/bsm/SERVICE.md: `SECONDS` and `SECONDS_PER_BYTE`.
 """
 
 import time
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from random import Random
@@ -23,6 +25,29 @@ FAN = 255  # corners of the longest polygon whose number of corners takes a byte
 SHAPES = ("random", "planes", "fan", "slivers", "shells", "grid", "copies", "tiny")
 ATTRIBUTES = ("none", "none", "none", "color", "normal", "texcoord")
 PRESETS = ("balanced", "balanced", "fine", "small", "near-lossless")
+FRAMES = 6
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What recipes of a kind are drawn from."""
+
+    shapes: tuple[str, ...] = SHAPES
+    attributes: tuple[str, ...] = ATTRIBUTES
+    presets: tuple[str, ...] = PRESETS
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+
+KINDS = {
+    "meshes": Kind(),
+    "lean": Kind(options={"effort": "quick"}),
+    "congruence": Kind(("parts", "copies", "planes"), ("none",)),
+    "looks": Kind(attributes=("none",), options={"effort": "best"}),
+    "attributes": Kind(attributes=("color", "normal", "texcoord", "all")),
+    "paper": Kind(attributes=("none",), presets=("paper",)),
+    "base": Kind(("grid", "shells"), ("none",), options={"congruence": False}),
+    "sequences": Kind(attributes=("none",)),
+}
 
 
 @dataclass(frozen=True)
@@ -73,6 +98,12 @@ def _polygons(recipe: Recipe, random: np.random.Generator) -> tuple[np.ndarray, 
                 first = np.arange(side * side).reshape(side, side)[:-1, :-1].ravel()
                 faces = np.concatenate([first[:, None] + [0, 1, side], first[:, None] + [1, side + 1, side]])
             return at, list(np.resize(faces, (count, 3)))
+        case "parts":  # one part, moved and turned
+            part, size = random.normal(size=(5, 3)), -(-many // 5)
+            turned = np.linalg.qr(random.normal(size=(size, 3, 3)))[0]
+            at = (part @ turned + 9.0 * random.normal(size=(size, 1, 3))).reshape(-1, 3)
+            corners = random.integers(0, 5, (6, 3)) + 5 * np.arange(size)[:, None, None]
+            return at, list(np.resize(corners, (count, 3)))
         case "fan":  # planes through one line
             at = np.column_stack([np.cos(turns), np.sin(turns), np.resize([-1.0, 1.0], many)])
         case "slivers":
@@ -86,35 +117,40 @@ def _polygons(recipe: Recipe, random: np.random.Generator) -> tuple[np.ndarray, 
 
 
 def _attribute(kind: str, random: np.random.Generator, many: int) -> tuple[np.ndarray, tuple[str, ...]]:
-    names = {"none": "", "color": "red green blue", "normal": "nx ny nz", "texcoord": "s t"}[kind].split()
+    columns = {"none": "", "color": "red green blue", "normal": "nx ny nz", "texcoord": "s t"}
+    names = columns.get(kind, " ".join(columns.values())).split()
     values = random.uniform(0.0, 1.0, (many, len(names)))
     return values, tuple(names)
 
 
-def drawn(random: Random) -> Recipe:
-    """Any recipe."""
+def drawn(random: Random, kind: Kind = KINDS["meshes"]) -> Recipe:
+    """Any recipe of a kind."""
     vertices, faces = (int(10 ** random.uniform(low, 3.7)) for low in (0.5, 0.0))
     small = random.choice((0.0, 0.0, 0.0, random.random()))
-    kinds = (random.choice(names) for names in (SHAPES, ATTRIBUTES, PRESETS))
-    shape, attribute, preset = kinds
+    shape, attribute, preset = map(random.choice, (kind.shapes, kind.attributes, kind.presets))
     return Recipe(shape, vertices, faces, small, attribute, preset, random.randrange(1 << 30))
 
 
-def changed(recipe: Recipe, random: Random) -> Recipe:
+def changed(recipe: Recipe, random: Random, kind: Kind = KINDS["meshes"]) -> Recipe:
     """The recipe with one thing as another has it, or with more or less of it."""
     name, changes = random.choice(list(vars(recipe))), dict[str, Any]()
     if name in ("vertices", "faces"):
         changes[name] = max(1, int(getattr(recipe, name) * 2 ** random.uniform(-2, 2)))
     else:
-        changes[name] = getattr(drawn(random), name)
+        changes[name] = getattr(drawn(random, kind), name)
     return replace(recipe, **changes)
 
 
-def encoded(data: bytes, preset: str) -> Taken:
+def encoded(data: bytes, preset: str, kind: str = "meshes") -> Taken:
     """Read a file as a service does, and encode it."""
     try:
         mesh = bsm.load(data, limits=bsm.Limits.service())
-        return Taken(f"{len(bsm.encode(mesh, preset=preset, threads=1))} bytes", len(data), len(mesh.faces))
+        if kind == "sequences":
+            frames = [mesh.positions * np.cos(t * mesh.positions[:, [1, 2, 0]]) for t in range(FRAMES)]
+            stream = bsm.encode_sequence(frames, mesh.faces, preset=preset, threads=1)
+            return Taken(f"{len(stream)} bytes", FRAMES * len(data), len(mesh.faces))
+        stream = bsm.encode(mesh, preset=preset, threads=1, **KINDS[kind].options)
+        return Taken(f"{len(stream)} bytes", len(data), len(mesh.faces))
     except BsmError as error:
         return Taken(f"{type(error).__name__}: {error}", len(data))
 
@@ -124,21 +160,22 @@ def share(taken: Taken) -> float:
     return float("inf") if taken.escaped else taken.seconds / (SECONDS + SECONDS_PER_BYTE * taken.size)
 
 
-def search(seconds: float, seed: str, kept: int = 12) -> list[tuple[float, Recipe, Taken]]:
+def search(seconds: float, seed: str, kept: int = 12, kind: str = "meshes") -> list[tuple[float, Recipe, Taken]]:
     """Return the worst files found within a time, the worst first."""
     random, worst, end = Random(seed), list[tuple[float, Recipe, Taken]](), time.monotonic() + seconds
     while time.monotonic() < end:
         new = not worst or random.random() < 0.3
-        recipes = [drawn(random) if new else changed(random.choice(worst)[1], random) for _ in range(4)]
-        works = [partial(_prepared, recipe) for recipe in recipes]
+        of = KINDS[kind]
+        recipes = [drawn(random, of) if new else changed(random.choice(worst)[1], random, of) for _ in range(4)]
+        works = [partial(_prepared, recipe, kind) for recipe in recipes]
         found = zip(recipes, taken_by_each(works, seconds=120), strict=True)
         worst = sorted([*worst, *((share(taken), recipe, taken) for recipe, taken in found)], key=lambda row: -row[0])
         worst = worst[:kept]
     return worst
 
 
-def _prepared(recipe: Recipe) -> partial[Taken]:
-    return partial(encoded, recipe.ply, recipe.preset)
+def _prepared(recipe: Recipe, kind: str) -> partial[Taken]:
+    return partial(encoded, recipe.ply, recipe.preset, kind)
 
 
 def main() -> int:
@@ -146,10 +183,11 @@ def main() -> int:
     parser = parser_of(__doc__)
     parser.add_argument("--seconds", type=float, default=600, help="how long to search (default: %(default)s)")
     parser.add_argument("--seed", default="0")
+    parser.add_argument("--kind", choices=KINDS, default="meshes", help="default: %(default)s")
     parser.add_argument("--save", type=Path, metavar="FILE", help="write the worst file here")
     args = parser.parse_args()
     warm_up()
-    worst = search(args.seconds, args.seed)
+    worst = search(args.seconds, args.seed, kind=args.kind)
     for part, recipe, taken in worst:
         print(f"{part:.2f} of the bound: {taken.seconds:.2f} s, {taken.size} bytes, {taken.outcome[:60]}; {recipe}")
     if args.save:
