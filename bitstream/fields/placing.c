@@ -64,10 +64,10 @@ static int64_t faults_of(const Sides *s, int32_t k) {
     return count;
 }
 
-/* Those of the faces around v. */
-static int64_t faults_at(const Sides *s, int32_t v) {
+/* Those of the faces around v; counted until there are more than `enough`. */
+static int64_t faults_at(const Sides *s, int32_t v, int64_t enough) {
     int64_t count = 0;
-    for (int32_t i = s->corners->starts.data[v]; i < s->corners->starts.data[v + 1]; i++)
+    for (int32_t i = s->corners->starts.data[v]; i < s->corners->starts.data[v + 1] && count <= enough; i++)
         count += faults_of(s, s->corners->corners.data[i]);
     return count;
 }
@@ -98,7 +98,7 @@ INLINE void put(int32_t *place, const int32_t *cell) {
 /* Put v into the cell beside its own that has fewest faults, the nearest of these. */
 static void mend_vertex(const Sides *s, int32_t *place, const int32_t *most, int32_t v) {
     const double *wanted = s->wanted + WANTED * (int64_t)v;
-    int64_t faults = faults_at(s, v);
+    int64_t faults = faults_at(s, v, INT64_MAX);
     int32_t own[AXES], best[AXES];
     double nearest = 0.0; /* with as many faults as in its own cell, it stays there */
     if (faults == 0) return;
@@ -111,9 +111,10 @@ static void mend_vertex(const Sides *s, int32_t *place, const int32_t *most, int
         for (int j = 0; j < AXES; j++) inside = inside && cell[j] >= 0 && cell[j] <= most[j];
         if (!inside) continue;
         put(place, cell);
-        int64_t left = faults_at(s, v);
+        int64_t left = faults_at(s, v, faults);
+        if (left > faults) continue;
         square += 8.0 * height_of(s, v, cell);
-        if (left > faults || (left == faults && square >= nearest)) continue;
+        if (left == faults && square >= nearest) continue;
         faults = left;
         nearest = square;
         put(best, cell);
@@ -146,10 +147,10 @@ bool go_to_cell(const Corners *corners, Ints2 places, const double *wanted, int3
     const double *row = wanted + WANTED * (int64_t)v;
     int32_t *place = places.data + AXES * (int64_t)v, own[AXES];
     if (square_of(row, cell) > row[AXES] || height_of(&s, v, cell) > HEIGHT) return false;
-    int64_t faults = faults_at(&s, v);
+    int64_t faults = faults_at(&s, v, INT64_MAX);
     put(own, place);
     put(place, cell);
-    if (faults_at(&s, v) <= faults) return true;
+    if (faults_at(&s, v, faults) <= faults) return true;
     put(place, own);
     return false;
 }
