@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass
 from functools import partial
-from hashlib import blake2b
 from typing import Any
 
 import numpy as np
@@ -136,8 +135,8 @@ class LookMetric:
             raise MeshError(f"the mesh cannot be looked at: its faces have no area{_outlier(used)}")
         own = own_normals(mesh)
         self._own = None if own is None else (Gallery(self._cameras, positions, self._shape.faces, own), own)
-        self._known: dict[bytes, Look] = {}
-        self._turned: dict[bytes, tuple[float, float]] = {}
+        self._known: dict[tuple[int, ...], Look] = {}
+        self._turned: dict[tuple[int, ...], tuple[float, float]] = {}
 
     def against(self, mesh: TriangleMesh) -> LookMetric:
         """Return a metric of versions of another mesh, which shows the pictures of this original."""
@@ -311,7 +310,7 @@ class AttributeLook:
         self._metric = LookMetric(mesh.bare, threads=threads, most_pixels=LEAST_PIXELS)
         self._faces, self._semantic = self._metric._shape.faces, semantic
         self._paint = self._painting(values, mesh.positions, self._faces)
-        self._known: dict[bytes, float] = {}
+        self._known: dict[tuple[int, ...], float] = {}
         self._pictures = self._drawn(self._paint, mesh.positions, self._faces, values)
 
     def distance(self, positions: Positions, values: Matrix) -> float:
@@ -366,10 +365,10 @@ def _outlier(used: Positions) -> str:
     return f" beside the distance to the vertex at ({place}); remove it if it is a stray one"
 
 
-def key_of(*arrays: Matrix | Normals) -> bytes:
-    """Return a number that other arrays do not have."""
-    # A digest rather than the arrays: a search keeps hundreds of results.
-    return b"".join(blake2b(np.ascontiguousarray(array).data).digest() for array in arrays)
+def key_of(*arrays: Matrix | Normals) -> tuple[int, ...]:
+    """Return numbers that other arrays do not have."""
+    # Hashes of 64 bits rather than the arrays: a search keeps hundreds of results.
+    return tuple(hash(array.tobytes()) for array in arrays)
 
 
 def summed(sums: Matrix) -> Look:

@@ -13,7 +13,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from traceback import walk_tb
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
@@ -192,7 +191,7 @@ def as_format_error(kind: str) -> Iterator[None]:
     except BsmError:
         raise
     # Not Exception: what is none of these is a fault of ours, and must not be blamed on the file.
-    except (LookupError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError, BadZipFile) as error:
+    except (LookupError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError) as error:
         raise FormatError(f"this {kind} makes no sense: {in_words(error)}") from error
 
 

@@ -10,7 +10,6 @@ import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
-from html import escape
 from itertools import count as count_from
 from pathlib import Path
 
@@ -204,6 +203,8 @@ def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
 @contextmanager
 def _list_writer(path: str, faces: Faces, overwrite: bool, follow: bool | str, shared: Shared) -> Iterator[FrameWriter]:
     """A list for ParaView, and a folder beside it, called like it, with a VTP for each time."""
+    from html import escape
+
     refuse_to_overwrite(path, overwrite)
     rows, below = list[str](), Path(path).with_suffix("")
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from graphlib import TopologicalSorter
 from heapq import heappop, heappush
+from typing import TYPE_CHECKING
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.threads import available_threads
@@ -16,8 +17,10 @@ from bsm.files.output import refuse_collisions, refuse_to_overwrite
 from bsm.ground.console import Console, Progress, print_json
 from bsm.ground.exits import exit_of, report_error, worded
 from bsm.ground.lengths import UnitError
-from bsm.jobs.report import NOTHING, Earlier, Report, options_of, read_report, recorded, table, totals
 from bsm.jobs.task import Facts, Job, Outcome, Outcomes, Task, Tasks, Work, anywhere, came_to, outcome_of
+
+if TYPE_CHECKING:
+    from bsm.jobs.report import Earlier, Report
 
 # A batch of small files takes as long as its number, and not as its bytes.
 LEAST = 1 << 16  # bytes that an input counts as, for the work that does not depend on its size
@@ -53,6 +56,8 @@ def run_jobs(
         elif show:
             print(show(facts))
         return 0
+    from bsm.jobs.report import table, totals  # which a single job need not load
+
     begin, asked_once = time.perf_counter(), 0
 
     def ended(job: Job, outcome: Outcome) -> None:
@@ -153,12 +158,14 @@ def _tasks(order: TopologicalSorter[int], task: Callable[[int], Task]) -> Tasks:
             yield None
 
 
-def _reported(run: Batch, asked: Task, work: Work, jobs: Sequence[Job]) -> tuple[Work, Earlier, Report | None]:
+def _reported(run: Batch, asked: Task, work: Work, jobs: Sequence[Job]) -> "tuple[Work, Earlier | None, Report | None]":
     """Return work that is reported, what an earlier report holds, and the new one, if a report is wanted."""
     if run.report is None:
         if run.resume:
             raise OptionError("--resume needs --report FILE.json")
-        return work, NOTHING, None
+        return work, None, None
+    from bsm.jobs.report import NOTHING, Report, options_of, read_report, recorded
+
     # A report with the name of an input would replace it.
     refuse_collisions([job.input for job in jobs], [*(job.output for job in jobs), run.report])
     refuse_to_overwrite(run.report, asked.force or run.resume)
@@ -187,16 +194,16 @@ def _in_order(outcomes: Outcomes) -> Outcomes:
         yield number, waiting[number]
 
 
-def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
-    before = earlier.files.get(job.output)
+def task_of(asked: Task, job: Job, earlier: "Earlier | None" = None) -> Task:
+    outputs, before = (earlier.outputs, earlier.files.get(job.output)) if earlier else ({}, None)
     replaceable = {job.output, *([before["output"]] if before else [])} - {"", "-"}
     # Asked before the work begins. What is made later is the run's own, and may be replaced when a job is repeated.
     there = {
         n for n in replaceable if (pipes.state_of_remote(n) is not None if pipes.is_url(n) else os.path.lexists(n))
     }
-    named = replaceable & earlier.outputs.keys()
+    named = replaceable & outputs.keys()
     # A file that an earlier run wrote may be replaced if it has not been changed since. Its digest tells that.
-    mine = frozenset(name for name in named if name not in there or earlier.outputs[name] == pipes.digest_of(name))
+    mine = frozenset(name for name in named if name not in there or outputs[name] == pipes.digest_of(name))
     return replace(
         asked,
         input=job.input,

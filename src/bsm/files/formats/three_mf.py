@@ -22,7 +22,7 @@ from bsm.files.conventions import placement
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import Material, appearance, as_text, held_by, lost, one_line, within
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
-from bsm.files.parsing import NO_DOUBLES, Doubles, Ints, as_format_error, as_library_error, single_suffices
+from bsm.files.parsing import NO_DOUBLES, Doubles, Ints, as_library_error, single_suffices
 from bsm.files.unread import Taken, rows_of
 from bsm.ground.lengths import metres, unit_named
 
@@ -44,7 +44,7 @@ def read_3mf(data: bytes, limits: Limits) -> Polygons:
         _call(reader, "reader_readfrombuffer", ctypes.c_uint64(len(data)), given)
         found = (read := _Model(library, model, limits)).joined(len(data))
     # lib3mf does not tell what it passes over, so the names in the package are looked at once more.
-    with as_format_error("3MF"), zipfile.ZipFile(io.BytesIO(data)) as package:
+    with as_library_error("zipfile", "this 3MF file"), zipfile.ZipFile(io.BytesIO(data)) as package:
         names = package.namelist()
         models = (package.read(name) for name in names if name.lower().endswith(".model"))
         others = [name for name in names if f"/{name}" not in read.files and not _FILES.fullmatch(name)]
