@@ -1,8 +1,7 @@
 """Options for encoding a mesh."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import InitVar, dataclass, fields, replace
-from functools import wraps
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from bsm.bitstream.errors import OptionError, public
@@ -179,7 +178,6 @@ class EncodeOptions:
     >>> data = bsm.encode("bunny.ply", bsm.EncodeOptions(preset="paper", keep=0.1))
     """
 
-    preset: InitVar[str | None] = None
     keep: float | None = None
     coefficients: int | None = None
     block_size: int = 450
@@ -202,7 +200,18 @@ class EncodeOptions:
     limits: str = "default"
     threads: int | None = None
 
-    def __post_init__(self, preset: str | None) -> None:
+    # Written out, since a field that is given counts more than the preset also where it is the default.
+    def __init__(self, *, preset: str | None = None, **given: Any) -> None:
+        if preset is not None:
+            given = vars(changed(named("preset", PRESETS, preset), **given))
+        known = {item.name: item.default for item in fields(self)}
+        if unknown := given.keys() - known:
+            raise TypeError(f"EncodeOptions has no option {' and no option '.join(sorted(unknown))}")
+        for name, value in (known | given).items():
+            object.__setattr__(self, name, value)
+        self._check()
+
+    def _check(self) -> None:
         check_options(self, CHOICES, RANGES)
         if self.target is not None:
             self.target._require_kind(TARGETS, "a mesh")
@@ -263,22 +272,6 @@ class EncodeOptions:
     def fixed_smoothing(self) -> float | None:
         """The amount of smoothing, or None if the encoder tries several."""
         return 0.0 if self.paper.bits is not None and self.smoothing is None else self.smoothing
-
-
-def _with_preset(made: Callable[..., None]) -> Callable[..., None]:
-    """An `__init__` that takes missing options from the preset."""
-
-    @wraps(made)
-    def begun(self: EncodeOptions, *, preset: str | None = None, **given: Any) -> None:
-        if preset is not None:
-            options = changed(named("preset", PRESETS, preset), **given)
-            given = {item.name: getattr(options, item.name) for item in fields(EncodeOptions)}
-        made(self, **given)
-
-    return begun
-
-
-EncodeOptions.__init__ = _with_preset(EncodeOptions.__init__)  # type: ignore[method-assign]
 
 
 def changed(options: EncodeOptions, **changes: Any) -> EncodeOptions:
