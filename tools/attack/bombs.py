@@ -61,6 +61,7 @@ THINGS = {
     "GRID light": ("light-chunks", "light"),
     "GRID congruent": ("congruent-chunks", "congruent-apart"),
     "REFINEMENT": ("layers-chunks", "layers"),
+    "cells": ("cells", "cells-far"),
     "SKIPPABLE": ("metadata", "skippable-long"),
     "LEARNT": ("gops-learned", "gop-300"),
     "LEARNT_NEXT": ("gops-following", "gops-following-large"),
