@@ -24,7 +24,7 @@ BLOCK, OVERLAP = 450, 1.0
 CHAIN = 4  # blocks that depend on each other: a lost one loses at most so many, or about 16,000 vertices
 RATIO = 3.0  # of the steps of cells along tangents, over those along normals
 FARTHEST, LEAST = 2.0**18, 1e-9  # steps that levels may be away, and bends of surfaces some more; and places may be
-APART = 1.67  # steps of cells that may be best, over the usual one, up and down: one or two powers of two
+APART = 2.83  # steps of cells that may be best, over the usual one, up and down: three powers of two
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Spread:
 
     reach: int = 2
     rounds: int = 8
-    levels: float = 10.0
+    levels: float = 16.0
     coefficients: float = 160.0
 
 
