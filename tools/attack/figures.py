@@ -208,7 +208,8 @@ def _encoded(path: Path, stream: Path, options: Words) -> tuple[dict[str, Any], 
             raise AssertionError(f"{options}: {done.stderr}")
         return None
     facts: dict[str, Any] = json.loads(done.stdout)
-    return facts, json.loads(done.stderr.splitlines()[-1])["note"]
+    said = map(json.loads, reversed(done.stderr.splitlines()))  # progress, too, where the machine is slow
+    return facts, next(line["note"] for line in said if "note" in line)
 
 
 def _compared(path: Path, stream: Path, *words: str) -> tuple[dict[str, Any] | None, str]:
