@@ -3,6 +3,7 @@
 import argparse
 import errno
 import os
+import posixpath
 from contextlib import ExitStack, suppress
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from bsm.codec.threads import available_threads
 from bsm.commands.flags import add_flags, adder, asked, within
 from bsm.files.images import ImageRule
 from bsm.files.output import by_its_own_name, refuse_to_overwrite
-from bsm.files.pipes import about, inside, is_url, name_in, remove, size_of, state_of
+from bsm.files.pipes import about, is_url, name_in, remove, size_of, state_of
 from bsm.files.stream import MANIFEST
 from bsm.ground.console import Console, print_json
 from bsm.ground.exits import report_error
@@ -84,10 +85,10 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
     if args.tileset:
         given = write_tileset(open_tiles(args.output), args.output, console, content=args.tileset, overwrite=over)
         for name in (MANIFEST, *(shard["file"] for shard in manifest["shards"])):  # what the tileset holds again
-            remove(inside(args.output, name))
+            remove(posixpath.join(args.output, name))
     elif over:
         with suppress(FileNotFoundError):
-            remove(inside(args.output, TILESET))  # it may be of another mesh
+            remove(posixpath.join(args.output, TILESET))  # it may be of another mesh
     came = came_to(size_of(args.input), given)
     console.note(
         f"{args.input} -> {args.output}: {counted(vertices=plan.vertices, faces=plan.faces, tiles=len(done))} in "
@@ -125,7 +126,7 @@ def _begun(args: argparse.Namespace, work: Path, console: Console, left: bool) -
         message = "these tiles are unfinished: --resume continues, -f starts again"
         raise FileExistsError(errno.EEXIST, message, args.output)
     for name in (MANIFEST, TILESET):
-        refuse_to_overwrite(inside(args.output, name), args.force or bool(unfinished) or (left and args.resume))
+        refuse_to_overwrite(posixpath.join(args.output, name), args.force or bool(unfinished) or (left and args.resume))
     refuse_others(work)
     if unfinished is not False:
         write_unfinished(args.output, args.input)
@@ -135,7 +136,7 @@ def _begun(args: argparse.Namespace, work: Path, console: Console, left: bool) -
         except BsmError:
             if unfinished is None:
                 with suppress(OSError):
-                    remove(inside(args.output, MANIFEST))
+                    remove(posixpath.join(args.output, MANIFEST))
             raise
 
 

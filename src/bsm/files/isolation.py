@@ -44,9 +44,7 @@ from bsm.files.table import FORMATS, MESH_FORMATS
 _COMMAND = "from bsm.files.isolation import serve; serve({number})"
 End: TypeAlias = tuple[int, int, float, bytes]
 _MEMORY, _WRITTEN = resource.RLIMIT_AS, resource.RLIMIT_FSIZE
-_KIND = struct.Struct("<32sI")  # a format, and seconds, as they are sent
 _END = struct.Struct("<iQd4096s")  # a status, the most memory, processor seconds, and last words, that come back
-_HEAD = struct.Struct("<QQ")  # the bytes of a question in shared memory, and those of a file after it
 _ROOM = 1 << 20  # bytes of an answer that a child need not ask for, in addition to its memory
 _OF_THIS_PROCESS = re.compile("/dev/(fd/|std)|/proc/")
 _SMALLEST = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"  # a file that has been read, so that the next is read sooner
@@ -72,43 +70,42 @@ def lack() -> str | None:
     return None if landlock.supported() else "a kernel with Landlock"
 
 
-def read_isolated(given: Input, file_format: str | None, limits: Limits, kind: str) -> MeshFile:
-    """Read a mesh file in a process of its own; errors as of `read_mesh`."""
-    found: MeshFile = _read_there(_asked(given, file_format, kind), limits, kind, MESH)
-    return found
+def read_isolated(given: Input, file_format: str | None, limits: Limits, kind: str) -> Any:
+    """The `MeshFile` that a process of its own reads; errors as of `read_mesh`."""
+    return _read_there(given, file_format, limits, kind, MESH)
 
 
 def frames_isolated(
     given: Input | Sequence[str], file_format: str | None, limits: Limits, kind: str, wanted: Wanted | None
-) -> Frames | None:
-    """Read all frames of a sequence in a process of its own; errors as of `open_sequence`."""
-    asked = _asked(given, file_format, kind) if isinstance(given, Input) else {"names": list(given)}
+) -> Any:
+    """The `Frames` that a process of its own reads, or None; errors as of `open_sequence`."""
     beside = os.path.abspath(wanted.mesh) if wanted and wanted.mesh else None
-    asked |= {"sequence": True, "wanted": wanted and {**asdict(wanted), "mesh": beside}, "beside": beside}
-    found: Frames | None = _read_there({"format": file_format, **asked}, limits, kind, FRAMES)
-    return found
+    asked = {"sequence": True, "wanted": wanted and {**asdict(wanted), "mesh": beside}, "beside": beside}
+    return _read_there(given, file_format, limits, kind, FRAMES, **asked)
 
 
-# A path of this process (/dev/fd/3, /proc/self/...) means another file in the child, so its bytes are sent instead.
-def _asked(given: Input, file_format: str | None, kind: str) -> dict[str, Any]:
-    path = os.path.abspath(given.name) if given.is_file and not _OF_THIS_PROCESS.match(given.name) else None
-    chosen = file_format if lack() is None else file_format or kind or None  # one that others read never comes here
-    return {"path": path, "name": given.name, "format": chosen, "data": b"" if path else given.read_all()}
-
-
-def _read_there(asked: dict[str, Any], limits: Limits, kind: str, accepted: tuple[type, ...]) -> Any:
-    names = asked.get("names") or [asked["path"]]
-    size = sum(map(os.path.getsize, names)) if names[0] else len(asked["data"])
-    asked["limits"] = asdict(limits)
-    asked["memory"] = int(min(limits.memory_for(limits.vertices, size), 1 << 40))
+def _read_there(
+    given: Input | Sequence[str], file_format: str | None, limits: Limits, kind: str, accepted: Any, **asked: Any
+) -> Any:
+    data, names = b"", [] if isinstance(given, Input) else list(given)
+    if isinstance(given, Input):
+        # A path of this process (/dev/fd/3, ...) means another file in the child, so its bytes are sent instead.
+        path = os.path.abspath(given.name) if given.is_file and not _OF_THIS_PROCESS.match(given.name) else None
+        data, names, asked["name"] = (b"", [path], given.name) if path else (given.read_all(), [], given.name)
+        file_format = file_format if lack() is None else file_format or kind or None  # others never come here
+    size = len(data) + sum(map(os.path.getsize, names))
     seconds = math.ceil(min(limits.work_for(limits.vertices, size) / 1e9, 1e6))
-    asked["seconds"] = max(1, _least(seconds, max(resource.getrlimit(resource.RLIMIT_CPU)[0] - 1, -1)))
-    asked["closed"] = lack() is None
-    data = asked.pop("data", b"")
-    question = json.dumps(asked).encode()
-    with shared(_HEAD.pack(len(question), len(data)) + question + data) as memory:
-        known = kind if kind in FORMATS else ""
-        status, _, _, words = end_of_child(memory, known, _PATIENCE * asked["seconds"])
+    asked |= {
+        "format": file_format,
+        "kind": kind if kind in FORMATS else "",
+        "names": names,
+        "limits": asdict(limits),
+        "memory": int(min(limits.memory_for(limits.vertices, size), 1 << 40)),
+        "seconds": max(1, _least(seconds, max(resource.getrlimit(resource.RLIMIT_CPU)[0] - 1, -1))),
+    }
+    asked["patience"] = _PATIENCE * asked["seconds"]
+    with shared(json.dumps(asked).encode() + b"\n" + data) as memory:
+        status, _, _, words = end_of_child(memory)
         if os.WIFSIGNALED(status):
             raise _end_of(os.WTERMSIG(status), words, asked)
         return found_in(memory, asked["memory"] + _ROOM, limits, accepted)
@@ -170,12 +167,12 @@ class _Server:
         if hasattr(self, "process") and self.process.poll() is None:
             self.process.returncode = 0  # not waited for: it ends with its socket
 
-    def read(self, memory: int, kind: str, seconds: int) -> End:
+    def read(self, memory: int) -> End:
         """Let a child read the file that shared memory names; return its status, memory and time."""
         here, there = socket.socketpair()
         with here:
             with there:
-                socket.send_fds(self._socket, [_KIND.pack(kind.encode(), seconds)], [there.fileno(), memory])
+                socket.send_fds(self._socket, [b"?"], [there.fileno(), memory])
             end = here.recv(_END.size, socket.MSG_WAITALL)
             if len(end) < _END.size:
                 raise ConnectionError("the process that reads files has died")
@@ -187,16 +184,16 @@ def _server() -> _Server:
     return _Server()
 
 
-def end_of_child(memory: int, kind: str, seconds: int) -> End:
+def end_of_child(memory: int) -> End:
     try:
         # Tried twice: the server may have been ended by somebody between two files, and a new one then reads this file.
         # A second failure is of the file or of the system.
         with suppress(ConnectionError):
-            return _server().read(memory, kind, seconds)
+            return _server().read(memory)
         with suppress(subprocess.TimeoutExpired):  # somebody has ended it
             _server().process.wait(1)
         _server.cache_clear()
-        return _server().read(memory, kind, seconds)
+        return _server().read(memory)
     except OSError as error:
         raise UnsupportedError(f"the process that reads files from strangers does not start: {error}") from error
 
@@ -213,16 +210,19 @@ def serve(number: int) -> None:
     with socket.socket(fileno=number) as asked:
         while True:
             signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # watchers end alone
-            request, files, _, _ = socket.recv_fds(asked, _KIND.size, 2)
+            request, files, _, _ = socket.recv_fds(asked, 1, 2)
             if not request:
                 return
-            kind, seconds = _KIND.unpack(request)
-            _load(kind.rstrip(b"\0").decode())
+            answer, memory = files
+            with open(memory, "rb", closefd=False) as sent:
+                sent.seek(0)
+                question, begin = json.loads(sent.readline()), sent.tell()  # the bytes of a file follow
+            _load(question["kind"])
             if not os.fork():
                 asked.close()
-                _watch(files[0], files[1], seconds)
-            for file in files:
-                os.close(file)
+                _watch(answer, memory, question, begin)
+            os.close(answer)
+            os.close(memory)
 
 
 @cache
@@ -232,8 +232,8 @@ def _load(kind: str) -> None:
             importlib.import_module(name)
 
 
-def _watch(answer: int, memory: int, seconds: int) -> None:
-    """Let a child read for so long, and tell how it ended, with its last words."""
+def _watch(answer: int, memory: int, asked: dict[str, Any], begin: int) -> None:
+    """Let a child read, and tell how it ended, with its last words."""
     try:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         words, said = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
@@ -244,10 +244,10 @@ def _watch(answer: int, memory: int, seconds: int) -> None:
             os.dup2(said, 2)
             for file in (answer, words, said, here.detach()):
                 os.close(file)
-            _read(memory, there.detach())
+            _read(memory, there.detach(), asked, begin)
         there.close()
         signal.signal(signal.SIGALRM, lambda *_: os.kill(child, signal.SIGKILL))
-        signal.alarm(seconds)
+        signal.alarm(asked["patience"])
         with here:
             _grant(child, here)
         _, status, used = os.wait4(child, 0)
@@ -283,12 +283,10 @@ def _held(process: int | str) -> int:
 # ------------------------------------------------------------------------------------------------ the child
 
 
-def _read(memory: int, room: int) -> None:
-    """Read the file that shared memory names, and leave the mesh or the error there."""
+def _read(memory: int, room: int, asked: dict[str, Any], begin: int) -> None:
+    """Read the file that is asked for, and leave the mesh or the error in shared memory."""
     try:
-        question, size = _HEAD.unpack(os.pread(memory, _HEAD.size, 0))
-        asked = json.loads(os.pread(memory, question, _HEAD.size))
-        asked["data"] = os.pread(memory, size, _HEAD.size + question)
+        asked["data"] = os.pread(memory, os.fstat(memory).st_size - begin, begin)
         try:
             _confine(asked)
             leave(memory, _called(asked), partial(_ask, room))
@@ -314,13 +312,12 @@ def _ask(room: int, size: int) -> None:
 
 def _called(asked: dict[str, Any]) -> MeshFile | Frames | None:
     """Read as without isolation, in here."""
-    given = (asked["format"], Limits(**asked["limits"]))
+    given, names = (asked["format"], Limits(**asked["limits"])), asked["names"]
     wanted = Wanted(**asked["wanted"]) if asked.get("wanted") else None
-    if names := asked.get("names"):
+    if "name" not in asked:
         return sequence.open_frames(names, *given, wanted or Wanted(), isolated=False)
-    source: Any = asked["path"]
-    if source is None:
-        source = io.BytesIO(asked["data"])
+    source: Any = names[0] if names else io.BytesIO(asked["data"])
+    if not names:
         source.name = asked["name"]
     if asked.get("sequence"):
         return sequence.open_sequence(source, given[0], wanted, given[1], isolated=False)
@@ -341,8 +338,8 @@ def _confine(asked: dict[str, Any]) -> None:
     ):
         soft, hard = resource.getrlimit(limit)  # of where this runs, which may be less
         resource.setrlimit(limit, (_least(most, soft), _least(longest, hard)))
-    if asked["closed"]:
-        paths = filter(None, [*(asked.get("names") or [asked["path"]]), asked.get("beside")])
+    if lack() is None:
+        paths = filter(None, [*asked["names"], asked.get("beside")])
         _close_files({os.path.dirname(way(path)) for path in paths for way in (os.path.abspath, os.path.realpath)})
     _close_calls()
 

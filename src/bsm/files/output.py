@@ -3,6 +3,7 @@
 import errno
 import glob
 import os
+import posixpath
 import re
 import signal
 import stat
@@ -306,7 +307,7 @@ def default_output(path: str, suffix: str) -> str:
 
 def output_inside(folder: str, path: str, suffix: str) -> str:
     name = _with_suffix(path, suffix).name
-    return pipes.inside(folder, name) if pipes.is_url(folder) else no_link(str(Path(folder, name)))
+    return posixpath.join(folder, name) if pipes.is_url(folder) else no_link(str(Path(folder, name)))
 
 
 def no_link(path: str) -> str:

@@ -13,7 +13,7 @@ import urllib.parse
 from collections.abc import Iterator
 from contextlib import closing, contextmanager, nullcontext, suppress
 from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple, TypeAlias, Union, cast
+from typing import Any, BinaryIO, TypeAlias, Union, cast
 
 from bsm.bitstream import errors
 
@@ -26,13 +26,6 @@ _LONGEST_NAME = 1024  # of a file beside another: resolving takes the square of 
 _WEB = ("http", "https")
 _STAMPS = ("ETag", "etag", "Last-Modified", "LastModified", "last_modified", "mtime", "updated", "created", "checksum")
 """What file systems call what changes with a file."""
-
-
-class RemoteState(NamedTuple):
-    """What tells whether a file is still the same."""
-
-    size: int | None
-    version: str
 
 
 def is_url(path: str | os.PathLike[str]) -> bool:
@@ -75,13 +68,9 @@ def file_beside(folder: Path, name: str) -> Path:
     return path
 
 
-def inside(folder: str, name: str) -> str:
-    return posixpath.join(folder, name)
-
-
 def place_of(folder: str, name: str) -> str:
     """Return where a file of a folder or URL is; `FormatError` for a link out of the folder, or if it is not a file."""
-    path = inside(folder, name)
+    path = posixpath.join(folder, name)
     if is_url(folder):
         return path
     os.lstat(path)
@@ -176,7 +165,8 @@ def refuse_to_replace(url: str, overwrite: bool) -> None:
         raise FileExistsError(errno.EEXIST, "the output exists already; -f overwrites it", url)
 
 
-def state_of_remote(url: str) -> RemoteState | None:
+def state_of_remote(url: str) -> tuple[int | None, str] | None:
+    """The size and version of a file, as far as its server tells them; None if there is no such file."""
     try:
         with _errors_of(url):
             files, path = _system(url)
@@ -185,8 +175,7 @@ def state_of_remote(url: str) -> RemoteState | None:
             about = files.info(path)
     except FileNotFoundError:
         return None
-    version = next((str(about[name]) for name in _STAMPS if about.get(name)), "")
-    return RemoteState(about.get("size"), version)
+    return about.get("size"), next((str(about[name]) for name in _STAMPS if about.get(name)), "")
 
 
 def remove(name: str) -> None:
@@ -409,10 +398,10 @@ def state_of(path: str) -> State | None:
     found: State = []
     for file in files_behind(path):
         if is_url(file):
-            state = state_of_remote(file)
-            if state is None or not state.version:
+            size, version = state_of_remote(file) or (None, "")
+            if not version:
                 return None
-            found.append([file, state.size, state.version])
+            found.append([file, size, version])
         elif os.path.isfile(file):
             about = os.stat(file)
             # As a text, like the versions of URLs: readers of JSON that hold numbers as doubles lose the last digits of
@@ -434,16 +423,9 @@ def digest_of(path: str) -> str | None:
     return found.hexdigest()
 
 
-def require_there(path: str) -> None:
-    """Raise `FileNotFoundError` unless an input is there, or is a pipe, a URL or a pattern, of which reading tells."""
-    if path != "-" and not is_url(path) and not glob.has_magic(path) and "%" not in path:
-        os.stat(path)
-
-
 def size_of(path: str) -> int | None:
     """Return the bytes of the files of an input or output; None for a pipe, or if a server does not tell."""
     if is_url(path):
-        state = state_of_remote(path)
-        return state.size if state else None
+        return (state_of_remote(path) or (None,))[0]
     sizes = [os.path.getsize(file) for file in files_behind(path) if os.path.isfile(file)]
     return sum(sizes) if sizes else None

@@ -1,5 +1,6 @@
 """Encode meshes and sequences for `bsm encode` and `bsm.encode_many`."""
 
+import glob
 import math
 import os
 import time
@@ -24,7 +25,7 @@ from bsm.files.images import ImageRule, digests_in, is_link, with_links, with_sm
 from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
-from bsm.files.pipes import require_there
+from bsm.files.pipes import is_url
 from bsm.files.sequence import open_frames, open_sequence, size_of_sequence
 from bsm.files.table import WITH_IMAGES_BESIDE
 from bsm.ground.console import Console, Progress, finite
@@ -97,7 +98,9 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     # to hear of them.
     wishes.check()
     for name in job.members or (job.input,):
-        require_there(name)
+        # Of a pipe, a URL or a pattern, reading tells.
+        if name != "-" and not is_url(name) and not glob.has_magic(name) and "%" not in name:
+            os.stat(name)
     runs = bool(job.options.get("runs"))
     asked = (job.animation, job.cache_mesh, *(job.options.get(name) for name in _OF_SEQUENCES))
     plain = all(choice is None for choice in asked)

@@ -2,6 +2,7 @@
 
 import json
 import os
+import posixpath
 import shutil
 import tempfile
 from collections.abc import Iterable, Mapping
@@ -17,7 +18,7 @@ from bsm.files.conventions import placement
 from bsm.files.formats.metadata import remarks
 from bsm.files.formats.ply import table_of
 from bsm.files.output import by_its_own_name, open_output, write_output
-from bsm.files.pipes import inside, is_url
+from bsm.files.pipes import is_url
 from bsm.gltf.compress import compress
 from bsm.gltf.document import Document
 from bsm.gltf.write import vertex_normals, write_glb
@@ -134,13 +135,13 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
             data = write_glb(mesh, name).data
             if content == "bsm":
                 data = compress(Document(data), options).data
-            write_output(inside(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite, follow=False)
+            write_output(posixpath.join(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite, follow=False)
             size += len(data)
             progress(number, len(known))
     tree = _tree(tiles, {name: seen * tile.error for name, (_, tile) in known.items()}, ends)
     data = json.dumps(tree).encode() + b"\n"
-    write_output(inside(folder, TILESET), data, overwrite=overwrite, follow=False)
-    console.note(f"{inside(folder, TILESET)}: {counted(tiles=len(known))} as {content} GLB, {size} bytes")
+    write_output(posixpath.join(folder, TILESET), data, overwrite=overwrite, follow=False)
+    console.note(f"{posixpath.join(folder, TILESET)}: {counted(tiles=len(known))} as {content} GLB, {size} bytes")
     return size + len(data)
 
 

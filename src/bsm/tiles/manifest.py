@@ -1,6 +1,7 @@
 """A manifest of tiles, and the index at the end of each shard: every number is checked where it is read."""
 
 import json
+import posixpath
 import re
 import shlex
 from collections.abc import Mapping, Sequence
@@ -10,7 +11,7 @@ from typing import Any, NoReturn
 from bsm.bitstream.container.wire import MAJOR
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import Limits
-from bsm.files.pipes import Input, inside, place_of
+from bsm.files.pipes import Input, place_of
 from bsm.files.stream import MANIFEST
 from bsm.ground.console import printable
 from bsm.jobs.task import Facts
@@ -67,7 +68,7 @@ def _refuse(word: str) -> NoReturn:
 
 def read_manifest(path: str, limits: Limits) -> tuple[Facts, Lattice, Root, Kinds]:
     """Read the manifest of a folder or URL, and the parts of it that are computed with."""
-    name = inside(path, MANIFEST)
+    name = posixpath.join(path, MANIFEST)
     try:
         given = json_of(place_of(path, MANIFEST), limits)
         if given["format"] != "bsm tiles":

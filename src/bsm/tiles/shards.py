@@ -2,6 +2,7 @@
 
 import json
 import os
+import posixpath
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from hashlib import sha256
@@ -20,7 +21,7 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.libraries import as_decoded
 from bsm.files.output import open_output, write_output
-from bsm.files.pipes import about, inside, is_pipe, named, place_of, read_range
+from bsm.files.pipes import about, is_pipe, named, place_of, read_range
 from bsm.files.stream import MANIFEST, decode_whole
 from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Lattice, Plan, Root
@@ -39,12 +40,12 @@ _END = b"BSMTILES"  # behind the length of the index, the last bytes of a shard
 def write_unfinished(folder: str, source: str) -> None:
     """Write the manifest of a run that has not ended."""
     given = {"format": "bsm tiles", "version": 1, "stream": MAJOR, "source": source, "complete": False}
-    write_output(inside(folder, MANIFEST), json.dumps(given).encode(), overwrite=True, follow=False)
+    write_output(posixpath.join(folder, MANIFEST), json.dumps(given).encode(), overwrite=True, follow=False)
 
 
 def is_unfinished(folder: str) -> bool | None:
     """Whether a folder holds the manifest of a run that has not ended; None: none. One that is not ours stays."""
-    name = inside(folder, MANIFEST)
+    name = posixpath.join(folder, MANIFEST)
     try:
         if is_pipe(name):
             raise KeyError(name)
@@ -90,14 +91,14 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
     # The manifest is written last. It names the digests of the indexes, and these those of the tiles: a reader
     # of it can check everything.
     text = json.dumps(manifest, indent=1).encode() + b"\n"
-    write_output(inside(folder, MANIFEST), text, overwrite=True, follow=False)
+    write_output(posixpath.join(folder, MANIFEST), text, overwrite=True, follow=False)
     return manifest, sum(shard["size"] for shard in shards) + len(text)
 
 
 def _write_shard(folder: str, name: str, waiting: list[Facts], overwrite: bool) -> tuple[Facts, list[Tile]]:
     """Write as many of the last tiles as a shard holds; return its entry in the manifest, and these tiles."""
     tiles: list[Tile] = []
-    with open_output(inside(folder, name), overwrite=overwrite, follow=False) as file:
+    with open_output(posixpath.join(folder, name), overwrite=overwrite, follow=False) as file:
         offset = 0
         while waiting and offset < SHARD and len(tiles) < MOST_TILES:
             facts = waiting.pop()
@@ -290,7 +291,7 @@ class Tiles:
 
     def mesh(self, shard: Facts, tile: Tile) -> TriangleMesh:
         """A tile, whose vertices are where the index says."""
-        name = f"{inside(self.path, shard['file'])}, tile {tile.name}"
+        name = f"{posixpath.join(self.path, shard['file'])}, tile {tile.name}"
         with about(name):
             mesh = decode_whole(iter([self.data(shard, tile)]), self.limits)
         cells = self.lattice.cells(mesh.positions)
