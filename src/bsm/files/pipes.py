@@ -166,7 +166,7 @@ def refuse_to_replace(url: str, overwrite: bool) -> None:
 
 
 def state_of_remote(url: str) -> tuple[int | None, str] | None:
-    """The size and version of a file, as far as its server tells them; None if there is no such file."""
+    """The size and version of a file, as far as its server tells them; None without such a file."""
     try:
         with _errors_of(url):
             files, path = _system(url)
