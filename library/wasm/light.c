@@ -9,10 +9,12 @@ static Arena arena, scratch;
 static Header header;
 static Ints2 faces;
 static GridField field;
+static Sums sums;
 
 /* `limits`: those of bsmdec.h in their order. */
 bool light_open(const double *limits) {
     make_mixer_tables();
+    make_sums(&sums);
     context = (Context){.host = page_host()};
     memcpy(&context.limits.vertices, limits, sizeof context.limits - offsetof(bsmdec_limits, vertices));
     arena = scratch = arena_of(&context);
@@ -26,6 +28,13 @@ void light_close(void) {
 }
 
 bool light_charge(double work, double received) { return charge(&context, work, received); }
+
+/* Checksums of bytes of the stream, and of the positions. */
+uint32_t light_sum(const uint8_t *bytes, size_t size, uint32_t before) {
+    return crc32_of(&sums, (Span){bytes, (int64_t)size}, before);
+}
+uint32_t light_short_sum(const uint8_t *bytes, size_t size) { return crc16_of(&sums, (Span){bytes, (int64_t)size}); }
+uint32_t light_sum_of_positions(void) { return crc32_of_positions(&sums, const_doubles2(field.positions), 0); }
 
 bsmdec_status light_error(void) { return context.error.status; }
 

@@ -25,6 +25,8 @@ const SOURCES = ["bitstream", "codec", "library"]
             !/^codec\/(denoise|look|static\/choice|geometry\/metrics)|^library\/(examples|python|ahead)/.test(path),
     );
 
+/** Functions for what is drawn (library/wasm/draw.c). */
+const DRAW = ["page_normals", "page_bounds"];
 /** Functions for the page (library/wasm/page.c, library/bsmdec.h). */
 const PAGE = [
     ...[
@@ -46,6 +48,7 @@ const PAGE = [
         "changes",
         "losses",
     ].map((name) => `page_${name}`),
+    ...DRAW,
     ...["push", "finish", "faces", "positions", "attribute_at", "attribute_values", "attribute_indices"].map(
         (name) => `bsmdec_${name}`,
     ),
@@ -54,7 +57,10 @@ const PAGE = [
 const LIGHT = [
     "page_take",
     "page_give",
-    ...["open", "close", "charge", "error", "begin", "faces", "positions"].map((name) => `light_${name}`),
+    ...DRAW,
+    ...["open", "close", "charge", "sum", "short_sum", "sum_of_positions", "error", "begin", "faces", "positions"].map(
+        (name) => `light_${name}`,
+    ),
 ];
 
 /** Functions for a page that encodes (library/wasm/encode.c). */
@@ -204,6 +210,7 @@ function checkPriors(clang, object, priors, target) {
  * ask for make them slower.
  */
 const FAST = /basis\/cholesky|codec\/blocks|conquest|fields\/(layer|expectation|grid)/;
+const NOTHING = /^$/;
 const SPEED = ["-fno-vectorize", "-fno-slp-vectorize"];
 
 /**
@@ -256,7 +263,7 @@ export const KERNEL_BUILDS = {
         lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0",
     },
     "built/quick.wasm": { exported: LIGHT, without: /^codec(?!\/basis\/structure)/, fast: /conquest/, light: 1 },
-    "built/parts.wasm": { exported: LIGHT, without: /^codec(?!\/basis\/structure)/, fast: /conquest/, light: 2 },
+    "built/parts.wasm": { exported: LIGHT, without: /^codec(?!\/basis\/structure)/, fast: NOTHING, light: 2 }, // CAD: small
 };
 
 /** Bytes of the learnt start that light grids use: weights of whole vertices (V 17.11). */

@@ -35,7 +35,8 @@ export { END_OF_STREAM, NEED_BLOCK, NEED_DATA };
  * they do for the decoder. An error is thrown by `nextEvent` after the events before it, and by every later call.
  */
 export class Decoder {
-    private readonly engine: Engine;
+    /** @internal */
+    readonly engine: Engine;
     private readonly queue: Event[] = [];
     private error?: BsmError;
     private header?: Header;

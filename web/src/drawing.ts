@@ -3,6 +3,7 @@ import type { Attribute } from "./attributes";
 import type { Event, Loose, EventOf } from "./events";
 import { cornersOf, spread, type DrawnAttribute, type DrawnFaces, type Piece } from "./drawn";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
+import type { Bounds, Memory } from "./memory";
 import { drawnFaces, numbersOf } from "./parting";
 
 export type { DrawnAttribute, Piece };
@@ -10,13 +11,9 @@ export type { DrawnAttribute, Piece };
 /**
  * A whole mesh as it is drawn: `vertices` says which vertex of the stream each drawn one is, if that is not the same.
  */
-export interface Shape extends Omit<DrawnFaces, "own"> {
+export interface Shape extends Omit<DrawnFaces, "own">, Bounds {
     positions: Float32Array;
     normals: Float32Array;
-    center: [number, number, number];
-    radius: number;
-    low: number[];
-    high: number[];
 }
 
 /** What can be drawn now; normals of frames are multiplied by 32767, and their attributes are those that change. */
@@ -80,6 +77,7 @@ export class Drawing {
     constructor(
         private growing: boolean,
         limits: Partial<Limits>,
+        private readonly memory: Pick<Memory, "normals" | "bounds">,
         private readonly show: Show,
     ) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
@@ -134,6 +132,12 @@ export class Drawing {
         if (this.growing) this.timer = setTimeout(() => this.flush(), this.due - performance.now());
     }
 
+    /** Show no more of what grows. */
+    close(): void {
+        this.growing = false;
+        clearTimeout(this.timer);
+    }
+
     /** Show what has come: its vertices, the faces that are whole by it, and the normals at these. */
     flush(): void {
         if (!this.growing || !this.isStale) return;
@@ -155,7 +159,7 @@ export class Drawing {
         const vertices = all.slice(0, count);
         news.fill(0);
         this.isStale = false;
-        const [positions, normals] = [points, normalsOf(faces, origin, points)].map((each) =>
+        const [positions, normals] = [points, this.memory.normals(faces, origin, points)].map((each) =>
             spread(each, 3, vertices),
         );
         const [own, index] = [vertices.map((vertex) => origin[vertex]), new Uint32Array(corners)];
@@ -178,13 +182,21 @@ export class Drawing {
     }
 
     private grow(event: EventOf<"block" | "refinement">): void {
-        const { vertices, positions } = event;
-        const { points, origin, news } = this;
-        for (let row = 0; row < vertices.length; row++) {
-            const vertex = vertices[row];
-            for (let d = 0; d < 3; d++) points[3 * vertex + d] = positions[3 * row + d];
-            news[vertex] |= origin[vertex] < 0 ? CAME : MOVED;
-            if (origin[vertex] < 0) origin[vertex] = this.blocks;
+        const { points, origin, news, blocks } = this;
+        const { first, positions } = event;
+        if (first !== undefined) {
+            const end = first + positions.length / 3;
+            points.set(positions, 3 * first);
+            news.fill(CAME, first, end);
+            origin.fill(blocks, first, end);
+        } else {
+            const { vertices } = event;
+            for (let row = 0; row < vertices.length; row++) {
+                const vertex = vertices[row];
+                for (let d = 0; d < 3; d++) points[3 * vertex + d] = positions[3 * row + d];
+                news[vertex] |= origin[vertex] < 0 ? CAME : MOVED;
+                if (origin[vertex] < 0) origin[vertex] = blocks;
+            }
         }
         this.isStale = true;
         if (event.type === "block") this.blocks++;
@@ -206,7 +218,7 @@ export class Drawing {
         }
         const { vertices, attributes: drawn } = this.shape!;
         const positions = spread(points, 3, vertices);
-        const normals = spread(normalsOf(this.faces, this.origin, points), 3, vertices);
+        const normals = spread(this.memory.normals(this.faces, this.origin, points), 3, vertices);
         const small = new Int16Array(normals.length);
         for (let i = 0; i < small.length; i++) small[i] = Math.round(normals[i] * MOST_NORMAL);
         const attributes = moved.flatMap((attribute) => {
@@ -231,7 +243,7 @@ export class Drawing {
                 ? drawnFaces(faces, chosen(), carried, points.length / 3)
                 : bare(isWhole ? new Uint32Array(faces) : cornersOf(faces, chosen()));
         const positions = spread(points, 3, vertices);
-        const normals = own ?? spread(normalsOf(faces, origin, points), 3, vertices);
+        const normals = own ?? spread(this.memory.normals(faces, origin, points), 3, vertices);
         const shape = (this.shape = {
             index,
             positions,
@@ -239,7 +251,7 @@ export class Drawing {
             attributes,
             vertices,
             pieces,
-            ...boundsOf(positions),
+            ...this.memory.bounds(positions),
         });
         const buffers = [index, positions, normals, ...attributes.map(({ values }) => values)].map(
             ({ buffer }) => buffer,
@@ -254,53 +266,4 @@ export class Drawing {
 function bare(index: Uint32Array): DrawnFaces {
     const pieces = index.length > 0 ? [{ part: 0, material: 0, start: 0, count: index.length }] : [];
     return { index, pieces, attributes: [] };
-}
-
-/** Normals of all vertices, shape (n, 3): sums of those of faces, as long as twice their areas; no face may lack a corner. */
-function normalsOf(faces: Int32Array, origin: Int32Array, p: ArrayLike<number>): Float32Array {
-    const n = new Float32Array(p.length);
-    for (let k = 0; k < faces.length; k += 3) {
-        if (origin[faces[k]] < 0 || origin[faces[k + 1]] < 0 || origin[faces[k + 2]] < 0) continue;
-        // One by one: lists of names take several times as long before this is compiled.
-        const a = 3 * faces[k];
-        const b = 3 * faces[k + 1];
-        const c = 3 * faces[k + 2];
-        const ux = p[b] - p[a];
-        const uy = p[b + 1] - p[a + 1];
-        const uz = p[b + 2] - p[a + 2];
-        const vx = p[c] - p[a];
-        const vy = p[c + 1] - p[a + 1];
-        const vz = p[c + 2] - p[a + 2];
-        const x = uy * vz - uz * vy;
-        const y = uz * vx - ux * vz;
-        const z = ux * vy - uy * vx;
-        for (let corner = k; corner < k + 3; corner++) {
-            const to = 3 * faces[corner];
-            n[to] += x;
-            n[to + 1] += y;
-            n[to + 2] += z;
-        }
-    }
-    for (let i = 0; i < n.length; i += 3) {
-        const length = Math.sqrt(n[i] * n[i] + n[i + 1] * n[i + 1] + n[i + 2] * n[i + 2]) || 1;
-        for (let d = i; d < i + 3; d++) n[d] /= length;
-    }
-    return n;
-}
-
-function boundsOf(p: Float32Array): Pick<Shape, "center" | "radius" | "low" | "high"> {
-    const low = [Infinity, Infinity, Infinity];
-    const high = [-Infinity, -Infinity, -Infinity];
-    for (let i = 0; i < p.length; i++) {
-        const d = i % 3;
-        if (p[i] < low[d]) low[d] = p[i];
-        if (p[i] > high[d]) high[d] = p[i];
-    }
-    const [x, y, z] = low.map((least, d) => (least + high[d]) / 2);
-    let most = 0;
-    for (let i = 0; i < p.length; i += 3) {
-        const far = (p[i] - x) ** 2 + (p[i + 1] - y) ** 2 + (p[i + 2] - z) ** 2;
-        if (far > most) most = far;
-    }
-    return { center: [x, y, z], radius: Math.sqrt(most), low, high };
 }

@@ -53,6 +53,22 @@ const [ENTRY_BYTES, ATTRIBUTE_BYTES] = [48, 56];
 /** The record of a header in C: numbers of each key, and how many they are. */
 const [KEYS, MOST_LIST] = [1 + Math.max(...Object.values(HEADER_KEYS)), 8];
 
+/** Fields of a header that are one number. */
+const NUMBERS = [
+    "vertices",
+    "faces",
+    "blocks",
+    "blockSize",
+    "coefficients",
+    "keyInterval",
+    "step",
+    "scale",
+    "smoothing",
+    "attributes",
+    "light",
+    "congruence",
+] as const;
+
 /** The fields of a header by their names: the record in C has them by their keys. */
 type FieldLists = Record<keyof typeof HEADER_KEYS, number[]>;
 
@@ -119,33 +135,19 @@ export class Engine extends Memory {
 
     header(): Header {
         const at = this.call("page_header");
-        const numbers = this.doubles(at, KEYS * MOST_LIST);
+        const record = this.doubles(at, KEYS * MOST_LIST);
         const counts = this.ints(at + 8 * KEYS * MOST_LIST, KEYS);
-        const listOf = (key: number): number[] => [...numbers.subarray(MOST_LIST * key, MOST_LIST * key + counts[key])];
+        const listOf = (key: number): number[] => [...record.subarray(MOST_LIST * key, MOST_LIST * key + counts[key])];
         const lists = Object.fromEntries(
             Object.entries(HEADER_KEYS).map(([name, key]) => [name, listOf(key)]),
         ) as FieldLists;
-        const { center, corner, grid, lattice, refinement, run, sequence } = lists;
-        const [bits = 0] = lists.paper;
-        return {
-            vertices: lists.vertices[0],
-            faces: lists.faces[0],
-            blocks: lists.blocks[0],
-            blockSize: lists.blockSize[0],
-            coefficients: lists.coefficients[0],
-            keyInterval: lists.keyInterval[0],
-            step: lists.step[0],
-            scale: lists.scale[0],
-            smoothing: lists.smoothing[0],
-            attributes: lists.attributes[0],
-            light: lists.light[0],
-            congruence: lists.congruence[0],
-            ...{ bits, center, corner, grid, lattice, refinement },
-            frames: sequence[0] ?? 0,
-            gopFrames: sequence[1] ?? 0,
-            run: run[0] ?? 0,
-            again: run[1],
-        };
+        const { center, corner, grid, lattice, refinement } = lists;
+        const numbers = Object.fromEntries(NUMBERS.map((name) => [name, lists[name][0]])) as Pick<
+            Header,
+            (typeof NUMBERS)[number]
+        >;
+        const [[bits = 0], [frames = 0, gopFrames = 0], [run = 0, again]] = [lists.paper, lists.sequence, lists.run];
+        return { ...numbers, bits, center, corner, grid, lattice, refinement, frames, gopFrames, run, again };
     }
 
     /** Entries of metadata, from number `from` on. */

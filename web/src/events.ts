@@ -6,8 +6,12 @@ import type { Header } from "./header";
 /** What the author says of a mesh, by names. */
 export type Metadata = Map<string, string | number | bigint | Uint8Array>;
 
-/** What a block changed: vertices, their positions in the unit of the mesh, and which of them are final. */
+/**
+ * What a block changed: vertices, their positions in the unit of the mesh, and which of them are final. `first`: these
+ * are the vertices from this one on.
+ */
 export interface Changes {
+    first?: number;
     vertices: Int32Array;
     positions: Float64Array;
     final: Uint8Array;

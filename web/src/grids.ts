@@ -2,7 +2,6 @@
  * Decodes a stream of a static mesh on a light grid while it arrives, as `decoder.ts` does, and nothing else: with
  * quick.wasm grids without congruent parts, with parts.wasm those of parts, too.
  */
-import { crc32 } from "./checksums";
 import type { Mesh, EventOf } from "./events";
 import { BsmError, CorruptError, errorLike } from "./errors";
 import type { Header } from "./header";
@@ -19,6 +18,21 @@ export type GridEvent = EventOf<"header" | "metadata" | "connectivity" | "block"
 class Light extends Memory {
     constructor(kernels: Kernels, limits: Limits) {
         super(kernels, limits, "light_open");
+    }
+
+    /** CRC-32 of zlib; `before` is that of the bytes in front. */
+    crc32(data: Uint8Array, before = 0): number {
+        return this.with(data, (at) => this.call("light_sum", at, data.length, before));
+    }
+
+    /** CRC-16 called XMODEM. */
+    crc16(data: Uint8Array): number {
+        return this.with(data, (at) => this.call("light_short_sum", at, data.length));
+    }
+
+    /** CRC-32 of the positions, in which -0 is 0 (F 5.10). */
+    get sum(): number {
+        return this.call("light_sum_of_positions");
     }
 
     /** Charge work, and the bytes that ask for it (M 14.3). */
@@ -59,9 +73,14 @@ class Light extends Memory {
     }
 
     private given(name: string, payload: Uint8Array, ...more: number[]): number {
-        return this.lent(payload.length, (at) => {
-            new Uint8Array(this.buffer, at).set(payload);
-            return this.check(this.call(name, at, payload.length, ...more));
+        return this.with(payload, (at) => this.check(this.call(name, at, payload.length, ...more)));
+    }
+
+    /** The result of `work` with bytes in the memory. */
+    private with(data: Uint8Array, work: (at: number) => number): number {
+        return this.lent(data.length, (at) => {
+            new Uint8Array(this.buffer, at).set(data);
+            return work(at);
         });
     }
 
@@ -74,7 +93,8 @@ class Light extends Memory {
 /** Takes the bytes of a stream as they come, and gives events as soon as they can be known. */
 export class GridDecoder {
     private readonly reader: Reader;
-    private readonly light: Light;
+    /** @internal */
+    readonly engine: Light;
     private readonly queue: GridEvent[] = [];
     private error?: BsmError;
     private header?: Header;
@@ -84,8 +104,8 @@ export class GridDecoder {
 
     constructor(kernels: Kernels, given: Partial<Limits> = {}) {
         const limits = { ...DEFAULT_LIMITS, ...given };
-        const light = (this.light = new Light(kernels, limits));
-        this.reader = new Reader(limits, light.charge.bind(light));
+        this.engine = new Light(kernels, limits);
+        this.reader = new Reader(limits, this.engine);
     }
 
     /** Take more bytes of the stream. */
@@ -117,7 +137,7 @@ export class GridDecoder {
 
     /** Leave the memory to the next decoder; this one is not to be asked for anything more. */
     release(): void {
-        this.light.release();
+        this.engine.release();
     }
 
     /** Decode the rest of a complete stream. */
@@ -128,60 +148,49 @@ export class GridDecoder {
     }
 
     private get positions(): Float64Array {
-        return this.light.doubles(this.places, 3 * this.header!.vertices);
+        return this.engine.doubles(this.places, 3 * this.header!.vertices);
     }
 
     private accept(packet: Packet): void {
         switch (packet.type) {
             case "header":
                 this.header = packet.header;
-                this.light.begin(packet.header);
+                this.engine.begin(packet.header);
                 return void this.queue.push(packet);
             case "metadata":
                 return void this.queue.push(packet);
             case "connectivity":
-                return void (this.faces = this.light.faces(packet.data, this.header!.faces));
+                return void (this.faces = this.engine.faces(packet.data, this.header!.faces));
             case "grid":
                 return this.acceptGrid(packet.first, packet.count, packet.data);
             case "end":
-                this.check(packet.positions);
+                if (packet.positions !== undefined && packet.positions !== this.engine.sum)
+                    throw new CorruptError(
+                        "the checksum of decoded positions is wrong: they are not those that the encoder saw",
+                    );
                 this.queue.push({ type: "end", missing: new Int32Array(0), degraded: new Int32Array(0) });
         }
-    }
-
-    /** Compare the checksum of positions, if the stream has one (F 5.10). */
-    private check(expected?: number): void {
-        if (expected === undefined) return;
-        const { buffer } = this.positions;
-        const parts = new Uint16Array(buffer);
-        for (let i = 3; i < parts.length; i += 4)
-            if (parts[i] === 0x8000 && (parts[i - 1] | parts[i - 2] | parts[i - 3]) === 0) parts[i] = 0; // -0 is 0
-        if (crc32(new Uint8Array(buffer)) !== expected)
-            throw new CorruptError(
-                "the checksum of decoded positions is wrong: they are not those that the encoder saw",
-            );
     }
 
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
         if (first === 0) {
             const loose = { vertices: new Int32Array(0), positions: new Float64Array(0) };
-            this.queue.push({
-                type: "connectivity",
-                faces: this.faces!.slice(),
-                vertices: this.header!.vertices,
-                loose,
-            });
+            this.queue.push({ type: "connectivity", faces: this.faces!, vertices: this.header!.vertices, loose });
         }
-        this.places = this.light.decode(data, first, count);
-        const vertices = new Int32Array(count);
-        for (let i = 0; i < count; i++) vertices[i] = first + i;
-        const positions = this.light.doubles(this.places + 24 * first, 3 * count);
+        this.places = this.engine.decode(data, first, count);
+        const positions = this.engine.doubles(this.places + 24 * first, 3 * count);
         this.queue.push({
             type: "block",
             index: this.chunks++,
-            vertices,
+            first,
             positions,
-            final: new Uint8Array(count).fill(1),
+            // Made for those who ask: loops are slow before they are compiled.
+            get vertices() {
+                return Int32Array.from({ length: count }, (_, i) => first + i);
+            },
+            get final() {
+                return new Uint8Array(count).fill(1);
+            },
         });
     }
 }

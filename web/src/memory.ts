@@ -18,6 +18,14 @@ export function errorName(status: number): string {
     return `${NAMES[status] ?? "Bsm"}Error`;
 }
 
+/** The box around vertices, its center, and how far from that the farthest one is. */
+export interface Bounds {
+    low: number[];
+    high: number[];
+    center: [number, number, number];
+    radius: number;
+}
+
 export class Memory {
     /** Undefined once it is given back, or has failed by itself: nothing is called then. */
     private exports?: Exports;
@@ -79,6 +87,28 @@ export class Memory {
 
     doubles(at: number, count: number): Float64Array {
         return new Float64Array(this.buffer, count > 0 ? at : 0, count).slice();
+    }
+
+    /** Normals of vertices at `points`, by the faces whose corners all have an origin, which is 0 or more. */
+    normals(faces: Int32Array, origin: Int32Array, points: ArrayLike<number>): Float32Array {
+        const size = points.length;
+        return this.lent(12 * size + 4 * (origin.length + faces.length), (at) => {
+            new Float64Array(this.buffer, at).set(points);
+            const [found, origins, corners] = [at + 8 * size, at + 12 * size, at + 12 * size + 4 * origin.length];
+            new Int32Array(this.buffer, origins).set(origin);
+            new Int32Array(this.buffer, corners).set(faces);
+            this.call("page_normals", corners, faces.length, origins, at, found, size / 3);
+            return new Float32Array(this.buffer, found, size).slice();
+        });
+    }
+
+    bounds(points: Float32Array): Bounds {
+        return this.lent(80 + 4 * points.length, (at) => {
+            new Float32Array(this.buffer, at + 80).set(points);
+            this.call("page_bounds", at + 80, points.length / 3, at);
+            const [lx, ly, lz, hx, hy, hz, x, y, z, radius] = this.doubles(at, 10);
+            return { low: [lx, ly, lz], high: [hx, hy, hz], center: [x, y, z], radius };
+        });
     }
 
     /** The result of `work` with some bytes of the memory, which are free afterwards. */

@@ -1,6 +1,5 @@
 /** Bytes to packets, without input or output of its own (specification, F 2, F 3, F 5). */
 import { KINDS, PREAMBLE, SHORT } from "./constants.json";
-import { crc16, crc32 } from "./checksums";
 import { BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError } from "./errors";
 import { Grammar } from "./grammar";
 import { checkLimit, type Limits } from "./limits";
@@ -11,8 +10,12 @@ import { parseVarint } from "./varint";
 /** Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes (M 14.3). */
 const [FRAME, BYTE, METADATA, ENTRY] = [8e3, 8, 2e4, 8e3];
 
-/** Takes work, and the bytes that ask for it, and may refuse it. */
-export type Charge = (work: number, received: number) => void;
+/** Takes work, and the bytes that ask for it, and may refuse it; and sums bytes up (F 1.3, F 1.4). */
+export interface Clerk {
+    charge(work: number, received: number): void;
+    crc32(data: Uint8Array, before?: number): number;
+    crc16(data: Uint8Array): number;
+}
 
 const MAGIC_SIZE = 4;
 /** A version that differs only in these bits is another minor one. */
@@ -50,7 +53,7 @@ export class Reader {
 
     constructor(
         private readonly limits: Limits,
-        private readonly charge: Charge,
+        private readonly clerk: Clerk,
     ) {}
 
     /** Take more bytes of the stream, any number of them. */
@@ -97,10 +100,10 @@ export class Reader {
         while (!this.grammar.ended) {
             const frame = this.frame();
             if (!frame) return this.incomplete();
-            this.charge(FRAME + BYTE * frame.size, frame.size);
+            this.clerk.charge(FRAME + BYTE * frame.size, frame.size);
             const packet = this.parse(frame.type, frame.payload);
-            if (packet?.type === "metadata") this.charge(METADATA + ENTRY * packet.entries.size, 0);
-            this.crc = crc32(this.buffer.subarray(this.begin, this.begin + frame.size), this.crc);
+            if (packet?.type === "metadata") this.clerk.charge(METADATA + ENTRY * packet.entries.size, 0);
+            this.crc = this.clerk.crc32(this.buffer.subarray(this.begin, this.begin + frame.size), this.crc);
             this.frames++;
             this.drop(frame.size);
             if (packet) return packet;
@@ -124,7 +127,7 @@ export class Reader {
             this.incomplete();
             return false;
         }
-        this.crc = crc32(present);
+        this.crc = this.clerk.crc32(present);
         this.drop(PREAMBLE.length);
         this.started = true;
         return true;
@@ -146,7 +149,7 @@ export class Reader {
         checkLimit(this.limits, "frameBytes", length);
         if (end > this.end) return undefined;
         const body = this.buffer.subarray(start, sum);
-        const expected = end - sum === 2 ? crc16(body) : crc32(body);
+        const expected = end - sum === 2 ? this.clerk.crc16(body) : this.clerk.crc32(body);
         if (littleEndian(this.buffer.subarray(sum, end)) !== expected) {
             throw new CorruptError(`the checksum of a frame of type ${type} and ${length} bytes is wrong`);
         }

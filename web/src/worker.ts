@@ -6,6 +6,7 @@ import { BsmError, type Described } from "./errors";
 import type { Share, SharedBlock } from "./share";
 import { Kernels } from "./kernels";
 import type { Limits } from "./limits";
+import type { Memory } from "./memory";
 import type { Build } from "./peek";
 import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Signal } from "./signals";
 
@@ -132,7 +133,7 @@ export function deskOf(open: Open): { openDesk: (start: Start, say: Say) => Stre
     };
 }
 
-type Decoding = Pick<Decoder, "receiveData" | "receiveEof" | "nextEvent" | "release">;
+type Decoding = Pick<Decoder, "receiveData" | "receiveEof" | "nextEvent" | "release"> & { readonly engine: Memory };
 
 export class Reporter {
     private readonly drawing?: Drawing;
@@ -148,7 +149,9 @@ export class Reporter {
         const { drawing, limits, reported = 0 } = start;
         this.reported = -reported;
         if (drawing)
-            this.drawing = new Drawing(drawing === "growing", limits, (picture, moved) => this.say({ picture }, moved));
+            this.drawing = new Drawing(drawing === "growing", limits, decoder.engine, (picture, moved) =>
+                this.say({ picture }, moved),
+            );
     }
 
     take(data: Uint8Array | null): void {
@@ -158,6 +161,7 @@ export class Reporter {
     }
 
     close(): void {
+        this.drawing?.close();
         this.decoder.release();
     }
 

@@ -20,7 +20,8 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
     let site: Site;
     /** As `page.waitForFunction`, which the policy of the page stops: it makes a function of a text. */
     const until = async (holds: () => boolean): Promise<void> => {
-        while (!(await page.evaluate(holds))) await delay(20);
+        for (const end = performance.now() + PATIENCE; !(await page.evaluate(holds)); await delay(20))
+            assert.ok(performance.now() < end, `it did not become true: ${holds}`);
     };
 
     before(async () => {
@@ -52,7 +53,7 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
     test("decodes with a helper, in threads that are used again", async () => {
         await page.goto(site.address);
         await until(() => "bsm" in window);
-        const found = await page.evaluate(async () => {
+        const found = await page.evaluate(async (patience) => {
             const { Pool } = (window as any).bsm;
             let [helped, workers] = [0, 0];
             window.Worker = class extends Worker {
@@ -77,6 +78,7 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
                             );
                     };
                     const stream = pool.open({ onEvent, onEnd: () => keep(places), onError: fail }, wishes);
+                    setTimeout(() => fail(new Error(`${JSON.stringify(wishes)}: ${places.length} places`)), patience);
                     stream.receiveData(bytes.slice());
                     stream.receiveEof();
                 });
@@ -84,7 +86,7 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
             await Promise.all([0, 1, 2, 3, 4].map(() => decoded({ drawing: "whole" })));
             pool.dispose();
             return { positions, helped, workers };
-        });
+        }, PATIENCE);
         assert.deepEqual(found, {
             positions: [...decode(kernels, read("good-keys")).positions],
             helped: 1,

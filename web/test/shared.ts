@@ -5,7 +5,7 @@ import type { TestContext } from "node:test";
 import { pathToFileURL } from "node:url";
 import { inflateSync } from "node:zlib";
 import { chromium, type Browser, type Page } from "playwright-core";
-import { crc16, crc32 } from "../src/checksums";
+import { crc16, crc32 } from "./checksums";
 import { parseVarint } from "../src/varint";
 import {
     decode,

@@ -3,7 +3,8 @@ import { Drawing, type Picture } from "../drawing";
 import { EncodeError, kindOf, type EncodeOptions } from "../encoding";
 import { firstsOf } from "../files/polygons";
 import type { Header } from "../header";
-import { openDesk } from "../index";
+import { Engine } from "../engine";
+import { Kernels, openDesk } from "../index";
 import { Pool } from "../pool";
 import { suffixOf, type Reading } from "../reading";
 import { encodeHere, inSingle, readFrames, readOne, shownAmong } from "../together";
@@ -21,12 +22,18 @@ export interface Job {
 export type Status = { stage: string; share: number } | { error: string } | { content: Content };
 
 /** A mesh or sequence as it is drawn, and what of it can change hands. */
-function drawn({ positions, faces, frames = 0, attributes = [], metadata = {} }: Reading["mesh"]): {
-    pictures: Picture[];
-    moved: Transferable[];
-} {
+function drawn(
+    { positions, faces, frames = 0, attributes = [], metadata = {} }: Reading["mesh"],
+    kernels: WebAssembly.Module,
+): { pictures: Picture[]; moved: Transferable[] } {
     const [pictures, moved]: [Picture[], Transferable[]] = [[], []];
-    const drawing = new Drawing(false, {}, (picture, buffers = []) => (pictures.push(picture), moved.push(...buffers)));
+    const engine = new Engine(new Kernels(kernels), {}, false);
+    const drawing = new Drawing(
+        false,
+        {},
+        engine,
+        (picture, buffers = []) => (pictures.push(picture), moved.push(...buffers)),
+    );
     const size = positions.length / Math.max(frames, 1);
     const [firsts, none] = [firstsOf(positions, size), new Int32Array(0)];
     drawing.accept({ type: "header", header: { vertices: new Set(firsts).size, faces: faces.length / 3 } as Header });
@@ -63,6 +70,7 @@ function drawn({ positions, faces, frames = 0, attributes = [], metadata = {} }:
         degraded: none,
         positions: frames > 0 ? undefined : Float64Array.from(positions),
     });
+    engine.release();
     return { pictures, moved };
 }
 
@@ -111,7 +119,7 @@ async function work(
                 : await (isPair || preset === "lossless"
                       ? exact(mesh, encode, isPair)
                       : encode({ bits: parseInt(preset) }));
-        const { pictures, moved } = drawn(mesh);
+        const { pictures, moved } = drawn(mesh, kernels);
         transfer.push(...moved);
         rest.used.forEach((each) => used.add(each));
         notes.push(...rest.notes.map((note) => (isPair ? `${name}: ${note}` : note)));
