@@ -22,13 +22,13 @@ from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference, face_normals
 
-WHOLE, PIECE, PIECES = 6000, 2000, 2  # vertices up to which all are rehearsed on, and of two pieces from there on
+PIECE, PIECES = 2000, 2  # vertices of pieces on which meshes are rehearsed that are larger than one piece more
 
 
 def sample(faces: Faces, levels: Floats) -> tuple[Order, Faces]:
     """Vertices of the sample, ascending, and its faces in their numbers; all of a mesh that is not large."""
     n = len(levels)
-    if n <= WHOLE:
+    if n <= (PIECES + 1) * PIECE:
         return np.arange(n), faces
     labels = metis_partition(graph_of_faces(faces, n), round(n / PIECE)).labels
     means = np.bincount(labels, levels) / np.bincount(labels)
@@ -50,28 +50,26 @@ CANDIDATES = (
 """The first one makes the first guess."""
 SEEN = tuple(Filter(RAYS, keep, sigma_r) for keep, sigma_r in ((0.3, 0.4), (1.0, 0.4), (0.3, 0.25), (1.0, 0.55)))
 """For scans of one view."""
-AXIAL = (BASE, *(Filter("positions", keep, width) for keep, width in ((0.4, 0.4), (0.2, 0.25), (0.1, 0.55))))
+AXIAL = (CANDIDATES[1], *(Filter("positions", keep, width) for keep, width in ((0.4, 0.4), (0.2, 0.25), (0.1, 0.55))))
 """For noise along one axis, along which vertices then go back. The first keeps sharp edges for the guess."""
-FUSED = (*(Filter(BENDS, weight, 0.3) for weight in (0.3, 0.6, 0.15)), CANDIDATES[1])
+FUSED = tuple(Filter(BENDS, weight, 0.3) for weight in (0.15, 0.3, 0.6))
 EVEN, FUSED_UNEVEN, FUSED_MOST = 0.2, 7.0, 2.5
 """For volumes, whose noise is even and as fine as their cells. Noise of cameras is uneven, and too broad to rehearse
 with: the weight of bends over the unevenness, and its bound."""
-CELL_KEEP, CELL_WIDTH, CELL_ITERATIONS = 0.2, 0.25, (16, 11)
-"""For binary volumes; of thick slices, whose stairs are steeper, the width grows with thickness to the power of 2/3,
-and the iterations are fewer where so much of the stairs, a cell's thickness, is on walls of one slice."""
-DETAILED = 1.0 / 30.0
+CELL_ITERATIONS = 15  # for binary volumes
 THICK, BENDS_WIDTH, BENDS_ITERATIONS = 2.5, 0.3, (8, 12)
 """Slices from `THICK` cells across on also get the surface of fewest bends, from twice that on in two versions. It is
 best on smooth shapes; its mean with the other filter loses nothing where detail is finer than slices."""
 WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
 SLIDING = {"heights": "positions"}  # hand-overs that let vertices slide along the surface, for those that do not
 GUESSED = 8  # iterations of a first guess, and of rehearsals on it
-BEGUN, ROUND, CHOSEN = 0.05, 0.2, 0.5  # of all work: before rehearsals, in a round of them, and before the filter
+STAGES = 4  # that progress tells of: noise is found, filters are rehearsed twice, and the choice is carried out
 MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
 SOME_FLAT, MOST_FLAT = 0.2, 0.8  # shares of the faces on planes from which on these count, and networks do not
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
-AS_LARGE = 1.05  # rehearsed error over the change from which on nothing tells noise from shape
-UNPROMISED = 1.2  # rehearsed error over that which the roughness tells, from which on thin parts became worse
+AS_LARGE = 1.05
+"""Rehearsed error over the change, from which on nothing tells noise from shape; and over the error before, as
+roughness tells it, from which on thin parts became worse."""
 
 
 @dataclass(frozen=True)
@@ -152,12 +150,12 @@ def choose(
     rehearsal = Rehearsal(mesh, surface, known, level, filters[0], named("goal", GOALS, goal))
     flat = mesh.planes(rehearsal.truth.positions).share if finding.kind == "white" else 0.0
     finishes = ["none", "learnt"] if filters is CANDIDATES and learnt and flat < MOST_FLAT else ["none"]
-    winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, BEGUN + ROUND * done))
+    winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, (1.0 + done) / STAGES))
     steadied = finding.kind == "unsteady"
     if not steadied:
         # The result of some filters is a better guess. A third round would repeat its own mistakes.
         rehearsal.again(winner)
-        winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, BEGUN + ROUND * (1.0 + done)))
+        winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, (2.0 + done) / STAGES))
     if flat > SOME_FLAT:
         winner = rehearsal.flattened(winner)
     expected, untreated, reason = winner.error, rehearsal.untreated, finding.reason
@@ -195,7 +193,7 @@ def _doubt(error: float, untreated: float, changed: float, forecast: float) -> s
         "any filter would cost more than it gains": WORTH * untreated,
         # Noise reads 0.15 to 1.01 of it, clean meshes that were taken for noisy 1.1, 1.2 and 2.1.
         "the expected error is as large as the change": AS_LARGE * changed,
-        "the triangles are so uneven that any filter would turn their normals farther": UNPROMISED * forecast,
+        "the triangles are so uneven that any filter would turn their normals farther": AS_LARGE * forecast,
     }
     return next((doubt for doubt, most in doubts.items() if error > most), "")
 
@@ -214,9 +212,9 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
         if more and not stored and finding.bound.thin > WALLS:
             steps = (*steps, Step(Filter("none", 0.0, 0.4), BENDS_ITERATIONS[0]))
         if not stored:
-            width = min(CELL_WIDTH * flat ** (2.0 / 3.0), 1.0)
-            detailed = bool(more) and finding.bound.thin > DETAILED * flat
-            steps = (*steps, Step(Filter("positions", CELL_KEEP, width), CELL_ITERATIONS[detailed]))
+            # Stairs of thick slices are steeper.
+            width = min(CANDIDATES[1].sigma_r * flat ** (2.0 / 3.0), 1.0)
+            steps = (*steps, Step(Filter("positions", CANDIDATES[1].keep, width), CELL_ITERATIONS))
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
     unknown = Forecast(0.0, 0.0, most=1.0, known=False)
     return AutomaticChoice(steps, finding.kind, finding.reason, noise, 0.0, 0.0, forecast=unknown)

@@ -14,7 +14,7 @@ from bsm.codec.geometry.metrics import mean_edge_length
 
 BEND = 0.02  # change of slope up to which bends are rounded, not sharp
 # Each round solves a linear system by conjugate gradients, from the solution before: it need not be exact.
-ROUNDS, STEPS, EXACT, STAND_OUT = 6, 120, 1e-5, 2.0
+ROUNDS, STEPS, STAND_OUT = 6, 120, 2.0
 
 
 def flattened(given: Positions, places: Positions, topology: Topology, weight: float) -> Positions:
@@ -39,7 +39,7 @@ def fewer_bends(given: Floats, places: Floats, topology: Topology, weight: float
         # and costs nothing.
         near = sparse.diags(1.0 / system.diagonal())
         columns = zip((trust[:, None] * given).T, values.T, strict=True)
-        found = [linalg.cg(system, *each, rtol=EXACT, maxiter=STEPS, M=near)[0] for each in columns]
+        found = [linalg.cg(system, *each, maxiter=STEPS, M=near)[0] for each in columns]
         values = np.stack(found, axis=1)
         off = np.linalg.norm(values - given, axis=1)
         # The median of a normal distribution is 0.6745 deviations. Points far beyond are outliers, which least squares

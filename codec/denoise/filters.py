@@ -26,7 +26,6 @@ from bsm.codec.geometry.metrics import face_normals
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}
 RAYS = "rays"  # the hand-over of scans of one view, see `View.flattened`; what is kept is its strength then
 BENDS = "bends"  # of thick slices, see `Cells.flattened`, and of fused views, where `keep` is the weight of bends
-SIGMA_R = 0.3  # width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle
 
 HandOver = Callable[[Positions, Positions, GuidedFilter], Positions]
 """From noisy and coarse positions, both (n, 3), to those from which the fine step starts (a new array)."""
@@ -41,7 +40,7 @@ def coarse_heights(noisy: Positions, coarse: Positions, guided: GuidedFilter) ->
 def coarse_normals(noisy: Positions, coarse: Positions, guided: GuidedFilter) -> Positions:
     """Keep the noisy positions, shape (n, 3), after one joint bilateral pass that the coarse mesh's normals guide."""
     guide = face_normals(coarse, guided.topology.faces)
-    return guided.step(noisy, lambda *_: guide, SIGMA_R)
+    return guided.step(noisy, lambda *_: guide)
 
 
 HAND_OVERS: dict[str, HandOver] = {

@@ -10,12 +10,12 @@ import numpy as np
 from bsm.bitstream.errors import HarmError, MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import checked, named
-from bsm.codec.denoise.automatic import CHOSEN, AutomaticChoice, calm, choose, treat
+from bsm.codec.denoise.automatic import STAGES, AutomaticChoice, calm, choose, treat
 from bsm.codec.denoise.coarse import RULES, CoarseFilter, by_lengths
 from bsm.codec.denoise.filters import HAND_OVERS, DenoiseOptions, Filters
 from bsm.codec.denoise.noise.causes import weld_seams
 from bsm.codec.denoise.noise.finding import Finding
-from bsm.codec.denoise.noise.search import find_noise
+from bsm.codec.denoise.noise.search import FAINTEST, find_noise
 from bsm.codec.denoise.normals import FINE_STEPS, GuidedFilter
 from bsm.codec.denoise.rehearsal import GOALS, Progress, silent
 from bsm.codec.denoise.safety import judge
@@ -29,9 +29,6 @@ Pair = tuple[Positions, Positions]
 # The filter looks at frequencies over time, of which short windows have few.
 WINDOW = 64  # frames that the temporal filter sees at once, if they fit
 WINDOW_BYTES = 2**28
-# Without fading, the change from one window to the next would be seen as a jump.
-OVERLAP = 8  # frames over which one window fades into the next
-UNSTEADY = 0.03  # noise that changes from frame to frame, in mean edges along the normals, from which on it is removed
 CHANGING = "noise that changes with the frames"
 
 
@@ -104,11 +101,11 @@ class FrameDenoiser:
                 else:
                     found = find_noise(begun, self._surface.probe)
                 # What the temporal filter leaves is known in strength, even where the mesh itself does not show it.
-                if remaining is not None and remaining >= UNSTEADY * found.edge:
+                if remaining is not None and remaining >= FAINTEST * found.edge:
                     found = Finding("unsteady", remaining, np.full(len(begun), remaining), found.edge, CHANGING)
                 goal = "both" if remaining is not None and self._goal == "shading" else self._goal
                 choice = choose(begun, found, self._surface, goal, self._progress)
-                self._progress("filtering", CHOSEN)
+                self._progress("filtering", (STAGES - 1) / STAGES)
                 if remaining is None:
                     choice = choice.after(outliers)
                 elif not choice.steps:
@@ -121,7 +118,7 @@ class FrameDenoiser:
         """Pairs of given frames and welded ones after the temporal filter, and the level of noise that is left."""
         n = len(self._members)
         # Large meshes get shorter windows, so that memory stays the same.
-        size = int(np.clip(WINDOW_BYTES // (24 * max(1, n)), 2 * OVERLAP, WINDOW))
+        size = int(np.clip(WINDOW_BYTES // (24 * max(1, n)), 2 * FEWEST_FRAMES, WINDOW))
         filter_: TemporalFilter | None = None
         seen: list[Positions] = []
         tail: Positions | None = None
@@ -139,20 +136,21 @@ class FrameDenoiser:
                 steadied, deviation, remaining = filter_(welded)
                 edge = mean_edge_length(welded[0], self._surface.topology.faces)
                 # Below this, frames are steady already, and a filter could only blur fast motion.
-                if np.sqrt(3.0) * deviation > UNSTEADY * edge:
+                if np.sqrt(3.0) * deviation > FAINTEST * edge:
                     welded, level = steadied, np.sqrt(3.0) * deviation * remaining
             results = welded[-fresh:]
             if tail is not None:
+                # Without fading, the change from one window to the next would be seen as a jump.
                 fading = min(len(tail), len(results))
                 share = ((np.arange(fading) + 1.0) / (fading + 1.0))[:, None, None]
                 results = np.concatenate([(1.0 - share) * tail[:fading] + share * results[:fading], results[fading:]])
             # The last frames of a window wait, since the next window sees what follows them.
-            ready = len(results) if last else len(results) - OVERLAP
+            ready = len(results) if last else len(results) - FEWEST_FRAMES
             if ready:
                 yield list(zip(seen[-fresh:][:ready], results[:ready], strict=True)), level
             if last:
                 return
-            tail, fresh = results[ready:], OVERLAP
+            tail, fresh = results[ready:], FEWEST_FRAMES
 
     def _by_options(self, frames: Iterator[Positions], options: DenoiseOptions) -> Iterator[Pair]:
         """Given frames, and welded results that pass the gates."""

@@ -23,21 +23,18 @@ MOST_ITERATIONS = 100  # no filter has wanted as many; it keeps the work bounded
 PATIENCE = 2  # iterations that are tried after the best one
 MOST_MEMBERS = 4  # of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer
 GAIN = 1.01  # members join while the error stays below this multiple: several make fewer mistakes than one
-EASIER = {"none": 1.0, "learnt": 0.93}
-"""What errors after a finish, in turn, count: true shapes have less noise, and more detail, than guesses."""
-SEED = 1
+EASIER = 0.93  # what errors after learnt normals count: true shapes have less noise, and more detail, than guesses
 FINE_SHAPE, FILTERED = 1.3, 0.6
 """Finest frequencies of steadied frames over their noise, from which on they hold detail of the shape; and the share of
 an iteration in the guess at other frames."""
 LOST, LOST_MORE = (-0.04, 0.2), 3.5
 """Roughness that a guess loses (a logarithm, within bounds), and the factor by which the mesh has lost more."""
 LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
-UNSURE, LEAST, DETAIL = {"correlated": 0.87, "grid": 0.87, "axis": 0.7}, 0.87, 1.44
-"""Kinds whose rehearsal does not show whether detail is lost, as on meshes of few vertices; and the least error there,
-and that where detail is lost, over the rehearsed one."""
-DETAIL_SEEN = 1.65  # the same in scans of one view: an armadillo ends at 2.2 times the rehearsed error, others below
-MOST_DROWNED = 0.1  # share of faces lower than the noise is high, from which on angles cannot be estimated
+UNSURE, LEAST, DETAIL = ("correlated", "grid", "axis"), 0.87, 1.65
+"""Kinds whose rehearsal does not show whether detail is lost, as on meshes of few vertices; the least error there, over
+the rehearsed one; and that where detail is lost, over the least."""
 NOISE_OVER = (0.25, 4.0)  # bounds of the noise's energy over that of the rehearsal
+MOST_DROWNED = 0.1  # share of faces lower than the noise is high, from which on angles cannot be estimated
 
 Goal = Callable[[Reference, Positions], float]
 Progress = Callable[[str, float], None]
@@ -94,19 +91,19 @@ class Rehearsal:
             # Little noise is left. A guess without any has lost detail, and one with all of it asks for no filter.
             once = self._within(next(islice(given.iterates(base), 1, None)), given.given)
             share = 0.0 if level.normal > FINE_SHAPE * finding.level else FILTERED
-            self._rehearse(given.given + share * (once - given.given), SEED)
+            self._rehearse(given.given + share * (once - given.given))
             return
         iterations = 1
         for done, guess in enumerate(given.iterates(base)):
             if done < iterations:
                 continue
-            self._rehearse(self._within(guess, given.given), SEED)
+            self._rehearse(self._within(guess, given.given))
             wanted = self.attempt(base).steps[0].iterations
             if wanted <= 1.5 * iterations + 0.5:
                 break
             iterations = wanted
 
-    def _rehearse(self, guess: Positions, seed: int) -> None:
+    def _rehearse(self, guess: Positions, seed: int = 1) -> None:
         """Make a guess, shape (n, 3), noisy."""
         self.truth = Reference(guess, self._topology.faces)
         self.noisy = self._synthesis.draw(guess, seed)
@@ -114,7 +111,7 @@ class Rehearsal:
 
     def again(self, outcome: Rehearsed) -> None:
         """Rehearse with the result of an outcome on the mesh as the guess."""
-        self._rehearse(self._performed(outcome), SEED + 1)
+        self._rehearse(self._performed(outcome), seed=2)
 
     def _performed(self, outcome: Rehearsed) -> Positions:
         result = self._mesh.finished(self._mesh.mean(outcome.steps), outcome.finish)
@@ -131,22 +128,18 @@ class Rehearsal:
 
     def forecast(self, winner: Rehearsed) -> Forecast:
         """Return the angles to expect on the rehearsed mesh; detail that the filter removes is gone from the guess."""
-        guess = self._roughness(self.truth.positions)
         scanned = self._finding.kind == "view"  # whose noise is known so well that rehearsals say enough
         lost = 0.0 if scanned else self.lost(winner)
-        clean = guess * np.exp(LOST_MORE * max(lost, 0.0))
+        guess = self._roughness(self.truth.positions)
         drawn = self._roughness(self.noisy) ** 2 - guess**2
-        found = self._roughness(self._mesh.given) ** 2 - clean**2
+        found = self._roughness(self._mesh.given) ** 2 - (guess * np.exp(LOST_MORE * max(lost, 0.0))) ** 2
         before = float(np.sqrt(np.clip(found / drawn, *NOISE_OVER))) if drawn > 0.0 else 1.0
-        after = np.exp(LOST_MORE * lost)
         noisy = float(self._touched[self._topology.faces].any(axis=1).mean()) or 1.0
         few = int(self._surface.probe.windows.valid.sum()) < MANY_WINDOWS
         sure = lost <= LOST_SURELY and self._finding.kind not in UNSURE and not (scanned or few)
-        least = 1.0 if sure or scanned else UNSURE.get(self._finding.kind, LEAST)
-        most = 1.0 if sure else (DETAIL_SEEN if scanned else DETAIL) / least
-        expected = float(after) * winner.error / noisy * least
+        expected = float(np.exp(LOST_MORE * lost)) * winner.error / noisy * (1.0 if sure or scanned else LEAST)
         known = self._finding.clear and self._drowned < MOST_DROWNED
-        return Forecast(before * self.untreated / noisy, expected, most, known)
+        return Forecast(before * self.untreated / noisy, expected, 1.0 if sure else DETAIL, known)
 
     @property
     def _drowned(self) -> float:
@@ -199,8 +192,7 @@ class Rehearsal:
         for finish in finishes:
             result = self._within(self._trial.finished(best.result, finish), self.noisy)
             finished.append(Rehearsed(best.steps, self._goal(self.truth, result), result, finish))
-        best = min(finished, key=lambda outcome: outcome.error)
-        return next(each for each in reversed(finished) if EASIER[each.finish] * each.error <= best.error)
+        return min(finished, key=lambda outcome: outcome.error * (EASIER if outcome.finish == "learnt" else 1.0))
 
     def flattened(self, winner: Rehearsed) -> Rehearsed:
         """The winner, put on planes, as it then does with its own result as the guess."""

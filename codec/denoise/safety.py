@@ -9,13 +9,13 @@ import numpy as np
 from bsm.codec.arrays import Mask, Positions
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.search import FAINTEST
 
 MOST, MOST_FUSED, MOST_UNKNOWN = 1.9, 3.0, 1.25
 """Movement along the normals over noise, above which a window has lost more than noise: where noise is known, which
 varies by chance between windows if neighbors share it, and with the slant in scans of one view; in fused views, whose
 broad noise is stronger where few views meet; and where noise is not known."""
 MOST_CORRELATED = 4.0  # at most, correlated noise over its finest frequencies, a ratio that is the same everywhere
-FAINT = 0.02  # movements below this, in mean edges, are harmless
 DETAIL_LOST = {"shading": 0.075, "shape": 0.03, "both": 0.03}
 """Noise may hold detail where rehearsals for a goal lose more roughness than this (a logarithm)."""
 NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 1.03, 4.0, 0.4
@@ -34,7 +34,7 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     unsure = finding.kind == "unknown" and bool(windows.valid.any())
     if not finding.noisy and not unsure:
         # No statistics here: they may be what is missing.
-        if np.linalg.norm(noisy - result, axis=1).max(initial=0.0) <= FAINT * finding.edge:
+        if np.linalg.norm(noisy - result, axis=1).max(initial=0.0) <= FAINTEST * finding.edge:
             return everywhere, ""
         return ~everywhere, f"{finding.reason}, and the result moves vertices nevertheless"
     normals = probe.smooth_normals(result, passes=0)
@@ -43,7 +43,7 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     known = found if unsure else windows.means(finding.levels)
     # Rounding is known from its grid, and may hide from the finest frequencies where it has merged vertices.
     present = np.where(known > 0.0, np.maximum(found, (1.0 if finding.kind == "grid" else 0.5) * known), 0.0)
-    ratio = removed / np.maximum(present, FAINT * finding.edge)
+    ratio = removed / np.maximum(present, FAINTEST * finding.edge)
     # Where an axis hardly reaches, windows are put back one by one but do not count against the whole.
     judged = windows.valid & (known > max(0.0, REACHED * finding.level))
     movement = float(np.median(ratio[judged])) if judged.any() else 0.0

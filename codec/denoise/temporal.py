@@ -6,11 +6,10 @@ import numpy as np
 
 from bsm.codec.arrays import Faces, Floats, Positions
 from bsm.codec.blocks.overlap import block_size, grow_blocks, metis_partition
+from bsm.codec.denoise.coarse import BLOCK_SIZE, OVERLAP
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.threads import ordered_map
 
-BLOCK_SIZE = 500
-OVERLAP = 1.25
 FEWEST_FRAMES = 8
 
 

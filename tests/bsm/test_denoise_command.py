@@ -14,7 +14,8 @@ import pytest
 from bsm import DenoiseOptions, MeshError, TriangleMesh, api
 from bsm.codec import denoise as library
 from bsm.codec.denoise import filters, normals, rehearsal
-from bsm.codec.denoise.frames import OVERLAP, WINDOW
+from bsm.codec.denoise.frames import WINDOW
+from bsm.codec.denoise.temporal import FEWEST_FRAMES
 from bsm.commands.denoise import GOALS
 from bsm.commands.flags import FLAGS
 from bsm.files.mesh import read_mesh, write_mesh, written_mesh
@@ -199,7 +200,7 @@ def test_no_more_than_a_few_frames_are_held():
     for _ in range(2 * WINDOW + 5):
         assert next(results).shape == still.positions.shape
         held -= 1
-    assert most <= WINDOW + OVERLAP + 2 * (os.cpu_count() or 1) + 2
+    assert most <= WINDOW + FEWEST_FRAMES + 2 * (os.cpu_count() or 1) + 2
 
 
 def test_compare_measures_surfaces_when_asked_to(noisy_file, tmp_path):

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from scipy.special import expit
 
 from bsm.codec.arrays import Floats, Mask, Positions
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles, descriptions
@@ -15,7 +16,6 @@ from bsm.codec.geometry.metrics import face_normals
 
 # A mesh unlike those that were learnt from must not lead a network into numbers that it has never seen.
 FARTHEST = np.float32(6.0)  # bound of standardised numbers
-MOST_NEGATIVE = np.float32(80.0)
 TOGETHER = 16  # faces of a product of matrices: larger ones wake threads that wait longer than they work
 WEIGHTS = Path(__file__).with_name("weights.npz")
 
@@ -32,8 +32,7 @@ class Network:
         values.reshape(-1, NUMBERS)[: len(numbers)] = np.clip((numbers - self.mean) * self.scale, -FARTHEST, FARTHEST)
         for matrix, shift in self.layers[:-1]:
             values = values @ matrix + shift
-            # x / (1 + exp(-x)), which has no kink. The exponential of larger numbers overflows single precision.
-            values /= np.float32(1.0) + np.exp(np.minimum(-values, MOST_NEGATIVE))
+            values *= expit(values)  # x / (1 + exp(-x)), which has no kink
         matrix, shift = self.layers[-1]
         # A correction of the filtered normal: a network that knows nothing changes nothing.
         normals = numbers[:, BASE] + (values @ matrix + shift).reshape(-1, 3)[: len(numbers)]

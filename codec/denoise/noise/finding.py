@@ -9,11 +9,10 @@ from bsm.codec.arrays import Floats, Mask, Order, Positions
 from bsm.codec.denoise.noise.causes import FEWEST_VALUES, NEAR, SAME, Confines, Reach, Spacing
 from bsm.codec.denoise.noise.probe import Probe, Windows
 from bsm.codec.denoise.noise.view import View
-from bsm.codec.denoise.noise.volumes import Cells
+from bsm.codec.denoise.noise.volumes import HALFWAY, Cells
 from bsm.codec.denoise.surface import Topology
 
 LATTICE_USUAL = 0.25  # vertices that a plane of a lattice has at least, over the usual
-LATTICE_SHARE = 0.9  # of the vertices that lie on its lines
 
 
 def lattice_step(positions: Positions) -> float:
@@ -37,12 +36,12 @@ def lattice_step(positions: Positions) -> float:
     for column, heaps in zip(positions.T, planes, strict=True):
         place = (column - column.min() - heaps[len(heaps) // 2]) / step
         lies += np.abs(place - np.round(place)) < NEAR
-    return step if (lies >= 2).mean() > LATTICE_SHARE else 0.0
+    return step if (lies >= 2).mean() > HALFWAY else 0.0
 
 
+ASIDE = 0.2  # largest median of values over their levels: noise lies on both sides
+HEAP = 1.6  # largest share of values about zero, as a multiple of the normal distribution's
 LEVEL_SPREAD = 0.92  # chance makes levels of windows of w vertices spread by about this over sqrt(w)
-ASIDE = 0.2  # largest median of the standardised residual: noise lies on both sides
-CENTER = (0.55, 1.6)  # share of residuals about zero, as a multiple of the normal distribution's
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,11 +106,12 @@ class Evidence:
         # The lower quarter: creases are in the upper parts of both.
         return float(np.quantile(self.finest[windows], 0.25) / max(np.quantile(self.levels[windows], 0.25), 1e-9))
 
-    def residuals(self, windows: Mask) -> Floats:
-        """Values of counted vertices of these windows over the levels there."""
+    def is_random(self, windows: Mask) -> bool:
+        """Whether counted vertices of these windows lie on both sides of the surface, and no heap of them on it."""
         chosen = windows[self.probe.windows.labels] & self.probe.counted
-        scale = self.levels[self.probe.windows.labels[chosen]]
-        return np.asarray(self.along[chosen][scale > 0.0] / scale[scale > 0.0])
+        values = self.along[chosen] / np.maximum(self.levels[self.probe.windows.labels[chosen]], 1e-9)
+        # The share of a standard normal distribution within a tenth of a deviation is 0.0797.
+        return bool(abs(np.median(values)) < ASIDE and (np.abs(values) < 0.1).mean() < HEAP * 0.0797)
 
     def measures(self, windows: Mask) -> Floats:
         """Return what rules weigh, in the order of `MEASURES`; level, whiteness and irregularity are logarithms."""
@@ -150,10 +150,3 @@ def spread(levels: Floats, windows: Windows) -> float:
         return float("inf")
     chance = LEVEL_SPREAD / np.sqrt(windows.usual_size)
     return float(np.sqrt(max((np.log(middle / bottom) / 1.2816) ** 2 - chance**2, 0.0)))
-
-
-def is_random(values: Floats) -> bool:
-    """Whether standardised values, shape (k,), lie on both sides, with neither a heap of zeros nor a hole there."""
-    # The share of a standard normal distribution within a tenth of a deviation is 0.0797.
-    center = float(np.mean(np.abs(values) < 0.1)) / 0.0797
-    return abs(float(np.median(values))) < ASIDE and CENTER[0] < center < CENTER[1]

@@ -11,35 +11,23 @@ from scipy.sparse import linalg
 
 from bsm.codec.arrays import Floats, Mask, Positions
 from bsm.codec.denoise.noise.finding import Finding
-from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe, grouped_quantiles
-from bsm.codec.denoise.noise.search import find_noise
+from bsm.codec.denoise.noise.probe import Probe, grouped_quantiles
+from bsm.codec.denoise.noise.search import FAINTEST, find_noise
 from bsm.codec.geometry.metrics import mean_edge_length
 
-CLEAR = 0.7
-"""Share of the energy around it that a clear outlier explains by itself: no clean mesh tried has more than a few."""
-LESS_CLEAR = (0.5, 0.35)
-FEWEST_SHARE = 0.004  # clear outliers, as a share of the vertices, from which on they are believed
-FEWEST = 12
-MOST_SHARE = 0.2
+CLEAR, LESS_CLEAR = 0.7, 0.35
+"""Share of the energy around it that an outlier explains by itself: no clean mesh tried has more than a few that are
+clear; others are looked for after these."""
+FEWEST, FEWEST_SHARE, MOST_SHARE = 12, 0.004, 0.2  # how many are believed, as shares of the vertices as well
 ONE_SIDED = 0.5
-FAINT, WORTH = 0.03, 0.05
-"""Smallest displacement looked for, in mean edges; and the median of those found from which on it is worth it."""
-LARGEST = 1.2
-"""Largest less clear outlier, over the displacement that nine in ten of the clear ones do not reach."""
-DISTINCT = 4.0  # displacement over what calm surroundings show
-CALM, CALM_BOUND = 0.5, 0.6745
-STRAY, PLAINLY, SPIKY = 1.2, 2.0, 0.75
-"""Distance from the middle of the neighbors, in theirs, of a vertex that may be far off, and of one that is; and the
-length of the mean normal around it below which it stands out."""
-STRAYS, STRAY_SHARE, STRAY_USUAL, FARTHER = 25, 0.0018, 1.0, 2.5
-"""How many are plainly off, how far nine tenths may be, and how much farther those are: noise alone has fewer."""
-STRAY_FAR, STRAY_LEFT, STRAY_OFF = 1.5, 0.15, 0.9
-"""Of those plainly off: median way back, in mean edges, the share that may still stand out there, and how far they may
-still be off. Slivers of CAD models go 0.1 to 1.3 edges, or a fifth stays, or they are 1.3 off (outliers up to 0.4)."""
-STRAY_TURNS = 2
-HIGH = 2.2  # height over the noise around, from which on vertices are strays where there are many; noise so high gains
-ROUNDS = 40
-REFINEMENTS = 30
+DISTINCT = 4.0  # smallest displacement looked for, over what calm surroundings show
+STRAY, PLAINLY, FARTHER, SPIKY = 1.2, 2.0, 2.5, 0.75
+"""Distance from the middle of the neighbors, in theirs, of a vertex that may be a stray, and of one that is; how much
+farther than nine tenths of all vertices those are; and the length of the mean normal around it below which it stands
+out."""
+STRAY_FAR, STRAY_LEFT = 1.5, 0.15
+"""Of those plainly off: median way back, in mean edges, and the share that may still stand out there. Slivers of CAD
+models go 0.1 to 1.3 edges, or a fifth stays."""
 
 
 def put_outliers_back(positions: Positions, probe: Probe, finding: Finding) -> Positions:
@@ -55,31 +43,25 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
     """Vertices far outside their neighbors, put in the middle of them, if there are many."""
     if not probe.counted.any():
         return positions
-    n = len(positions)
-    place, stray = positions, np.zeros(n, dtype=np.bool_)
-    for turn in range(STRAY_TURNS):
-        distance, height = _distances(place, probe)
-        # Nine tenths of the mesh tell how far vertices usually lie from their neighbors.
-        usual = float(np.quantile(distance[probe.counted], 0.9))
-        spiky = _spiky(place, probe)
-        if turn == 0:
-            plain = spiky & (distance > max(PLAINLY, FARTHER * usual))
-            if plain.sum() < max(STRAYS, STRAY_SHARE * n) or usual > STRAY_USUAL:
-                return positions
-        noise = (probe.windows.quantiles(height, SHARE) / BOUND)[probe.windows.labels]
-        stray |= spiky & (distance > max(STRAY, 2.0 * usual)) | (height > np.fmax(HIGH * noise, 1.0))
-        # A fifth of all vertices cannot be exceptions.
-        if stray.sum() > MOST_SHARE * n:
-            return positions
-        known = np.where(stray, 0.0, 1.0)
-        # Only from neighbors that are not strays themselves.
-        weight = probe.average @ known
-        middle = (probe.average @ (known[:, None] * positions)) / np.maximum(weight, 1e-9)[:, None]
-        place = np.where((stray & (weight > 0.0))[:, None], middle, positions)
+    distance, spiky = _distances(positions, probe), _spiky(positions, probe)
+    usual = float(np.quantile(distance[probe.counted], 0.9))
+    plain, stray = spiky & (distance > max(PLAINLY, FARTHER * usual)), spiky & (distance > max(STRAY, 2.0 * usual))
+    if not _many(plain):
+        return positions
+    # Only from neighbors that are not strays themselves.
+    known = np.where(stray, 0.0, 1.0)
+    weight = probe.average @ known
+    middle = (probe.average @ (known[:, None] * positions)) / np.maximum(weight, 1e-9)[:, None]
+    place = np.where((stray & (weight > 0.0))[:, None], middle, positions)
     way = np.median(np.linalg.norm(place - positions, axis=1)[plain])
-    far = way > STRAY_FAR * mean_edge_length(place, probe.topology.faces) and np.median(distance[plain]) < STRAY_OFF
+    far = way > STRAY_FAR * mean_edge_length(place, probe.topology.faces)
     # Slivers of CAD models look like strays. Put "back", they still stand out, and are then left alone.
     return place if far and _spiky(place, probe)[plain].mean() < STRAY_LEFT else positions
+
+
+def _many(chosen: Mask) -> bool:
+    """Whether vertices, shape (n,), are too many for detail, and too few for noise."""
+    return bool(max(FEWEST, FEWEST_SHARE * len(chosen)) <= chosen.sum() <= MOST_SHARE * len(chosen))
 
 
 def _spiky(positions: Positions, probe: Probe) -> Mask:
@@ -89,18 +71,16 @@ def _spiky(positions: Positions, probe: Probe) -> Mask:
     return np.asarray(probe.counted & (np.linalg.norm(together, axis=1) < SPIKY * sizes))
 
 
-def _distances(positions: Positions, probe: Probe) -> tuple[Floats, Floats]:
-    """Distance and height of each vertex from the median of its neighbors, over the median of theirs, shape (n,)."""
+def _distances(positions: Positions, probe: Probe) -> Floats:
+    """Distance of each vertex from the median of its neighbors, over the median of theirs, shape (n,)."""
     starts, members = probe.topology.neighbors
     sizes = np.diff(starts)
     owners = np.repeat(np.arange(len(positions)), sizes)
     middle = np.stack([grouped_quantiles(column, owners, sizes, 0.5) for column in positions[members].T], axis=1)
     spread = grouped_quantiles(np.linalg.norm(positions[members] - middle[owners], axis=1), owners, sizes, 0.5)
-    height = np.einsum("ij,ij->i", positions - middle, probe.smooth_normals(middle, passes=1))
     off = np.linalg.norm(positions - middle, axis=1)
     # The median of the neighbors' distances: a mean would follow the stray among them.
-    scale = np.where(probe.counted, np.maximum(spread, 1e-12 * off + 1e-300), np.inf)
-    return off / scale, np.abs(height) / scale
+    return np.asarray(off / np.where(probe.counted, np.maximum(spread, 1e-12 * off + 1e-300), np.inf))
 
 
 def _peeled(positions: Positions, probe: Probe) -> Positions:
@@ -114,21 +94,10 @@ def _peeled(positions: Positions, probe: Probe) -> Positions:
     transposed = operator.T.tocsr()
     rest, amounts, most = seen.copy(), np.zeros(len(positions)), np.inf
     # The clearest first: once their patterns are taken away, fainter ones nearby can be seen.
-    for share in (CLEAR, *LESS_CLEAR):
-        calm = np.zeros(len(positions))
-        if share < CLEAR:
-            off = amounts[amounts != 0.0]
-            # Detail makes a few clear ones on any mesh, and on one side. Real outliers are many, and lie on both.
-            few = len(off) < max(FEWEST, FEWEST_SHARE * len(amounts))
-            if few or abs(np.sign(off).mean()) >= ONE_SIDED or np.median(np.abs(off)) <= WORTH:
-                return positions
-            standard = np.abs(rest) / np.where(gain > 0.0, gain, np.inf)
-            if share == LESS_CLEAR[0]:
-                most = LARGEST * float(np.quantile(np.abs(off), 0.9))
-            quiet = probe.windows.quantiles(standard, CALM) / CALM_BOUND
-            calm = np.nan_to_num(quiet)[probe.windows.labels]
-        least = np.maximum(FAINT, DISTINCT * calm / np.sqrt(energy))
-        for _ in range(ROUNDS):
+    for share in (CLEAR, LESS_CLEAR):
+        calm = np.nan_to_num(probe.levels(rest / np.where(gain > 0.0, gain, np.inf)))[probe.windows.labels]
+        least = np.maximum(FAINTEST, DISTINCT * calm / np.sqrt(energy))
+        while True:
             fit = (transposed @ rest) / energy
             explained = np.where(probe.counted, fit**2 * energy, 0.0)
             # Only the best in its surroundings is peeled: neighbors would explain the same pattern again.
@@ -140,10 +109,11 @@ def _peeled(positions: Positions, probe: Probe) -> Positions:
             step = np.where(found, fit, 0.0)
             amounts += step
             rest -= operator @ step
-    vertices = np.flatnonzero(amounts)
-    if len(vertices) > MOST_SHARE * len(positions):
-        # So many are not outliers: the filters remove noise that is everywhere.
-        return positions
+        # Detail makes a few clear ones on any mesh, and on one side. Real outliers are many, and lie on both.
+        off = amounts != 0.0
+        if not _many(off) or abs(np.sign(amounts[off]).mean()) >= ONE_SIDED:
+            return positions
+        most = float(np.abs(amounts).max())
     # The first ones were measured beside neighbors that were off as well: all of them again, together.
-    amounts[vertices] += linalg.lsqr(operator[:, vertices], rest, iter_lim=REFINEMENTS)[0]
-    return np.where(amounts[:, None] != 0.0, positions - edge * amounts[:, None] * normals, positions)
+    amounts[off] += linalg.lsqr(operator[:, np.flatnonzero(off)], rest)[0]
+    return np.where(off[:, None], positions - edge * amounts[:, None] * normals, positions)

@@ -14,8 +14,8 @@ import numpy as np
 
 from bsm.codec.arrays import Floats, Mask, Positions
 from bsm.codec.denoise.noise.causes import FARTHEST, Box, Spacing, find_grid
-from bsm.codec.denoise.noise.finding import Evidence, Finding, is_random, lattice_step, look, spread
-from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
+from bsm.codec.denoise.noise.finding import Evidence, Finding, lattice_step, look, spread
+from bsm.codec.denoise.noise.probe import FEWEST_IN_WINDOW, SHARE, Probe
 from bsm.codec.denoise.noise.view import find_view, pixel
 from bsm.codec.denoise.noise.volumes import find_cells
 from bsm.codec.denoise.surface import unit
@@ -31,23 +31,15 @@ RULES = {
 """Of each kind, the weights of `measures` and a constant: noise is believed if the sum is positive. `tools.train_noise`
 fits them, and names the meshes that it holds out."""
 FAINTEST = 0.03  # level in mean edges, or widths of pixels, below which nothing is suspected
-FAINTEST_SHARED, MUCH_SHARED = 0.024, 0.6  # if whiteness is below the second: fine levels hold little of such noise
 FEWEST_WINDOWS = 5  # for an estimate
 WHITE = 0.82  # whiteness below which noise is correlated
 NEARBY = 4  # rings of a vertex that tell the side where noise ends
-CALM = 0.05  # level up to which the rest counts as clean
 TERRACED = 0.05  # fewer depths per vertex mean a camera with few depth levels
-FUSED_LEVEL, FUSED_UNEVEN, NARROWER = 0.05, 1.0, 1.04
-"""Of views fused on a lattice: the least level, how uneven it may be, and what broad filters may see over it. They read
-.05 to .15, .06 to .9, .9 to 1.0; fields without noise .004 to .11, .08 to 7, 1.05 (a fractal) to 1.9."""
-MARCHED = 1.06
-"""Mean edge, in steps of the lattice, that marching cubes do not reach: it is .94 to .97, of regular triangles 1.14."""
+NARROWER = 1.04
+"""What broad filters may see of views fused on a lattice, over their level: .9 to 1.0; of fields without noise they see
+1.05 (a fractal) to 1.9."""
 ONE_CELL = 0.9  # share of the stairs of a binary volume, from which on all its walls are one cell thick
-ROUNDED_SLANT, ROUNDED_SHARE = 0.98, 0.3
-"""Surfaces along an axis show nothing of rounding; so much of the mesh has to lie otherwise."""
-ROUNDED_LEVEL, ROUNDED_SEEN, ROUNDED_ZEROS = (0.025, 0.35), (0.4, 4.5), 0.15
-"""Rounding that is treated, in mean edges; the level seen over the expected one, creases included; and the largest
-share of vertices without it: shapes that were drawn on a grid have many."""
+ROUNDED_ZEROS = 0.15  # largest share of vertices that show nothing of rounding: shapes drawn on a grid have more
 HEAVY_LEVEL, HEAVY_PASSES = 0.3, 8  # from here on normals are taken from a smoother version
 AXIS_ALONE, AXIS_EVEN = 1.25, (0.55, 1.7)
 """Noise along an axis over that across; and on sides along the axis over that at its ends: noise along normals reads 0
@@ -138,12 +130,9 @@ def _rounded(positions: Positions, evidence: Evidence) -> Finding | None:
     if grid is None:
         return None
     expected = grid.levels(evidence.normals) / evidence.edge
-    slanted = evidence.probe.counted & (np.abs(evidence.normals).max(axis=1) < ROUNDED_SLANT) & (expected > 0.0)
     level = float(np.median(expected))
-    if slanted.sum() < ROUNDED_SHARE * len(slanted) or not ROUNDED_LEVEL[0] < level < ROUNDED_LEVEL[1]:
-        return None
-    seen = np.abs(evidence.along[slanted] / expected[slanted])
-    if not ROUNDED_SEEN[0] < np.quantile(seen, SHARE) / BOUND < ROUNDED_SEEN[1] or (seen < 0.1).mean() > ROUNDED_ZEROS:
+    unmoved = np.abs(evidence.along) <= 0.1 * expected
+    if level < FAINTEST or unmoved[evidence.probe.counted].mean() > ROUNDED_ZEROS:
         return None
     reason = f"positions rounded to a grid of {float(grid.steps.max()) / evidence.edge:.2f} mean edges"
     return Finding("grid", level * evidence.edge, expected * evidence.edge, evidence.edge, reason, bound=grid)
@@ -154,9 +143,7 @@ def _fused(positions: Positions, evidence: Evidence) -> Finding | None:
     everywhere = evidence.probe.windows.valid
     levels = evidence.levels[everywhere]
     level, uneven = float(np.median(levels)), spread(levels, evidence.probe.windows)
-    if level < FUSED_LEVEL or uneven > FUSED_UNEVEN:
-        return None
-    if evidence.edge > MARCHED * lattice_step(positions) or not is_random(evidence.residuals(everywhere)):
+    if level < FAINTEST or not lattice_step(positions):
         return None
     if not np.quantile(evidence.broad[everywhere] / levels, 0.25) <= NARROWER:
         return None
@@ -183,10 +170,9 @@ def _seen(positions: Positions, evidence: Evidence) -> Suspect | None:
 
 
 def _suspect(rule: str, evidence: Evidence, finding: Finding, windows: Mask | None = None) -> Suspect | None:
-    """Return the suspect if values lie on both sides of the surface in these windows."""
+    """Return the suspect if values in these windows are as random as noise."""
     chosen = evidence.probe.windows.valid if windows is None else windows
-    faintest = FAINTEST_SHARED if evidence.whiteness(chosen) < MUCH_SHARED else FAINTEST
-    random = evidence.level(chosen) > faintest and is_random(evidence.residuals(chosen))
+    random = evidence.level(chosen) > FAINTEST and evidence.is_random(chosen)
     return Suspect(finding, rule, evidence.measures(chosen)) if random else None
 
 
@@ -271,7 +257,7 @@ def _here_and_there(positions: Positions, evidence: Evidence) -> Suspect | None:
     inside[unsure] = nearby[unsure] > (0.5 * level) ** 2
     amount = np.where(inside, level * evidence.edge, 0.0)
     share = f"noise in {100.0 * inside.mean():.0f} % of the mesh"
-    finding = Finding("local", level * evidence.edge, amount, evidence.edge, share, clear=weak < CALM)
+    finding = Finding("local", level * evidence.edge, amount, evidence.edge, share, clear=weak < FAINTEST)
     return _suspect("local", evidence, finding, inner)
 
 

@@ -12,11 +12,11 @@ import numpy as np
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.causes import Spacing
 from bsm.codec.denoise.noise.finding import Finding
-from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe
 from bsm.codec.denoise.surface import surface_normals
 from bsm.codec.geometry.metrics import mean_edge_length
 
-MEDIAN_ALONG, TENTH_ACROSS = 0.6745, 0.4590  # of one standard normal number's size, and of the length of two
+TENTH_ACROSS = 0.4590  # a tenth of the lengths of two standard normal numbers is below this
 IRREGULARITY = 0.15  # largest level across the normals, in mean edges, that irregular triangles gave
 
 
@@ -43,17 +43,17 @@ def estimate_noise(positions: Positions, smooth: Positions, probe: Probe) -> Noi
     along = np.einsum("ij,ij->i", seen, normals)
     # Triangles are irregular here and there, and noise is everywhere: its tenth part tells.
     across = float(np.quantile(np.linalg.norm(seen - along[:, None] * normals, axis=1), 0.1)) / TENTH_ACROSS
-    normal = float(np.median(np.abs(along))) / MEDIAN_ALONG
+    normal = float(np.quantile(np.abs(along), SHARE)) / BOUND
     # Irregular triangles look like noise along the surface, up to about this level.
     floor = IRREGULARITY * mean_edge_length(positions, probe.topology.faces)
     above = math.sqrt(max(across * across - floor * floor, 0.0))
     return NoiseLevel(normal, min(normal, above), min(normal, across))
 
 
-MOST_STEPS = 12
-WINDOWED, SHARED = 12, (0.5, 0.75)
-"""Averagings for the noise that the pixels of a camera's window share, and its strength over the noise of single
-pixels: for cameras that measure depth, and for those that match windows, which have steps of depth."""
+MOST_STEPS = 12  # averagings for noise that neighbors share, and those for the pixels of a camera's window
+SHARED = (0.5, 0.75)
+"""Strength of noise that the pixels of a window share, over that of single pixels: for cameras that measure depth, and
+for those that match windows, which have steps of depth."""
 
 
 class Synthesis:
@@ -77,7 +77,7 @@ class Synthesis:
         topology = self._probe.topology
         if finding.view is not None:
             seen = finding.view.heights(positions, topology)
-            shared = self._probe.correlated(white[:, 1], WINDOWED)
+            shared = self._probe.correlated(white[:, 1], MOST_STEPS)
             noise = white[:, 0] + SHARED[finding.view.terraced] * shared / shared.std()
             return finding.view.at(positions, seen, seen + finding.view.level * noise)
         normals = surface_normals(positions, topology)

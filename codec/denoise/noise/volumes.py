@@ -17,11 +17,9 @@ from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Topology
 
 HALFWAY = 0.98  # share of the vertices of a binary volume that lie halfway between two cells
-ALIKE, SQUARE, TOGETHER = 1e-3, 1e-2, 1e-4
-"""Edges of stairs that are one direction, directions at right angles, and coordinates of one level, in extents."""
-SAMPLE, DIRECTIONS, SHARE, FRAMES = 10_000, 9, 0.01, 12
-"""Faces to look at; directions of edges that are considered, and their least share; and frames to try."""
-ROUNDS, FIRST, STEPS, POWERS = 3, 100, 60, 15
+ALIKE, TOGETHER = 1e-3, 1e-4  # directions that are one, and coordinates of one level, in extents
+SAMPLE, DIRECTIONS = 10_000, 5  # faces to look at, and directions of edges that are considered
+ROUNDS, STEPS, POWERS = 3, 75, 15
 # A step above the inverse of the curvature diverges, and the estimate comes from below.
 SAFE = 1.1  # over the estimate of the largest curvature
 
@@ -55,7 +53,7 @@ class Cells(Box):
             for _ in range(POWERS):
                 curve = back @ (weights * (bends @ (curve / max(float(np.linalg.norm(curve)), 1e-300))))
             step, ahead, pace = 1.0 / max(SAFE * float(np.linalg.norm(curve)), 1e-300), found, 1.0
-            for _ in range(STEPS if turn else FIRST):
+            for _ in range(STEPS):
                 slope = back @ (weights * (bends @ ahead))
                 last, found = found, np.clip(ahead - step * slope, given - self.half, given + self.half)
                 # Acceleration is given up where it points uphill (O'Donoghue and Candes 2015), or it would swing about
@@ -135,12 +133,12 @@ def _frames(positions: Positions, topology: Topology) -> list[Floats]:
     keys, counts = np.unique(np.round(ways / ALIKE).astype(np.int64), axis=0, return_counts=True)
     order = np.argsort(-counts, kind="stable")[: 2 * DIRECTIONS]
     found: list[Floats] = []
-    for key in keys[order[counts[order] > SHARE * len(ways)]] * ALIKE:
+    for key in keys[order] * ALIKE:
         if len(found) < DIRECTIONS and all(np.linalg.norm(key - other) > 4.0 * ALIKE for other in found):
             mean = ways[np.linalg.norm(ways - key, axis=1) < 2.0 * ALIKE].sum(axis=0)
             found.append(mean / np.linalg.norm(mean))
-    square = [pair for pair in combinations(found, 2) if abs(float(pair[0] @ pair[1])) < SQUARE]
-    return [np.linalg.qr(np.stack([*pair, np.cross(*pair)], axis=1))[0].T for pair in square[:FRAMES]]
+    square = [pair for pair in combinations(found, 2) if abs(float(pair[0] @ pair[1])) < 4.0 * ALIKE]
+    return [np.linalg.qr(np.stack([*pair, np.cross(*pair)], axis=1))[0].T for pair in square]
 
 
 def _snapped(column: Floats) -> Floats:
