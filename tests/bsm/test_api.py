@@ -8,6 +8,7 @@ import pytest
 
 import bsm
 from bsm.cli import main
+from bsm.files.table import MESH_FORMATS
 from tests.motion import bending
 from tests.shapes import torus
 
@@ -91,7 +92,7 @@ def test_sequences():
 # ------------------------------------------------------------------------------------------------------------- files
 
 
-@pytest.mark.parametrize("suffix", ["npz", "obj", "off", "ply", "stl", "bsm", "PLY", "BSM"])
+@pytest.mark.parametrize("suffix", [*MESH_FORMATS, "bsm", "PLY", "BSM"])
 def test_save_and_load(mesh, suffix, tmp_path):
     path = tmp_path / f"a.{suffix}"
     options = QUICK | {"keep_order": True, "step": 0.0005} if suffix.lower() == "bsm" else {}

@@ -9,6 +9,7 @@ import pytest
 import bsm
 from bsm import BsmError, TriangleMesh, read_mesh
 from bsm.cli import main
+from bsm.files.table import WRITTEN_FORMATS
 from tests.conftest import mesh_folder
 from tests.shapes import curved, tetrahedron, torus
 
@@ -104,7 +105,7 @@ def test_a_stream_says_how_it_was_made_and_the_next_one_that_it_is_another_gener
     assert bsm.decode(bsm.encode(bsm.load(source), metadata=own)).metadata == own
 
 
-@pytest.mark.parametrize("kind", ["ply", "obj", "off", "stl", "glb", "3mf", "vtp", "npz"])
+@pytest.mark.parametrize("kind", WRITTEN_FORMATS)
 def test_a_decoded_file_says_so_and_the_next_stream_which_generation_it_is(kind, tmp_path, capsys, monkeypatch):
     if kind == "3mf":
         pytest.importorskip("lib3mf", reason="needs lib3mf (extra formats)")

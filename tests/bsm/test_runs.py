@@ -11,6 +11,7 @@ from bsm import Attribute
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.frames import Wanted
 from bsm.files.sequence import open_sequence
+from bsm.files.table import FORMATS
 from tests.bsm.program import run
 from tests.gltf import unpack
 from tests.motion import capture
@@ -123,20 +124,16 @@ def test_meshes_of_a_glb_take_turns(stream, tmp_path):
             assert np.allclose(np.ptp(part, axis=0), shown, atol=0.05)
 
 
-NOTHING = {"obj": "# nothing\n", "off": "OFF\n0 0 0\n"}
+EMPTY = {kind: row.empty for kind, row in FORMATS.items() if row.empty is not None}
+EMPTY["ply"] = f"{ply_head(1, 0)}1 2 3\n".encode()  # a point
 
 
-@pytest.mark.parametrize("kind", ["obj", "ply", "off", "stl"])
+@pytest.mark.parametrize("kind", EMPTY)
 @pytest.mark.parametrize("places", [(2,), (0, 5, 8)])
 def test_frames_without_faces_come_back(tmp_path, capsys, kind, places):
     paths = written(tmp_path / "capture", capture(*PIECES), kind)
     for place in places:
-        if kind in NOTHING:
-            paths[place].write_text(NOTHING[kind])
-        elif kind == "stl":
-            paths[place].write_bytes(bytes(84))
-        else:
-            paths[place].write_text(ply_head(1, 0) + "1 2 3\n")
+        paths[place].write_bytes(EMPTY[kind])
     assert run("encode", tmp_path / "capture", "-o", tmp_path / "a.bsm", "--runs", "--look", 1) == 0
     assert run("decode", tmp_path / "a.bsm", "-o", tmp_path / "back" / f"%03d.{kind}") == 0
     assert run("encode", tmp_path / "capture", "-f", "-o", tmp_path / "b.bsm") == 3

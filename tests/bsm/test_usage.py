@@ -110,6 +110,10 @@ def test_manual_pages_and_completion_are_current():
             word for key in named if key.startswith("-") for word in re.findall(r"(?<![\w-])--?[a-z][\w-]*", key)
         } == options
         assert all(option in text for option in options for text in completion)
+        choices = [" ".join(map(str, action.choices)) for action in actions if action.choices]
+        assert all(f"({some})" in text for some in choices for text in completion)
+        shown = [",".join(map(str, action.choices)) for action in actions if action.choices and not action.metavar]
+        assert all(f"{{{some}}}" in page for some in shown)
 
 
 def test_every_command_says_what_it_takes_for_files():

@@ -19,6 +19,7 @@ from bsm.files.isolation import lack
 from bsm.files.mesh import write_mesh
 from bsm.files.motion.frames import Frames, Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
+from bsm.files.table import MESH_FORMATS
 from tests.shapes import torus
 from tools.attack.answers import SIZE, answers, fault
 from tools.attack.readers import chained_objects, three_mf
@@ -38,7 +39,7 @@ def same(first, second):
         assert (a.indices is None and b.indices is None) or np.array_equal(a.indices, b.indices)
 
 
-@pytest.mark.parametrize("kind", ["obj", "off", "ply", "stl", "vtp", "npz", "glb"])
+@pytest.mark.parametrize("kind", [*MESH_FORMATS, "glb"])
 def test_the_mesh_is_the_same(kind, tmp_path):
     colors = bsm.Attribute("color", np.arange(3 * 2400, dtype=np.uint8).reshape(-1, 3), "vertex", "color")
     places = bsm.Attribute("texcoord", np.random.default_rng(0).random((7200, 2)), "corner", "texcoord")

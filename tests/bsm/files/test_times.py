@@ -10,7 +10,7 @@ from bsm.files import sequence
 from bsm.files.mesh import read_cut, write_mesh
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
-from bsm.files.table import FORMATS
+from bsm.files.table import FORMATS, MESH_FORMATS
 from tests.bsm.program import run as bsm
 from tests.gltf import glb, unpack
 from tests.shapes import tetrahedron
@@ -37,7 +37,7 @@ def timing(source):
     return [known.code(number) / known.frame_rate for number in range(source.count)]
 
 
-@pytest.mark.parametrize("kind", ["ply", "obj", "off", "stl", "vtp"])
+@pytest.mark.parametrize("kind", [kind for kind in MESH_FORMATS if not FORMATS[kind].frames])
 @pytest.mark.parametrize(("start", "step"), [(997, 1), (0, 2), (-3, 5)])
 def test_numbers_of_frames_go_in_and_out(kind, start, step, tmp_path):
     (tmp_path / "in").mkdir()

@@ -14,6 +14,7 @@ from bsm.codec.look.measure import LookMetric, look
 from bsm.codec.static.encoder import KEPT_EXACTLY
 from bsm.encoding.options import encode_options
 from bsm.evaluation.sample import knot
+from tests.codec.static.test_presets import PROMISING
 from tests.shapes import patch, tetrahedron, together, torus
 
 
@@ -60,7 +61,7 @@ def test_a_look_holds_by_the_normals_that_are_sent(preset):
     assert look(mesh, bsm.decode(bsm.encode(mesh, options))).distance <= options.contract.look
 
 
-@pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
+@pytest.mark.parametrize("preset", PROMISING)
 @pytest.mark.parametrize(
     "mesh",
     [
@@ -95,7 +96,7 @@ def test_any_bounds_are_kept(seed: int, farthest: float, angle: float) -> None:
     assert got[1] <= angle + 1e-9
 
 
-@pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
+@pytest.mark.parametrize("preset", PROMISING)
 @pytest.mark.parametrize("mesh", [torus(48, 30), noisy(torus(48, 30), 0.002)], ids=["torus", "noise"])
 def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(mesh: bsm.TriangleMesh, preset: str) -> None:
     header = assert_kept(mesh, replace(bsm.PRESETS[preset], effort="quick")).draft().header

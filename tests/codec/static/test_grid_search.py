@@ -14,6 +14,7 @@ from bsm.codec.geometry.metrics import Original, face_normals, folded_edges
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.preamble_encoding import join
 from bsm.codec.static.ways.grid import grid_field
+from tests.codec.static.test_presets import PROMISING
 from tests.shapes import curved, grid_faces, patch
 
 
@@ -29,7 +30,7 @@ def box(cells: int, lines: int, seed: int = 0) -> TriangleMesh:
     return join(apart, keep=False).mesh
 
 
-@pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
+@pytest.mark.parametrize("preset", PROMISING)
 def test_the_grid_that_a_model_was_made_on_is_found(preset: str) -> None:
     mesh = box(255, 24)
     draft = Encoder(mesh, PRESETS[preset]).draft()

@@ -17,7 +17,7 @@ from tests.conftest import mesh_folder
 from tests.shapes import patch, together, torus
 
 PROMISING = {name: options.promise for name, options in PRESETS.items() if options.promise is not None}
-ORDER = ("small", "balanced", "fine", "near-lossless")
+ORDER = tuple(PROMISING)  # from the coarsest on
 FEW, JUMPS = 16, 1.09  # bytes, since grids of few cells are not searched; and ratios of sizes at neighboring steps
 ROOMS, TOO_LARGE = ("assets", "hostile", "static"), "static/dragon_437645.ply"
 
