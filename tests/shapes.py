@@ -82,3 +82,26 @@ def theta(original: NDArray[Any], decoded: NDArray[Any], faces: Faces) -> float:
 
 def mnd(original: NDArray[Any], decoded: NDArray[Any], faces: Faces) -> float:
     return Reference(original, faces).mnd(decoded)
+
+
+def in_rows(kind: str, random: np.random.Generator) -> TriangleMesh:
+    """A mesh whose vertices are in rows and columns: a wave, a noisy plane, a long strip, or a tray of two sheets."""
+    rows, columns = {"wave": (90, 90), "noisy": (60, 50), "strip": (4, 600), "tray": (34, 26)}[kind]
+    spacing = random.uniform(0.01, 3.0)
+    i, j = (axis.ravel() for axis in np.meshgrid(np.arange(rows), np.arange(columns), indexing="ij"))
+    phase, faces = random.uniform(0.0, 6.0), grid_faces(rows, columns)
+    if kind == "wave":
+        heights = 4.0 * np.sin(0.08 * i + phase) + 3.0 * np.cos(0.11 * j)
+    elif kind == "noisy":
+        heights = random.normal(scale=0.05, size=len(i))
+    elif kind == "strip":
+        heights = 2.0 * np.sin(0.05 * j + phase) + 0.1 * i
+    else:
+        rim = (i == 0) | (j == 0) | (i == rows - 1) | (j == columns - 1)
+        away = np.hypot(i - rows / 2.0, j - columns / 2.0)
+        heights = np.where(rim, 3.0 + phase / 6.0, -0.2 * np.sqrt(np.maximum(64.0 - away**2, 0.0)))
+    top = spacing * np.column_stack([i, j, heights])
+    if kind != "tray":
+        return TriangleMesh(top, faces)
+    below = top - spacing * np.array([0.0, 0.0, 0.6])
+    return TriangleMesh(np.vstack([top, below]), np.vstack([faces, faces[:, ::-1] + len(top)]).astype(np.int32))

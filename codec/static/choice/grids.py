@@ -6,12 +6,13 @@ from dataclasses import replace
 from functools import lru_cache, partial
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm._core import rounded as places_on
 from bsm.bitstream.container.header import MOST_GRID, Header
 from bsm.bitstream.container.packets import Grid
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.geometry.mesh import box_around, extent_of, squares_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
 from bsm.codec.static.choice.bounds import COARSEST, SEEN, SPIKE, Bounds, Trial
@@ -21,6 +22,7 @@ from bsm.codec.static.targets import SLACK
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_going, encode_grid, grid_of, sampled_size
 
+ROWS = 1.0 / 16.0  # over a spacing: how far off vertices of rows and columns may be
 MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
 
 
@@ -114,16 +116,42 @@ def made_on(positions: Matrix, within: float) -> float | None:
     return step * extent
 
 
+def spacing_of(positions: Matrix, faces: Faces) -> float:
+    """The spacing of rows and columns of a regular mesh, or what divides both, down to an eighth; 0: there is none."""
+    some, extent = faces[:: 1 + len(faces) // SAMPLE], extent_of(positions)
+    spans = np.abs(positions[some] - positions[np.roll(some, 1, axis=1)]).reshape(-1, 3)
+    noise, common = 1e-6 * float(extent.max()), 0.0
+    for axis in range(3):
+        along = np.sort(spans[spans[:, axis] > 4.0 * noise, axis])
+        if 8 * len(along) <= len(spans):
+            continue
+        alike = np.searchsorted(along, (1.0 + 1e-4) * along + noise) - np.arange(len(along))
+        spacing = float(along[alike.argmax() :][: alike.max()].mean())  # what more edges span than anything else
+        off = np.abs(along / spacing - np.rint(along / spacing)) > ROWS
+        # Without rows, seven in eight would be off.
+        if off.mean() < 4.0 * ROWS and extent[axis] > 8.0 * spacing:
+            parts = max(spacing, common) / np.arange(1.0, 9.0)
+            whole = (min(spacing, common) if common else spacing) / parts
+            fits = np.abs(whole - np.rint(whole)) < ROWS / 8.0
+            common = float(parts[fits.argmax()] if fits.any() else parts[0])
+    return common
+
+
 class Gridded:
     """Grids of one mesh, at one step after another; the worth of a nat in angles by which a step bends a mean face."""
 
-    def __init__(self, prepared: Prepared, bounds: Bounds, worth: float = 0.0, turn: Turn = UNTURNED) -> None:
+    def __init__(
+        self, prepared: Prepared, bounds: Bounds, worth: float = 0.0, turn: Turn = UNTURNED, spacing: float = 0.0
+    ) -> None:
         self._prepared, self._shaper = prepared, bounds.measures.shaper
-        self._worth, self.turn = worth, turn
+        self._worth, self.turn, self.spacing = worth, turn, spacing
         self.repeats = False  # whether a grid surely takes fewer bytes with congruent parts
         own = turned_by(prepared.mesh.positions, turn, back=True)
         self._positions = prepared.units.into(own) if any(turn) else prepared.positions
         low = box_around(own)[0]
+        if spacing:  # then on rows
+            around = np.exp(2j * math.pi / spacing * (self._positions - prepared.units.into(low))).mean(axis=0)
+            low = low + np.angle(around) / (2.0 * math.pi) * spacing * prepared.units.scale
         narrow = low.astype(np.float32)
         fine = np.spacing(np.abs(narrow)).max() < 1e-6 * prepared.units.scale
         self._hold = single if fine else float
@@ -139,12 +167,26 @@ class Gridded:
     @cached_property
     def first(self) -> float:
         # Where half a diagonal of cells is beyond the least reach, it is not the look that decides.
-        return min(self._bounds.first_step, COARSEST, 2.0 * float(self._bounds.reaches.min()) / math.sqrt(3.0))
+        step = min(self._bounds.first_step, COARSEST, 2.0 * float(self._bounds.reaches.min()) / math.sqrt(3.0))
+        return float(self.dividing(step))
+
+    def dividing(self, step: npt.ArrayLike) -> Matrix:
+        """The widest step up to a wanted one that divides the spacing of rows and columns, if there are any."""
+        parts = np.maximum(np.ceil(self.spacing / np.asarray(step) - ROWS), 1.0)
+        return np.asarray(self.spacing / parts if self.spacing else step)
+
+    def regular(self) -> list["Gridded"]:
+        """The same grids, rounded and chosen, whose cells divide the spacing of a regular mesh: at such steps, which
+        others meet by luck, its rows and columns take hardly any bytes."""
+        spacing = spacing_of(self._positions, self._prepared.mesh.faces)
+        worths = (0.0, 1.0) if spacing > ROWS * self.first else ()
+        return [Gridded(self._prepared, self._bounds, worth, self.turn, spacing) for worth in worths]
 
     def _made(self, step: float, mirrored: bool = True) -> Trial:
         unit = self._prepared.units.scale
+        step = float(self.dividing(step))
         held, origin = single(max(step, self.least) * unit), self._origin
-        if mirrored and may_repeat(self._prepared):
+        if mirrored and not self.spacing and may_repeat(self._prepared):
             if not self._prepared.motions:  # the same ladder for all looks
                 motions_of(self._prepared, max(self._bounds.usual_step, self.least) * unit, self.turn)
             held, moved = lattice(self._prepared, origin, held, self.least * unit, self.turn)
@@ -197,10 +239,10 @@ class Gridded:
         return first
 
     def usual(self) -> Iterator[Trial]:
-        """The trial with which the search for a look of 1 begins, if that is a stricter one and parts repeat: there,
-        bytes hardly depend on steps, but on luck."""
+        """The trial with which the search for a look of 1 begins, if that is a stricter one and parts or spacings
+        repeat: there, bytes hardly depend on steps, but on luck."""
         step = self._bounds.usual_step
-        if self.repeats and step < self.first:
+        if (self.repeats or self.spacing) and step < self.first:
             yield self.at(max(step, self.least))
 
     def made(self) -> Iterator[Trial]:

@@ -135,7 +135,11 @@ def steps_of(way: Way) -> tuple[float, Matrix]:
     """The logarithms of a way's first step and of those that may be tried, which are the same for all promises."""
     low, high = math.log(way.least), math.log(way.most)
     first = min(max(math.log(way.first), low), high)
-    return first, np.union1d(SLACK * np.arange(math.ceil(low / SLACK), math.floor(high / SLACK)), first)
+    steps = np.union1d(SLACK * np.arange(math.ceil(low / SLACK), math.floor(high / SLACK)), first)
+    if isinstance(way, Gridded) and way.spacing:
+        steps = np.log(np.unique(way.dividing(np.exp(steps[steps > first - 1.0]))))
+        first = float(steps[np.abs(steps - first).argmin()])
+    return first, steps
 
 
 def search(queue: list[Hopes], aim: Aim, price: float, least: float, searches: int) -> Iterator[Trial]:

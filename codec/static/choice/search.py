@@ -180,6 +180,9 @@ class Search:
             sizes[grid] = other
             if grid.repeats:  # few chosen places are images of others, and blocks take more bytes than a usual grid
                 other = max(other, math.log(usual.draft.size))
+        if rows := [way for way in ways if isinstance(way, Gridded) and way.spacing]:
+            begun[rows[0]] = rows[0].repeat(rows[0].at(rows[0].first))
+            sizes.update(dict.fromkeys(rows, aim.bytes(rows[0], begun[rows[0]])))
         return [self._hopes(way, aim, begun.get(way, first), sizes.get(way, other), begun=way in begun) for way in ways]
 
     def _hopes(self, way: Way, aim: Smallest, like: Trial, size: float | None = None, *, begun: bool) -> Hopes:
@@ -193,9 +196,8 @@ class Search:
         hopes = Hopes(way, steps, taken, Law(steps, first, 0.0, rise, DOUBT, luck))
         if begun:
             hopes.begin(like, size)
-            if isinstance(way, Gridded):
-                for made in way.usual():
-                    hopes.begin(made, aim.bytes(way, made))
+        for made in way.usual() if isinstance(way, Gridded) else ():
+            hopes.begin(made, aim.bytes(way, made))
         return hopes
 
     def seen(self, draft: Draft) -> str:
@@ -207,10 +209,12 @@ class Search:
         prepared, options = self._prepared, self._options
         if options.effort == "quick":
             return [grid]
-        ways: list[Way] = [grid, Gridded(prepared, bounds, 1.0, grid.turn)]
+        seen = bounds.contract.look < math.inf
+        rows = grid.regular() if seen else []
+        ways: list[Way] = [grid, *(rows or [Gridded(prepared, bounds, 1.0, grid.turn)])]
         if not prepared.has_low_frequencies:
             return ways
-        blocks, seen = OnVertices(prepared, options, bounds), bounds.contract.look < math.inf
+        blocks = OnVertices(prepared, options, bounds)
         based = OnCells(prepared, options, bounds) if seen else blocks
         ways.append(refined := Refined(prepared, bounds, based))
         if bounds.contract.angle < ANY_ANGLE:

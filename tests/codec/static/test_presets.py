@@ -11,10 +11,11 @@ import pytest
 from bsm import PRESETS, BsmError, EncodeOptions, Encoder, MeshError, TriangleMesh, decode, read_mesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.look.measure import look
+from bsm.codec.static.choice.grids import spacing_of
 from bsm.codec.static.options import BALANCED, changed
 from bsm.evaluation.curve import EXACT_BASES, Spectral, measure, paper_options
 from tests.conftest import mesh_folder
-from tests.shapes import patch, together, torus
+from tests.shapes import in_rows, patch, together, torus
 
 PROMISING = {name: options.promise for name, options in PRESETS.items() if options.promise is not None}
 ORDER = tuple(PROMISING)  # from the coarsest on
@@ -60,6 +61,26 @@ def outdone(mesh: TriangleMesh) -> list[tuple[str, str, int, int]]:
 
 def test_no_preset_is_outdone() -> None:
     assert not outdone(torus(40, 24))
+
+
+@pytest.mark.parametrize("seed", [4, 5])
+@pytest.mark.parametrize("kind", ["wave", "noisy", "strip", "tray"])
+def test_no_preset_is_outdone_where_vertices_are_in_rows(kind: str, seed: int) -> None:
+    found = sizes(in_rows(kind, np.random.default_rng(seed)), "normal")
+    for coarser, finer in pairwise(ORDER):
+        assert found[coarser] <= JUMPS * found[finer] + FEW, found
+
+
+def test_rows_that_are_turned_or_irregular_are_found_as_they_are() -> None:
+    mesh = in_rows("wave", np.random.default_rng(6))
+    step = float(np.diff(np.unique(mesh.positions[:, 0])).mean())
+    assert spacing_of(mesh.positions, mesh.faces) == pytest.approx(step)
+    assert spacing_of(mesh.positions * (1.0, 1.5, 1.0), mesh.faces) == pytest.approx(step / 2.0)
+    moved = mesh.positions + np.random.default_rng(7).uniform(-0.3, 0.3, mesh.positions.shape) * (0.0, step, step)
+    assert spacing_of(moved, mesh.faces) == pytest.approx(step)
+    round_about = torus(40, 24)
+    assert spacing_of(round_about.positions, round_about.faces) == 0.0
+    assert spacing_of(mesh.positions, mesh.faces[:0]) == 0.0
 
 
 def sizes(mesh: TriangleMesh, effort: str) -> dict[str, int]:
