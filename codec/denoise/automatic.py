@@ -50,7 +50,7 @@ CANDIDATES = (
 """The first one makes the first guess."""
 SEEN = tuple(Filter(RAYS, keep, sigma_r) for keep, sigma_r in ((0.3, 0.4), (1.0, 0.4), (0.3, 0.25), (1.0, 0.55)))
 """For scans of one view."""
-AXIAL = (CANDIDATES[1], *(Filter("positions", keep, width) for keep, width in ((0.4, 0.4), (0.2, 0.25), (0.1, 0.55))))
+AXIAL = (*CANDIDATES[:2], *(Filter("positions", keep, width) for keep, width in ((0.4, 0.4), (0.2, 0.25), (0.1, 0.55))))
 """For noise along one axis, along which vertices then go back. The first keeps sharp edges for the guess."""
 FUSED = tuple(Filter(BENDS, weight, 0.3) for weight in (0.15, 0.3, 0.6))
 EVEN, FUSED_UNEVEN, FUSED_MOST = 0.2, 7.0, 2.5
