@@ -205,9 +205,8 @@ def samples() -> dict[str, Sample]:
         "pvd": Sample("pvd", _PVD, (*beside, ("b.obj", plain))),
         "series": Sample("series", _SERIES, (*beside, ("b.obj", plain))),
     }
-    libraries = {"usda": ("pxr", _USDA), "msh": ("meshio", _MSH)}
-    there = {kind: data for kind, (library, data) in libraries.items() if importlib.util.find_spec(library)}
-    return found | {kind: Sample(kind, data) for kind, data in there.items()}
+    usd = {"usda": Sample("usda", _USDA)} if importlib.util.find_spec("pxr") else {}
+    return {**found, "msh": Sample("msh", _MSH), **usd}
 
 
 # -------------------------------------------------------------------------------------------------------- every number

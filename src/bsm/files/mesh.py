@@ -32,6 +32,7 @@ from bsm.files.table import (
     by_name,
     format_of_bytes,
     format_of_name,
+    is_mesh_name,
     other_kind,
 )
 from bsm.ground.lengths import metres
@@ -131,13 +132,12 @@ def read_cut(
         raise FormatError("the file is empty")
     if data.startswith(MAGIC):
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
-    suffix = file_format or format_of_name(name)
+    kind = _kind(name, data, file_format)
     # Only formats with many namesakes: .obj is also object code, .off a disk image. A reader's error about line 1 would
     # say less.
-    other = other_kind(data, suffix) if suffix in ("obj", "off", "ply", "glb") else ""
-    if other and (suffix, other) != ("glb", "JSON"):
-        raise FormatError(f"this is {other}, not .{suffix}; give it the right name, or name its format")
-    kind = suffix or format_of_bytes(data) or Path(name).suffix[1:].lower()
+    other = other_kind(data, kind) if kind in ("obj", "off", "ply", "glb") else ""
+    if other and (kind, other) != ("glb", "JSON"):
+        raise FormatError(f"this is {other}, not .{kind}; give it the right name, or name its format")
     row = FORMATS.get(kind)
     if row is None or not row.reader or (kind in USD_FORMATS and not path):
         way = next((way for kinds, way in _FOREIGN.items() if kind in kinds), _WAY)
@@ -159,7 +159,13 @@ def kind_of(given: Input, file_format: str | None) -> str:
     """The format of a file, by its name, or else by its first bytes; "" if they do not tell."""
     head = given.peek(_HEAD if given.is_file else _ALL)
     name = given.name.removesuffix(".gz") if head.startswith(b"\x1f\x8b") else given.name
-    return file_format or format_of_name(name) or format_of_bytes(plain_text(head)) or Path(name).suffix[1:].lower()
+    return _kind(name, plain_text(head), file_format)
+
+
+def _kind(name: str, data: bytes, file_format: str | None) -> str:
+    suffix = Path(name).suffix[1:].lower()
+    # The name first: text of many formats has lines that begin like those of an OBJ, as that of an array called v.
+    return file_format or (suffix if is_mesh_name(name) else format_of_bytes(data) or suffix)
 
 
 def is_apart(kinds: Iterable[str], limits: Limits, isolated: bool | None) -> bool:

@@ -76,12 +76,12 @@ FORMATS: Mapping[str, Format] = {
     "gltf": _GLTF,
     "stl": _own("stl", rb"\s*solid", called="an STL", beside=True, empty=bytes(84)),
     "npz": _own("npz", rb"(?s:PK\x03\x04.*positions\.npy)", frames="rw", times=frozenset()),
-    "vtp": _own("vtp", rb"(?s:.{0,1000})<VTKFile[^>]*PolyData", times=_TIMED),
+    "vtp": _own("vtp", rb"(?s:.{0,1000})<VTKFile[^>]*\bPolyData", times=_TIMED),
     "3mf": Format("read_3mf", f"{_3MF}:write_3mf", unit="named", up="z", modules=(_3MF, "lib3mf")),
     "dae": Format("read_dae", by_path=True, modules=("bsm.files.formats.dae", "collada", "lxml.etree")),
     **dict.fromkeys(USD_FORMATS, replace(_USD, times=_TIMED)),
     **{kind: _lines(name) for kind, name in _LINES.items()},
-    "msh": Format("read_gmsh_mesh", frames="r", by_path=True, modules=("bsm.files.formats.gmsh", "meshio.gmsh")),
+    "msh": Format("read_gmsh_mesh", frames="r", modules=("bsm.files.formats.gmsh",)),
     **{
         kind: Format(
             "read_vtk",

@@ -19,10 +19,9 @@ from bsm.files.formats.obj import read_obj
 from bsm.files.formats.ply import MOST_HEADER, Element, parse_header
 from bsm.files.formats.polygons import CROSSING, triangulate
 from bsm.files.formats.stl import HEAD, RECORD, binary_triangles, is_text
-from bsm.files.mesh import read_mesh
+from bsm.files.mesh import kind_of, read_mesh
 from bsm.files.output import by_its_own_name
 from bsm.files.pipes import Input, is_url, size_of
-from bsm.files.table import format_of_bytes, format_of_name
 from bsm.ground.console import Console
 from bsm.tiles.atlas import checked
 
@@ -96,12 +95,12 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     """Read a mesh of any size once; the memory is that of a piece."""
     given = Input(name)
     head = given.peek(_HEAD)
-    kind = file_format or format_of_name(name) or format_of_bytes(head)
+    kind = kind_of(given, file_format)
     if not head:
         raise FormatError("the file is empty")
     # Text, and polygons in binary files, have rows of unknown sizes. Such files are read as a whole, which needs
     # memory, but is right for every file that the ordinary readers know.
-    raw, read = Raw(folder), _READERS.get(kind or "", partial(_read_whole, kind))
+    raw, read = Raw(folder), _READERS.get(kind, partial(_read_whole, kind or None))
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     largest, files = 0, dict[str, BinaryIO]()
     with closing(given), console.progress("reading", until=0.1), ExitStack() as opened:

@@ -6,6 +6,7 @@ import pytest
 import bsm
 from bsm.files import apart
 from bsm.files.formats.cells import _SHAPES, of_meshio
+from bsm.files.mesh import written_mesh
 from bsm.files.motion.frames import Wanted
 from bsm.files.sequence import open_sequence
 from tests.grids import grid, save, save_grid
@@ -293,3 +294,17 @@ def test_an_order_of_nodes_in_xdmf_is_refused(tmp_path):
     (tmp_path / "a.xdmf").write_text(text.replace("<Topology ", '<Topology Order="1 0 2 3 4 5 6 7" ', 1))
     with pytest.raises(bsm.FormatError, match=r"order of nodes.*\.vtu"):
         bsm.read_mesh(tmp_path / "a.xdmf")
+
+
+def test_the_name_of_a_file_tells_its_format_before_its_lines_do(tmp_path):
+    """An array called v looks like the vertices of an OBJ, and pieces of polygons like a VTP."""
+    text = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n"
+    text += "3 0 1 2\nPOINT_DATA 3\nFIELD f 2\nu 1 3 float\n1 2 3\nv 1 3 float\n4 5 6\n"
+    (tmp_path / "a.vtk").write_text(text)
+    mesh = bsm.read_mesh(tmp_path / "a.vtk").mesh
+    assert {a.name: a.values[:, 0].tolist() for a in mesh.attributes} == {"u": [1, 2, 3], "v": [4, 5, 6]}
+    (tmp_path / "b.vtp").write_bytes(written_mesh(mesh, "vtp").data)
+    text = "<VTKFile type='PPolyData'><PPolyData><PPoints><PDataArray type='Float32' NumberOfComponents='3'/></PPoints>"
+    pieces = "<Piece Source='b.vtp'/>" * 2
+    (tmp_path / "b.pvtp").write_text(f"{text}{pieces}</PPolyData></VTKFile>")
+    assert len(bsm.read_mesh(tmp_path / "b.pvtp").mesh.faces) == 2

@@ -1,74 +1,107 @@
-"""Gmsh meshes by meshio: surfaces, the skin of volumes, and physical groups (the extra `simulation`).
+"""Gmsh meshes, text or binary, of the versions 2 to 4.1: surfaces, the skin of volumes, and physical groups.
 
-meshio keeps values by their places, and those of one time only. So they are read here, by the numbers of nodes and
-elements, from text, and their times are the frames of a sequence. Values in binary refuse a file. So does a section
-that is there twice with other contents, or that is not in keywords.csv.
+A section of numbers is read by one cursor, whether they are text or binary. Values go by the numbers of nodes and
+elements, and their times are the frames of a sequence. A section that is there twice with other contents, or that is
+not in keywords.csv, refuses a file, and so do elements beyond the second order.
 """
 
-import io
 import re
-from collections.abc import Sequence
-from contextlib import redirect_stderr, redirect_stdout
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
-from bsm.bitstream.errors import FormatError, imported
+from bsm.bitstream.errors import FormatError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.welding import row_numbers
-from bsm.files.formats.cells import skin
+from bsm.files.formats.cells import runs, skin
 from bsm.files.formats.lines import Keywords, by_number
 from bsm.files.formats.metadata import named
 from bsm.files.formats.polygons import Polygons
 from bsm.files.motion.folder import read_steps
 from bsm.files.motion.frames import Frames, Wanted
-from bsm.files.parsing import Ints, as_library_error, in_words
+from bsm.files.parsing import Doubles, Ints, as_format_error, as_integers, require_counts
 
-_GROUP, _VALUES = "gmsh:physical", ("NodeData", "ElementData")
-MOST_GAPS = 16  # numbers of nodes for each node, on average
+_VALUES = ("NodeData", "ElementData")
 _WAY = "write it as text without that, e.g. gmsh FILE.msh -save -bin 0 -o NEW.msh"
+_TYPES = {
+    1: "line2", 2: "triangle3", 3: "quad4", 4: "tetra4", 5: "hexahedron8", 6: "wedge6", 7: "pyramid5", 8: "line3",
+    9: "triangle6", 10: "quad9", 11: "tetra10", 12: "hexahedron27", 13: "wedge18", 14: "pyramid14", 15: "vertex1",
+    16: "quad8", 17: "hexahedron20", 18: "wedge15", 19: "pyramid13",
+}  # fmt: skip
+"""Shapes of elements by their types, and how many nodes they have."""
+_DIMENSIONS = {"vertex": 0, "line": 1, "triangle": 2, "quad": 2}
+_EDGES = {
+    "tetra": [4, 5, 6, 7, 9, 8], "hexahedron": [8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15],
+    "wedge": [6, 9, 7, 12, 14, 13, 8, 10, 11], "pyramid": [5, 8, 10, 6, 7, 9, 11, 12],
+}  # fmt: skip
+"""Where Gmsh has the nodes on edges, in the order of `cells.py`."""
+_Cells: TypeAlias = tuple[str, Ints, Ints, Ints]
+"""A shape; of each cell its number, the number of its physical group or 0, and its nodes."""
+
+
+class _Numbers:
+    """The numbers of a section, one after the other."""
+
+    def __init__(self, data: bytes, binary: bool) -> None:
+        self._data: Any = data if binary else np.array(data.split(), np.float64)
+        self._binary, self._at = binary, 0
+
+    def __len__(self) -> int:
+        return len(self._data) - self._at
+
+    def take(self, kind: Any, count: int = 1) -> Any:
+        """The next numbers, of a kind that they have in binary."""
+        size = count * (np.dtype(kind).itemsize if self._binary else 1)
+        begin, self._at = self._at, self._at + size
+        if not begin <= self._at <= len(self._data):
+            raise TruncatedError("a section ends amid its numbers")
+        if self._binary:
+            return np.frombuffer(self._data, kind, count, begin)
+        return self._data[begin : self._at] if kind == "f8" else as_integers(self._data[begin : self._at], "a number")
+
+    def counts(self, count: int, kind: str = "u8") -> list[int]:
+        found: list[int] = self.take(kind, count).tolist()
+        return found
+
+    def rows(self, count: int, width: int) -> tuple[Ints, Doubles]:
+        """The next rows: a whole number each, and values."""
+        if self._binary:
+            table = self.take(np.dtype([("number", "i4"), ("values", "f8", (width,))]), count)
+            return table["number"].astype(np.int64), table["values"]
+        table = self.take("f8", count * (1 + width)).reshape(count, 1 + width)
+        return as_integers(table[:, 0], "a number"), table[:, 1:]
 
 
 class _Gmsh:
     """The cells of a file, the groups that name them, and values by time."""
 
-    def __init__(self, data: bytes, path: str | None) -> None:
-        if path is None:
-            raise FormatError("this format is read from an uncompressed file with a name")
-        self.keywords, sections = Keywords("gmsh", _WAY), dict[str, list[bytes]]()
+    def __init__(self, data: bytes, limits: Limits) -> None:
+        self.keywords, self._sections = Keywords("gmsh", _WAY), dict[str, list[bytes]]()
         for found in re.finditer(rb"^\$(?!End)(\w+)[^\n]*\n(.*?)(?=^\$End\1|\Z)", data, re.M | re.S):
             name, line = found[1].decode(), data.count(b"\n", 0, found.start()) + 1
-            known = sections.setdefault(name, [])
+            known = self._sections.setdefault(name, [])
             if known and name not in _VALUES and found[2] not in known:  # Gmsh writes all again for each view
                 raise self.keywords.refusal(f"another ${name}", line)
             known.append(found[2])
             self.keywords.leave(name, line)
-        with as_library_error("meshio"), redirect_stderr(io.StringIO()), redirect_stdout(io.StringIO()):
-            library = imported("meshio", "Gmsh meshes are read with meshio", "simulation").gmsh
-            version, binary, _ = sections.get("MeshFormat", [b"0 0 0"])[0].split()[:3]
-            if binary != b"0" and any(name in sections for name in _VALUES):
-                raise FormatError(f"this file has values in binary, which are not read here; {_WAY}")
-            # meshio makes a table of all numbers up to the largest.
-            if "Nodes" in sections:
-                section = sections["Nodes"][0]
-                is_text = binary == b"0"
-                nodes = _tags(section, version.startswith(b"4"), True) if is_text else _binary_tags(section, version)
-                if len(nodes) and nodes.max() > MOST_GAPS * (len(nodes) + 65536):
-                    far = f"node {nodes.max()} of {len(nodes)} nodes: numbers that far apart are not read"
-                    raise FormatError(f"{far}; number them anew, e.g. gmsh FILE.msh -save -o NEW.msh")
-            try:
-                self.mesh = library.read(path)
-            except Exception as error:
-                raise FormatError(f"meshio cannot read this file: {in_words(error)}; {_WAY}") from error
+        form, _, one = self._sections.get("MeshFormat", [b""])[0].partition(b"\n")
+        with as_format_error("Gmsh"):
+            version, binary, size = form.split()
+            self._version, self._binary = float(version), binary == b"1"
+            if size != b"8" or not 2 <= self._version < 5 or (self._binary and one[:4] != b"\1\0\0\0"):
+                raise FormatError(f"this file has the version {version.decode()}, or numbers of another size; {_WAY}")
+            numbers, self.points = self._nodes()
+            require_counts(limits, vertices=len(numbers))
+            self.cells = [(*cell, by_number(numbers, nodes)) for *cell, nodes in self._cells()]
+            elements = np.concatenate([np.zeros(0, np.int64), *(cell[1] for cell in self.cells)])
             self._series: dict[tuple[str, str], dict[float, Any]] = {}
-            for kind, section in ((whose, one) for whose in _VALUES for one in sections.get(whose, ())):
-                of_nodes = kind == "NodeData"
-                called, time, asked, values = _values(section)
-                tagged = sections["Nodes" if of_nodes else "Elements"][0]
-                numbers = _tags(tagged, version.startswith(b"4"), of_nodes)
-                rows = np.full((len(numbers), values.shape[1]), np.nan)
-                rows[by_number(numbers, asked, "node" if of_nodes else "element")] = values
+            for kind, section in ((whose, one) for whose in _VALUES for one in self._sections.get(whose, ())):
+                called, time, asked, values = self._values(section)
+                tagged = numbers if kind == "NodeData" else elements
+                rows = np.full((len(tagged), values.shape[1]), np.nan)
+                rows[by_number(tagged, asked, "node" if kind == "NodeData" else "element")] = values
                 if self._series.setdefault((kind, called), {}).setdefault(time, rows) is not rows:
                     raise FormatError(f"the values {called} are there twice for the time {time:g}")
         moving = [[*steps] for steps in self._series.values() if len(steps) > 1] or [[0.0]]
@@ -76,85 +109,139 @@ class _Gmsh:
             raise FormatError(f"values have times of their own each; {_WAY}")
         self.times = moving[0]
 
+    def _section(self, name: str) -> _Numbers:
+        return _Numbers(self._sections.get(name, [b""])[0], self._binary)
+
+    def _counted(self, name: str) -> tuple[int, _Numbers]:
+        """The count of rows that a section of version 2 begins with, and the rest."""
+        count, _, rest = self._sections.get(name, [b"0"])[0].partition(b"\n")
+        return int(count), _Numbers(rest, self._binary)
+
+    def _blocks(self, name: str) -> Iterator[tuple[_Numbers, int, int, int, int]]:
+        """The blocks of a section of version 4: dimension and number of an entity, a third number, and a count."""
+        given, is_new = self._section(name), self._version > 4
+        for _ in range(given.counts(4 if is_new else 2)[0] if given else 0):
+            first, second, third = given.counts(3, "i4")
+            yield given, *((first, second) if is_new else (second, first)), third, *given.counts(1)
+
+    def _nodes(self) -> tuple[Ints, Doubles]:
+        """The numbers of nodes, and where they are."""
+        if self._version < 4:
+            count, given = self._counted("Nodes")
+            return given.rows(count, 3)
+        found = [(np.zeros(0, np.int64), np.zeros((0, 3)))]
+        for given, dimension, _, parametric, count in self._blocks("Nodes"):
+            width = 3 + dimension * bool(parametric)
+            if self._version > 4:
+                found.append((given.take("u8", count).astype(np.int64), given.take("f8", count * width)))
+            else:
+                found.append(given.rows(count, width))
+            found[-1] = found[-1][0], found[-1][1].reshape(count, width)[:, :3]
+        numbers, points = map(np.concatenate, zip(*found))
+        return numbers, points
+
+    def _cells(self) -> Iterator[_Cells]:
+        if self._version < 4:
+            left, given = self._counted("Elements")
+            while self._binary and left > 0:
+                kind, count, tags = given.counts(3, "i4")
+                width, left = 1 + tags + self._width(kind), left - count
+                yield self._cell(kind, tags, given.take("i4", count * width).reshape(count, width))
+            flat = given.take("i8", 0 if self._binary else len(given))
+            for table in runs(flat, lambda row: (3 + int(row[2]) + self._width(int(row[1])), slice(1, 3))):
+                yield self._cell(int(table[0, 1]), int(table[0, 2]), np.delete(table, [1, 2], axis=1))
+            return
+        groups = self._groups()
+        for given, dimension, entity, kind, count in self._blocks("Elements"):
+            width = 1 + self._width(kind)
+            table = given.take("u8" if self._version > 4 else "i4", count * width).reshape(count, width)
+            group = np.full((count, 1), groups.get((dimension, entity), 0))
+            yield self._cell(kind, 1, np.concatenate([table[:, :1], group, table[:, 1:]], axis=1))
+
+    def _width(self, kind: int) -> int:
+        if kind not in _TYPES:
+            raise FormatError(f"elements of the type {kind} are not read here; gmsh FILE.msh -order 2 -save -o NEW.msh")
+        return int(re.sub(r"\D", "", _TYPES[kind]))
+
+    def _cell(self, kind: int, tags: int, table: Any) -> _Cells:
+        """Cells of rows: a number, tags, the first of which is the physical group, and nodes."""
+        shape, table = _TYPES[kind].rstrip("0123456789"), table.astype(np.int64)
+        nodes, edges = table[:, 1 + tags :], _EDGES.get(shape, [])
+        if nodes.shape[1] > min(edges, default=99):
+            nodes = nodes[:, [*range(min(edges)), *edges]]
+        return shape, table[:, 0], np.abs(table[:, 1]) if tags else np.zeros(len(table), np.int64), nodes
+
+    def _groups(self) -> dict[tuple[int, int], int]:
+        """The physical groups of entities by their dimensions and numbers."""
+        found = dict[tuple[int, int], int]()
+        for name in ("Entities", "PartitionedEntities"):
+            given, is_part = self._section(name), name != "Entities"
+            if is_part and given:
+                given.take("i4", 2 * given.counts(2)[1])  # ghosts
+            for dimension, count in enumerate(given.counts(4) if given else ()):
+                for _ in range(count):
+                    (entity,) = given.counts(1, "i4")
+                    if is_part:
+                        given.take("i4", 2)  # of which entity it is a part
+                        given.take("i4", *given.counts(1))
+                    given.take("f8", 3 if dimension == 0 and self._version > 4 else 6)
+                    groups = given.counts(*given.counts(1), "i4")
+                    given.take("i4", *given.counts(1) if dimension else (0,))
+                    found[dimension, entity] = abs(groups[0]) if groups else 0
+        return found
+
+    def _values(self, section: bytes) -> tuple[str, float, Ints, Doubles]:
+        """The name of values, their time, the numbers that they are of, and a row for each."""
+        tags = list[list[bytes]]()
+        for _ in range(3):
+            count, *lines = section.split(b"\n", 1)
+            *row, section = lines[0].split(b"\n", int(count))
+            tags.append(row)
+        (name, *_), (time, *_), (_, width, rows, *_) = tags
+        numbers, values = _Numbers(section, self._binary).rows(int(rows), int(width))
+        return name.decode("utf-8", "replace").strip().strip('"'), float(time), numbers, values
+
     def surface(self, step: int, left: Sequence[str] = ()) -> Polygons:
         """The surface at one of the times."""
-        mesh = self.mesh
-        cells, again = [(block.type, block.data) for block in mesh.cells], np.zeros(sum(map(len, mesh.cells)), np.bool_)
-        ends = np.cumsum([len(table) for _, table in cells])
-        for kind in {kind for kind, _ in cells}:  # version 2.2 writes an element again for each further group of it
-            those = [place for place, (name, _) in enumerate(cells) if name == kind]
-            places = np.concatenate([np.arange(ends[place] - len(cells[place][1]), ends[place]) for place in those])
-            numbers = row_numbers(np.concatenate([cells[place][1] for place in those]))
-            again[np.delete(places, np.unique(numbers, return_index=True)[1])] = True
-        cells = [(kind, table[~there]) for (kind, table), there in zip(cells, np.split(again, ends))]
-        groups = np.concatenate([np.zeros(0, np.int64), *mesh.cell_data.get(_GROUP, [])]).astype(np.int64)
-        groups = groups[~again] if len(groups) else groups
+        again = np.zeros(sum(len(numbers) for _, numbers, _, _ in self.cells), np.bool_)
+        ends = np.cumsum([len(numbers) for _, numbers, _, _ in self.cells])
+        shapes = [(shape, nodes.shape[1]) for shape, _, _, nodes in self.cells]
+        for kind in {*shapes}:  # version 2.2 writes an element again for each further group of it
+            those = [place for place, other in enumerate(shapes) if other == kind]
+            places = np.concatenate(
+                [np.arange(ends[place] - len(self.cells[place][1]), ends[place]) for place in those]
+            )
+            alike = row_numbers(np.concatenate([self.cells[place][3] for place in those]))
+            again[np.delete(places, np.unique(alike, return_index=True)[1])] = True
+        cells = [(shape, nodes[~there]) for (shape, _, _, nodes), there in zip(self.cells, np.split(again, ends))]
         rows: dict[str, dict[str, Any]] = {"NodeData": {}, "ElementData": {}}
         for (kind, called), steps in self._series.items():
             values = [*steps.values()][step if len(steps) > 1 else 0]
             rows[kind][called] = values if kind == "NodeData" else values[~again]
-        dims = np.repeat([block.dim for block in mesh.cells], [len(table) for _, table in cells])
-        names = {(int(dim), int(number)): name for name, (number, dim) in mesh.field_data.items()}
-        owned = np.column_stack([dims, groups]) if any(groups) else np.zeros((0, 2), np.int64)
-        pairs, places = np.unique(owned, axis=0, return_inverse=True)
+        named_by = re.findall(rb'^\s*(\d+)\s+(\d+)\s+"(.*)"', self._sections.get("PhysicalNames", [b""])[0], re.M)
+        names = {(int(dim), int(number)): name.decode("utf-8", "replace") for dim, number, name in named_by}
+        groups = [
+            np.column_stack([np.full(len(own), _DIMENSIONS.get(shape, 3)), own]) for shape, _, own, _ in self.cells
+        ]
+        owned = np.concatenate([np.zeros((0, 2), np.int64), *groups])[~again]
+        pairs, places = np.unique(owned, axis=0, return_inverse=True) if owned[:, 1].any() else (owned[:0], owned)
         listed = [*map(tuple, pairs.tolist())]
         metadata = named([names.pop(pair, str(pair[1])) for pair in listed], "group")
         if len(pairs) > 1:
             rows["ElementData"]["group"] = places.ravel().astype(np.int32)
         lost = (*self.keywords.named, *(f"the group {name}" for name in names.values()), *left)
         lost += (f"elements that are there again ({again.sum()})",) if again.any() else ()
-        return skin(mesh.points, cells, rows["NodeData"], rows["ElementData"], lost, metadata)
+        return skin(self.points, cells, rows["NodeData"], rows["ElementData"], lost, metadata)
 
 
-def read_gmsh_mesh(data: bytes, path: str | None, limits: Limits) -> Polygons:
+def read_gmsh_mesh(data: bytes, limits: Limits) -> Polygons:
     """Read the surfaces of a file with the values of the first time."""
-    model = _Gmsh(data, path)
+    model = _Gmsh(data, limits)
     later = len(model.times) - 1
     return model.surface(0, [f"later steps ({later})"] if later else [])
 
 
 def read_gmsh(path: str, wanted: Wanted, limits: Limits) -> Frames | None:
     """The times of values as frames; None if there is one."""
-    model = _Gmsh(data := Path(path).read_bytes(), path)
+    model = _Gmsh(data := Path(path).read_bytes(), limits)
     return read_steps(model.surface, model.times, len(data), wanted, limits)
-
-
-def _values(section: bytes) -> tuple[str, float, Ints, Any]:
-    """The name of values, their time, the numbers that they are of, and a row for each."""
-    lines, tags = section.splitlines(), list[list[bytes]]()
-    for _ in range(3):
-        end = 1 + int(lines[0])
-        tags.append(lines[1:end])
-        lines = lines[end:]
-    (name, *_), (time, *_), (_, width, count, *_) = tags
-    table = np.array(b" ".join(lines).split(), np.float64).reshape(int(count), 1 + int(width))
-    called = name.decode("utf-8", "replace").strip().strip('"')
-    return called, float(time), table[:, 0].astype(np.int64), table[:, 1:]
-
-
-def _tags(section: bytes, in_blocks: bool, of_nodes: bool) -> Ints:
-    """The numbers of nodes or elements, in the order of the file."""
-    lines, found, at = section.splitlines(), list[bytes](), 1
-    while at < len(lines):
-        count = int(lines[at].split()[3]) if in_blocks else len(lines) - 1
-        at += in_blocks
-        found += [line.split(None, 1)[0] for line in lines[at : at + count]]
-        at += count * (1 + (in_blocks and of_nodes))
-    return np.array(found, np.int64)
-
-
-def _binary_tags(section: bytes, version: bytes) -> Ints:
-    """The numbers of nodes in a binary file; none of version 2, where meshio takes 1, 2, 3, ... only."""
-    is_new, found = version != b"4.0", [np.zeros(0, np.int64)]
-    row = np.dtype([("tag", np.int32), ("position", np.float64, 3)])
-    count = int(np.frombuffer(section, np.uint64, 1)[0]) if version.startswith(b"4") else 0
-    at = 8 * (4 if is_new else 2)
-    for _ in range(count):
-        nodes = int(np.frombuffer(section, np.uint64, 1, at + 12)[0])
-        at += 20
-        if is_new:
-            found.append(np.frombuffer(section, np.uint64, nodes, at).astype(np.int64))
-        else:
-            found.append(np.frombuffer(section, row, nodes, at)["tag"].astype(np.int64))
-        at += nodes * (32 if is_new else row.itemsize)
-    return np.concatenate(found)
