@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, TypeAlias, Union, cast
 
 from bsm.bitstream import errors
+from bsm.files.table import OF_OTHERS
 
 # At least two letters, as "C:" is a drive of Windows and not a scheme; "::" chains file systems of fsspec
 # ("simplecache::s3://...").
@@ -424,7 +425,9 @@ def digest_of(path: str) -> str | None:
 
 
 def size_of(path: str) -> int | None:
-    """Return the bytes of the files of an input or output; None for a pipe, or if a server does not tell."""
+    """Return the bytes of the files of an input or output; None for a pipe, or if a file or server does not tell."""
+    if Path(path).suffix[1:].lower() in OF_OTHERS:
+        return None
     if is_url(path):
         return (state_of_remote(path) or (None,))[0]
     sizes = [os.path.getsize(file) for file in files_behind(path) if os.path.isfile(file)]

@@ -113,7 +113,7 @@ def open_frames(
 
 def size_of_sequence(paths: Sequence[str], metadata: Metadata, mesh: str | None = None) -> int | None:
     """The bytes of all files that a sequence was read from, each once: lists and theirs, caches and their mesh."""
-    if any(is_url(path) or path == "-" for path in paths):
+    if any(is_url(path) or path == "-" or size_of(path) is None for path in paths):
         return size_of(paths[0])
     found: list[str] = []
     for path in (file for name in paths for file in files_behind(name)):

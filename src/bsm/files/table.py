@@ -66,6 +66,8 @@ _VTK = {
 }  # fmt: skip
 """Suffixes of what modules of VTK read."""
 XDMF = ("xdmf", "xmf")
+OF_OTHERS = (*XDMF, "case", "encas", "foam", "pvtu", "pvtp", "pvts", "pvtr", "pvti", "vtm", "vtpc")
+"""Suffixes of files that name others, which hold most of the data."""
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")
 
 FORMATS: Mapping[str, Format] = {

@@ -212,6 +212,27 @@ def test_two_files_for_a_frame_and_two_series_are_errors_and_hidden_files_are_no
         open_sequence(str(tmp_path))
 
 
+@pytest.mark.parametrize(
+    ("names", "why"),
+    [
+        (("start", "middle", "end"), "nothing in their names tells it"),
+        (("left/mesh", "right/mesh"), "nothing in their names tells it"),
+        (("t.50", "t.75", "t1.00"), "a point ahead of the number"),
+        (("a", "b", "c"), None),
+    ],
+)
+def test_names_that_tell_no_order_are_refused(names, why, tmp_path):
+    for name in names:
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        write_mesh(tmp_path / f"{name}.obj", torus(5, 4))
+    pattern = str(tmp_path / ("*/*.obj" if "/" in names[0] else "*.obj"))
+    if why is None:
+        assert open_sequence(pattern).count == 3
+    else:
+        with pytest.raises(MeshError, match=why):
+            open_sequence(pattern)
+
+
 def test_numbers_and_lines_of_an_obj_that_mean_nothing_to_a_mesh_are_named():
     read = read_mesh(b"v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nbevel on\ncstype bezier\n")
     assert read.mesh.attributes == ()

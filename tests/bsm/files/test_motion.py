@@ -969,10 +969,10 @@ def test_parts_of_a_pvd_at_one_time_are_joined_and_a_pvd_is_written(tmp_path):
     (tmp_path / "a.pvd").write_text(head.format(rows))
     frames = open_sequence(str(tmp_path / "a.pvd"))
     assert [frame[:, 0].max() for frame in frames.frames] == [4, 7] and frames.frame_rate == pytest.approx(1 / 1.5)
-    (tmp_path / "b.pvd").write_text(
-        head.format(re.sub(' timestep="[^"]*"', "", rows.partition('<DataSet timestep="2"')[0]))
-    )
-    assert open_sequence(str(tmp_path / "b.pvd")).count == 1
+    for nothing in ("", ' timestep=""'):
+        first = re.sub(' timestep="[^"]*"', nothing, rows.partition('<DataSet timestep="2"')[0])
+        (tmp_path / "b.pvd").write_text(head.format(first))
+        assert open_sequence(str(tmp_path / "b.pvd")).count == 1
     bsm("encode", tmp_path / "a.pvd", "-f", "--quick", "-o", tmp_path / "a.bsm")
     assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / "out.pvd") == 0
     text = (tmp_path / "out.pvd").read_text()

@@ -81,3 +81,35 @@ def test_instances_that_come_and_go_are_shown_with_runs(counts, tmp_path):
     frames = open_sequence(str(tmp_path / "a.usda"), wanted=Wanted(runs=True))
     assert [len(np.unique(mesh.faces)) for mesh in frames.meshes] == [4 * count for count in counts]
     assert any("appear, vanish" in note for note in bsm.read_mesh(tmp_path / "a.usda").notes)
+
+
+VARIANTS = """#usda 1.0
+def Xform "R" (
+    variants = { string shape = "low" }
+    prepend variantSets = "shape"
+) {
+    variantSet "shape" = {
+        "low" {
+            %s 1)]
+            }
+        }
+        "high" {
+            %s 9)]
+            }
+        }
+    }
+}
+"""
+TRIANGLE = """def Mesh "q" {
+            int[] faceVertexCounts = [3]
+            int[] faceVertexIndices = [0, 1, 2]
+            point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1,"""
+
+
+def test_variants_that_are_not_chosen_are_named(tmp_path):
+    (tmp_path / "a.usda").write_text(VARIANTS % (TRIANGLE, TRIANGLE))
+    (tmp_path / "b.usda").write_text('#usda 1.0\ndef "R" (\n    prepend references = @a.usda@</R>\n)\n{\n}\n')
+    for name in "ab":
+        found = bsm.read_mesh(tmp_path / f"{name}.usda")
+        assert found.mesh.positions[:, 2].max() == 1
+        assert "left out, variants that are not chosen: shape=high" in found.notes

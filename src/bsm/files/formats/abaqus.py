@@ -28,7 +28,7 @@ _LINES = re.compile(
 )
 """Elements without a surface."""
 _INCLUDE = r"""^((?:\*(?:NODE|ELEMENT)\b.*?)?)(?:\*INCLUDE\b *)?,\s*INPUT\s*=\s*("[^"\n]*"|[^,\s]+)[ \t]*(.*)$"""
-_WAY = "write it as .vtu, e.g. with ccx2paraview or ParaView"
+_WAY = "let Abaqus/CAE write it anew without parts, or CalculiX a .frd, of which ccx2paraview makes a .vtu"
 
 
 @dataclass(eq=False)

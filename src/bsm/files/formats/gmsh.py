@@ -65,6 +65,9 @@ class _Numbers:
         found: list[int] = self.take(kind, count).tolist()
         return found
 
+    def count(self) -> int:
+        return self.counts(1)[0]
+
     def rows(self, count: int, width: int) -> tuple[Ints, Doubles]:
         """The next rows: a whole number each, and values."""
         if self._binary:
@@ -94,7 +97,7 @@ class _Gmsh:
                 raise FormatError(f"this file has the version {version.decode()}, or numbers of another size; {_WAY}")
             numbers, self.points = self._nodes()
             require_counts(limits, vertices=len(numbers))
-            self.cells = [(*cell, by_number(numbers, nodes)) for *cell, nodes in self._cells()]
+            self.cells = [(shape, own, of, by_number(numbers, nodes)) for shape, own, of, nodes in self._cells()]
             elements = np.concatenate([np.zeros(0, np.int64), *(cell[1] for cell in self.cells)])
             self._series: dict[tuple[str, str], dict[float, Any]] = {}
             for kind, section in ((whose, one) for whose in _VALUES for one in self._sections.get(whose, ())):
@@ -121,8 +124,9 @@ class _Gmsh:
         """The blocks of a section of version 4: dimension and number of an entity, a third number, and a count."""
         given, is_new = self._section(name), self._version > 4
         for _ in range(given.counts(4 if is_new else 2)[0] if given else 0):
-            first, second, third = given.counts(3, "i4")
-            yield given, *((first, second) if is_new else (second, first)), third, *given.counts(1)
+            *entity, third = given.counts(3, "i4")
+            dimension, number = entity if is_new else entity[::-1]
+            yield given, dimension, number, third, given.count()
 
     def _nodes(self) -> tuple[Ints, Doubles]:
         """The numbers of nodes, and where they are."""
@@ -183,10 +187,10 @@ class _Gmsh:
                     (entity,) = given.counts(1, "i4")
                     if is_part:
                         given.take("i4", 2)  # of which entity it is a part
-                        given.take("i4", *given.counts(1))
+                        given.take("i4", given.count())
                     given.take("f8", 3 if dimension == 0 and self._version > 4 else 6)
-                    groups = given.counts(*given.counts(1), "i4")
-                    given.take("i4", *given.counts(1) if dimension else (0,))
+                    groups = given.counts(given.count(), "i4")
+                    given.take("i4", given.count() if dimension else 0)
                     found[dimension, entity] = abs(groups[0]) if groups else 0
         return found
 
@@ -206,14 +210,14 @@ class _Gmsh:
         again = np.zeros(sum(len(numbers) for _, numbers, _, _ in self.cells), np.bool_)
         ends = np.cumsum([len(numbers) for _, numbers, _, _ in self.cells])
         shapes = [(shape, nodes.shape[1]) for shape, _, _, nodes in self.cells]
-        for kind in {*shapes}:  # version 2.2 writes an element again for each further group of it
-            those = [place for place, other in enumerate(shapes) if other == kind]
+        for shape in {*shapes}:  # version 2.2 writes an element again for each further group of it
+            those = [place for place, other in enumerate(shapes) if other == shape]
             places = np.concatenate(
                 [np.arange(ends[place] - len(self.cells[place][1]), ends[place]) for place in those]
             )
             alike = row_numbers(np.concatenate([self.cells[place][3] for place in those]))
             again[np.delete(places, np.unique(alike, return_index=True)[1])] = True
-        cells = [(shape, nodes[~there]) for (shape, _, _, nodes), there in zip(self.cells, np.split(again, ends))]
+        cells = [(kind, nodes[~there]) for (kind, _, _, nodes), there in zip(self.cells, np.split(again, ends))]
         rows: dict[str, dict[str, Any]] = {"NodeData": {}, "ElementData": {}}
         for (kind, called), steps in self._series.items():
             values = [*steps.values()][step if len(steps) > 1 else 0]

@@ -61,7 +61,7 @@ def separate_meshes(path: str, file_format: str | None = None) -> list[str]:
     """The mesh files of a folder or pattern if they are meshes by themselves; none if they are frames."""
     if is_pipe(path) or is_url(path) or not names_many(path):
         return []
-    names = frame_files(path)
+    names = sorted(mesh_files(path)) or frame_files(path)  # which says why there are none
     if len(names) > 1:
         cut = CutAlike()
         # The first and the last, since scans of different things rarely agree, and frames always do: reading all would
@@ -139,13 +139,18 @@ def _require_one_series(ordered: Sequence[str]) -> None:
 # ways are refused.
 def _require_clear(ordered: Sequence[str]) -> None:
     """Refuse names whose numbers can be read in two ways, with another order each."""
-    bases = _differing(ordered)
+    bases, stems = _differing(ordered), _stems(ordered)
     shapes = [_NUMBERS.sub("#", base) for base in bases]
     other = next((place for place, shape in enumerate(shapes) if shape != shapes[0]), 0)
     why = ""
     if len(set(shapes)) > len({_SIGNED.sub("#", base) for base in bases}):
         why = 'the "-" may be a sign or a hyphen; write _- before negative numbers'
-    _, words = _varying(stems := _stems(ordered))
+    alike = len({*map(len, stems)}) == 1 and sum(len({*letters}) > 1 for letters in zip(*stems)) <= 1
+    if not alike and not any(map(_NUMBERS.search, stems)):
+        other, why = len(ordered) - 1, "nothing in their names tells it; add their times"
+    if len({re.sub("[#.]+", "#", shape) for shape in shapes}) < len({*shapes}):
+        why = "some have a point ahead of the number"
+    _, words = _varying(stems)
     decimals = [*map(float, words)]
     falls = next((place for place in range(1, len(decimals)) if decimals[place] < decimals[place - 1]), 0)
     if falls and len({number.partition(".")[0] for number in words}) > 1:
@@ -291,7 +296,7 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
             from bsm.files.formats.vtp import elements_of  # which loads a parser of XML
 
             found = (element.attrib for element in elements_of(data) if element.tag == "DataSet")
-            rows = [(float(entry.get("timestep", 0.0)), entry["file"]) for entry in found]
+            rows = [(float(entry.get("timestep") or 0.0), entry["file"]) for entry in found]
         if not all(math.isfinite(time) for time, _ in rows):
             raise ValueError("a time is not finite")
     # JSON may hold anything in any place, and nested lists end the recursion of its parser.

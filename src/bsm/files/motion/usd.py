@@ -608,6 +608,11 @@ class _Stage:
         for count, prim in enumerate(every):
             if count == MOST_PRIMS:
                 raise LimitError(f"the stage and its instances have over {MOST_PRIMS:,} prims; export a part of it")
+            variants = prim.GetVariantSets()
+            for name in variants.GetNames():
+                chosen = variants.GetVariantSelection(name)
+                others = sorted({*variants.GetVariantSet(name).GetVariantNames()} - {chosen})
+                left.setdefault("variants that are not chosen", []).extend(f"{name}={other}" for other in others)
             if hidden := self._hidden(prim):
                 left.setdefault(hidden, []).append(str(prim.GetPath()))
             elif prim.IsA(pxr.UsdGeom.PointInstancer):
