@@ -48,7 +48,8 @@ def test_a_number_sign_begins_a_comment_at_the_start_of_a_line_and_after_numbers
         f"  # f 9 9 9\nmtllib a.mtl\n{THREE}v 0 0 1 # top\ng left #1\nusemtl M #1\nf 1 2 3 # 1\nusemtl M #2\nf 1 2 4\n"
     )
     read = read_mesh(tmp_path / "a.obj")
-    assert read.notes == () and read.mesh.faces.tolist() == [[0, 1, 2], [0, 1, 3]]
+    assert read.notes == ("left out: comments amid the data (2)",)
+    assert read.mesh.faces.tolist() == [[0, 1, 2], [0, 1, 3]]
     assert names(read.mesh, "material") == ["M #1", "M #2"] and names(read.mesh, "group") == ["left #1"]
     assert materials_in(read.mesh.metadata)[0] == {"name": "M #1", "Kd": "1 0 0", "map_Kd": 0}
     assert images_in(read.mesh.metadata) == {0: ("h#1.png", png())}
@@ -889,11 +890,11 @@ def test_formats_of_other_libraries_do_not_leak_in(kind, tmp_path):
 
 
 def test_comments_of_an_obj_come_back_or_are_named(tmp_path):
-    text = f"# 3D Slicer output. SPACE=RAS\n# by hand\n{THREE}# 3 vertices\n# twice as fine here\nf 1 2 3\n"
+    text = f"# 3D Slicer output. SPACE=RAS\n# by hand\n{THREE}# 3 vertices\n# twice as fine here\nf 1 2 3 # flat\n"
     (tmp_path / "a.obj").write_text(text)
     mesh, _, dropped = vars(read_mesh(tmp_path / "a.obj")).values()
     assert (
-        mesh.metadata["comment"] == "3D Slicer output. SPACE=RAS\nby hand" and "comments amid the data (1)" in dropped
+        mesh.metadata["comment"] == "3D Slicer output. SPACE=RAS\nby hand" and "comments amid the data (2)" in dropped
     )
     for kind, line in (("obj", "# 3D Slicer output. SPACE=RAS"), ("ply", "comment 3D Slicer output. SPACE=RAS")):
         write_mesh(tmp_path / f"b.{kind}", mesh)

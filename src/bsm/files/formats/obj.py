@@ -92,6 +92,9 @@ def _comments(data: bytes, dropped: list[str]) -> dict[str, materials.Value]:
     others = [(at, line) for at, line in lines if line and not line.startswith(("meta ", "MRGB "))]
     ahead = "\n".join(line for at, line in others if begin is None or at < begin.start())
     later = sum(at >= (begin.start() if begin else 0) and not _OF_EXPORTERS.match(line) for at, line in others)
+    # Asked only where there are other number signs: it takes as long as all else.
+    if data.count(b"#") > len(lines):
+        later += len(re.findall(rb"^[ \t]*(?:v[nt]?|f)[ \t][^\r\n#]*#", data, re.M))
     dropped += [f"comments amid the data ({later})"] if later else []
     return {**({"comment": ahead} if 0 < len(ahead) < materials.MOST_TEXT else {}), **found}
 
