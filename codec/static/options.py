@@ -1,8 +1,8 @@
 """Options for encoding a mesh."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
-from typing import Any
+from dataclasses import InitVar, dataclass, fields, replace
+from typing import TYPE_CHECKING, Any
 
 from bsm.bitstream.errors import OptionError, public
 from bsm.bitstream.limits import NAMED_LIMITS
@@ -178,6 +178,7 @@ class EncodeOptions:
     >>> data = bsm.encode("bunny.ply", bsm.EncodeOptions(preset="paper", keep=0.1))
     """
 
+    preset: InitVar[str | None] = None
     keep: float | None = None
     coefficients: int | None = None
     block_size: int = 450
@@ -200,16 +201,19 @@ class EncodeOptions:
     limits: str = "default"
     threads: int | None = None
 
-    # Written out, since a field that is given counts more than the preset also where it is the default.
-    def __init__(self, *, preset: str | None = None, **given: Any) -> None:
-        if preset is not None:
-            given = vars(changed(named("preset", PRESETS, preset), **given))
-        known = {item.name: item.default for item in fields(self)}
-        if unknown := given.keys() - known:
-            raise TypeError(f"EncodeOptions has no option {' and no option '.join(sorted(unknown))}")
-        for name, value in (known | given).items():
-            object.__setattr__(self, name, value)
-        self._check()
+    # Written out, since a field that is given counts more than the preset also where it is the default. Type checkers
+    # see the one that the decorator would write, with the types of all fields.
+    if not TYPE_CHECKING:
+
+        def __init__(self, *, preset: str | None = None, **given: Any) -> None:
+            if preset is not None:
+                given = vars(changed(named("preset", PRESETS, preset), **given))
+            known = {item.name: item.default for item in fields(self)}
+            if unknown := given.keys() - known:
+                raise TypeError(f"EncodeOptions has no option {' and no option '.join(sorted(unknown))}")
+            for name, value in (known | given).items():
+                object.__setattr__(self, name, value)
+            self._check()
 
     def _check(self) -> None:
         check_options(self, CHOICES, RANGES)
