@@ -14,7 +14,7 @@ const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [20800, ["small-worker.js", "quick.wasm"]],
     "light grids of parts": [24000, ["small-worker.js", "parts.wasm"]],
     "static meshes": [89100, ["small-worker.js", "small.wasm"]],
-    sequences: [80300, ["small-worker.js", "moving.wasm"]],
+    sequences: [80400, ["small-worker.js", "moving.wasm"]],
     everything: [122400, ["worker.js", "kernels.wasm"]],
     encoding: [80000, ["encode-worker.js", "encode.js", "encode.wasm"]],
     "the page": [8800, ["three.js"]],
