@@ -45,7 +45,8 @@ _FOREIGN = {
     ("fbx", "blend", "abc", "3ds", "x3d", "wrl"): "convert it to GLB, OBJ or PLY first, for instance with Blender",
     ("gii",): "convert it to PLY or VTK, for instance with nibabel or mris_convert",
     ("frd",): "convert it to .vtu with ccx2paraview",
-    ("op2", "odb", "med", "unv", "rst", "d3plot"): "save it as .vtu, for instance with meshio or ParaView",
+    ("unv", "med", "mesh"): "let Gmsh write it anew: gmsh FILE -save -o NEW.msh",
+    ("op2", "d3plot"): "save it as .vtu, with pyNastran or, from LS-DYNA, with ParaView",
     ("step", "stp", "iges", "igs", "brep"): "it holds surfaces; export triangles, for instance with FreeCAD",
     (
         "urdf",

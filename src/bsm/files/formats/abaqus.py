@@ -55,7 +55,8 @@ def _keywords(text: str) -> Iterator[_Keyword]:
     starts = [number for number, line in enumerate(lines) if line.startswith("*")]
     first = next((number for number, line in enumerate(lines) if line), 0)
     if starts[:1] != [first]:
-        raise FormatError(f"line {first + 1}: {lines[first][:40]!r} is not a keyword: this is not a file of Abaqus")
+        what = "is not a keyword: this is not a file of Abaqus; save AVS UCD as .vtu, e.g. with ParaView"
+        raise FormatError(f"line {first + 1}: {lines[first][:40]!r} {what}")
     for begin, end in pairwise([*starts, len(lines)]):
         head, *rows = filter(None, lines[begin:end])
         while head.endswith(",") and rows:

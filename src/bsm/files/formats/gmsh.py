@@ -207,27 +207,24 @@ class _Gmsh:
 
     def surface(self, step: int, left: Sequence[str] = ()) -> Polygons:
         """The surface at one of the times."""
-        again = np.zeros(sum(len(numbers) for _, numbers, _, _ in self.cells), np.bool_)
-        ends = np.cumsum([len(numbers) for _, numbers, _, _ in self.cells])
-        shapes = [(shape, nodes.shape[1]) for shape, _, _, nodes in self.cells]
-        for shape in {*shapes}:  # version 2.2 writes an element again for each further group of it
-            those = [place for place, other in enumerate(shapes) if other == shape]
-            places = np.concatenate(
-                [np.arange(ends[place] - len(self.cells[place][1]), ends[place]) for place in those]
-            )
-            alike = row_numbers(np.concatenate([self.cells[place][3] for place in those]))
-            again[np.delete(places, np.unique(alike, return_index=True)[1])] = True
-        cells = [(kind, nodes[~there]) for (kind, _, _, nodes), there in zip(self.cells, np.split(again, ends))]
+        most = max((nodes.shape[1] for *_, nodes in self.cells), default=0)
+        tables = [np.zeros((0, 2 + most), np.int64)]  # dimensions, groups and nodes
+        for shape, _, group, nodes in self.cells:
+            tables.append(np.pad(nodes, ((0, 0), (2, most - nodes.shape[1])), constant_values=-1))
+            tables[-1][:, 0], tables[-1][:, 1] = _DIMENSIONS.get(shape, 3), group
+        # Version 2.2 writes an element again for each further group of it.
+        again = np.ones(sum(map(len, tables)), np.bool_)
+        alike = row_numbers(np.delete(np.concatenate(tables), 1, axis=1))
+        again[np.unique(alike, return_index=True)[1]] = False
+        there = np.split(~again, np.cumsum([len(table) for table in tables[1:]]))
+        cells = [(shape, nodes[kept]) for (shape, _, _, nodes), kept in zip(self.cells, there)]
+        owned = np.concatenate(tables)[~again, :2]
         rows: dict[str, dict[str, Any]] = {"NodeData": {}, "ElementData": {}}
         for (kind, called), steps in self._series.items():
             values = [*steps.values()][step if len(steps) > 1 else 0]
             rows[kind][called] = values if kind == "NodeData" else values[~again]
         named_by = re.findall(rb'^\s*(\d+)\s+(\d+)\s+"(.*)"', self._sections.get("PhysicalNames", [b""])[0], re.M)
         names = {(int(dim), int(number)): name.decode("utf-8", "replace") for dim, number, name in named_by}
-        groups = [
-            np.column_stack([np.full(len(own), _DIMENSIONS.get(shape, 3)), own]) for shape, _, own, _ in self.cells
-        ]
-        owned = np.concatenate([np.zeros((0, 2), np.int64), *groups])[~again]
         pairs, places = np.unique(owned, axis=0, return_inverse=True) if owned[:, 1].any() else (owned[:0], owned)
         listed = [*map(tuple, pairs.tolist())]
         metadata = named([names.pop(pair, str(pair[1])) for pair in listed], "group")

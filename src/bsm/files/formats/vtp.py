@@ -188,7 +188,10 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     document = _Document(text, appended, b"raw" in data[at : end + 1], limits, len(data))
     piece = document.tags.get("Piece")
     if document.tags.get("VTKFile", {}).get("type") != "PolyData" or piece is None:
-        raise FormatError("this VTK file holds no surface; extract one (ParaView's filter Extract Surface)")
+        raise FormatError(
+            "this VTK file holds no surface; extract one (ParaView's filter Extract Surface); "
+            "if it is a list of blocks, call it .vtm"
+        )
     if _count(piece, "NumberOfStrips", 0):
         raise MeshError("this VTP file holds triangle strips; make triangles of them (ParaView's filter Triangulate)")
     points, polygons = _count(piece, "NumberOfPoints", 0), _count(piece, "NumberOfPolys", 0)
