@@ -82,7 +82,7 @@ def test_bulk_data_is_read_as_it_is_meant(what, tmp_path):
 
 ABAQUS = {
     "blocks, blanks and long lines": (
-        "*HEADING\nas written\n" + NODES + "*node, nset=more\n9,,,2.\n*ELEMENT, TYPE=S3R,\nELSET=b\n1,1,2,\n9\n",
+        "*HEADING\nas written\n" + NODES + "*node, nset=more\n9,,,2.d0\n*ELEMENT, TYPE=S3R,\nELSET=b\n1,1,2,\n9\n",
         1,
         1,
     ),

@@ -131,9 +131,8 @@ def _placed(keyword: _Keyword) -> Doubles:
 
 def _surface(scope: _Scope, names: dict[str, int], table: Keywords, limits: Limits) -> tuple[Part, tuple[str, ...]]:
     """The surface of a scope, and the names of the rest."""
-    rows = [
-        (line, [word.strip() or "0" for word in row.split(",")][:4]) for line, those in scope.nodes for row in those
-    ]
+    lines = ((line, row.upper().replace("D", "E")) for line, those in scope.nodes for row in those)  # 1.D0 is 1.E0
+    rows = [(line, [word.strip() or "0" for word in row.split(",")][:4]) for line, row in lines]
     require_counts(limits, vertices=len(rows))
     numbers = whole([words[0] for _, words in rows], "*NODE", rows[0][0] if rows else 0)
     try:
