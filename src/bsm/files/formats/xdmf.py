@@ -1,4 +1,4 @@
-"""XDMF: grids in XML, whose numbers are there, in HDF5, or in binary files beside it (the extra `simulation`).
+"""XDMF: grids in XML, whose numbers are there or in HDF5 files beside it (the extra `simulation`).
 
 All temporal collections of a file play together: their steps have the same times, and the arrays of each are those of
 the mesh. Collections in space become parts. Elements, kinds of cells and of numbers that are not known are refused.
