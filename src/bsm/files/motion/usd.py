@@ -97,11 +97,11 @@ class Materials:
                 found = beside.find(self._packages[name])
                 if isinstance(found, str):
                     return found
-                with zipfile.ZipFile(found) as package:
+                with as_library_error("zipfile"), zipfile.ZipFile(found) as package:
                     return _packed(package, name, limits.frame_bytes)
 
             return formats.fetched({**entries, **names}, read)
-        with zipfile.ZipFile(self._path) as package:
+        with as_library_error("zipfile"), zipfile.ZipFile(self._path) as package:
             return formats.fetched({**entries, **names}, lambda name: _packed(package, name, limits.frame_bytes))
 
     @cached_property
