@@ -64,6 +64,13 @@ interface Hand {
     worker: Worker;
     ready: boolean;
     streams: Set<PooledStream>;
+    held: [Message, Transferable[]][];
+}
+
+/** Firefox may lose a line that is handed to a thread that has not begun, so such messages, and later ones, wait. */
+function post(hand: Hand, message: Message, moved: Transferable[]): void {
+    if (!hand.ready && moved.length + hand.held.length > 0) hand.held.push([message, moved]);
+    else hand.worker.postMessage(message, moved);
 }
 
 /**
@@ -168,10 +175,10 @@ export class Pool {
         stream.task = this.task++;
         const ports = helpers.map((helper) => {
             const { port1, port2 } = new MessageChannel();
-            helper.worker.postMessage({ help: port2 } satisfies Message, [port2]);
+            post(helper, { help: port2 }, [port2]);
             return port1;
         });
-        stream.work((message, moved) => hand.worker.postMessage(message, moved), ports);
+        stream.work((message, moved) => post(hand, message, moved), ports);
     }
 
     /**
@@ -208,10 +215,12 @@ export class Pool {
         const thread = threadOf(build);
         const worker = this.source.worker(thread);
         if (!worker) return void this.settle();
-        const hand: Hand = { thread, worker, ready: false, streams: new Set() };
+        const hand: Hand = { thread, worker, ready: false, streams: new Set(), held: [] };
         worker.onmessage = ({ data }: MessageEvent<Reply>) => {
-            if ("ready" in data) [hand.ready, this.failed] = [true, 0];
-            else for (const stream of hand.streams) if (stream.task === data.task) stream.hear(data);
+            if ("ready" in data) {
+                [hand.ready, this.failed] = [true, 0];
+                for (const [message, moved] of hand.held.splice(0)) worker.postMessage(message, moved);
+            } else for (const stream of hand.streams) if (stream.task === data.task) stream.hear(data);
         };
         worker.onerror = (event) => {
             event.preventDefault?.();
