@@ -22,7 +22,6 @@ from bsm.codec.static.targets import SLACK
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_going, encode_grid, grid_of, sampled_size
 
-ROWS = 1.0 / 16.0  # over a spacing: how far off vertices of rows and columns may be
 MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
 
 
@@ -127,12 +126,12 @@ def spacing_of(positions: Matrix, faces: Faces) -> float:
             continue
         alike = np.searchsorted(along, (1.0 + 1e-4) * along + noise) - np.arange(len(along))
         spacing = float(along[alike.argmax() :][: alike.max()].mean())  # what more edges span than anything else
-        off = np.abs(along / spacing - np.rint(along / spacing)) > ROWS
+        off = np.abs(along / spacing - np.rint(along / spacing)) > 2.0 * SLACK
         # Without rows, seven in eight would be off.
-        if off.mean() < 4.0 * ROWS and extent[axis] > 8.0 * spacing:
+        if off.mean() < 8.0 * SLACK and extent[axis] > 8.0 * spacing:
             parts = max(spacing, common) / np.arange(1.0, 9.0)
             whole = (min(spacing, common) if common else spacing) / parts
-            fits = np.abs(whole - np.rint(whole)) < ROWS / 8.0
+            fits = np.abs(whole - np.rint(whole)) < SLACK / 4.0
             common = float(parts[fits.argmax()] if fits.any() else parts[0])
     return common
 
@@ -172,14 +171,14 @@ class Gridded:
 
     def dividing(self, step: npt.ArrayLike) -> Matrix:
         """The widest step up to a wanted one that divides the spacing of rows and columns, if there are any."""
-        parts = np.maximum(np.ceil(self.spacing / np.asarray(step) - ROWS), 1.0)
+        parts = np.maximum(np.ceil(self.spacing / np.asarray(step) - 2.0 * SLACK), 1.0)
         return np.asarray(self.spacing / parts if self.spacing else step)
 
     def regular(self) -> list["Gridded"]:
-        """The same grids, rounded and chosen, whose cells divide the spacing of a regular mesh: at such steps, which
+        """These grids, rounded and chosen, with cells that divide the spacing of a regular mesh: at such steps, which
         others meet by luck, its rows and columns take hardly any bytes."""
         spacing = spacing_of(self._positions, self._prepared.mesh.faces)
-        worths = (0.0, 1.0) if spacing > ROWS * self.first else ()
+        worths = (0.0, 1.0) if spacing > 2.0 * SLACK * self.first else ()
         return [Gridded(self._prepared, self._bounds, worth, self.turn, spacing) for worth in worths]
 
     def _made(self, step: float, mirrored: bool = True) -> Trial:
