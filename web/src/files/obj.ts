@@ -81,7 +81,9 @@ function commentsOf(text: string, dropped: string[]): Polygons["metadata"] {
     const lines = Array.from(text.matchAll(/^#([^\r\n]*)/gm), ({ index, 1: line }) => ({ index, line: line.trim() }));
     const others = lines.filter(({ line }) => line !== "" && !/^(meta|MRGB) /.test(line));
     const ahead = others.flatMap(({ index, line }) => (index < begin ? line : [])).join("\n");
-    const later = others.filter(({ index, line }) => index >= begin && !OF_EXPORTERS.test(line)).length;
+    const behind = text.match(/^[ \t]*(?:v[nt]?|f)[ \t][^\r\n#]*#/gm) ?? []; // numbers
+    const amid = others.filter(({ index, line }) => index >= begin && !OF_EXPORTERS.test(line));
+    const later = amid.length + behind.length;
     if (later > 0) dropped.push(`comments amid the data (${later})`);
     const own = metadataIn(lines.map(({ line }) => line));
     return ahead.length > 0 && ahead.length < MOST_TEXT ? { comment: ahead, ...own } : own;
