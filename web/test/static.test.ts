@@ -155,8 +155,9 @@ describe("a page of files", { skip: !given && "bsm view has written none" }, () 
             await page.goto(address);
             for (const path of files) {
                 const stream = await page.evaluate(
-                    (name, data) =>
-                        new Promise<number[]>((resolve, reject) => {
+                    async (name, data) => {
+                        const kernels = await WebAssembly.compile(await (await fetch("kernels.wasm")).arrayBuffer());
+                        return new Promise<number[]>((resolve, reject) => {
                             const worker = new Worker("encoder.js", { type: "module" });
                             worker.onerror = ({ message }) => reject(new Error(message));
                             worker.onmessage = ({ data }) =>
@@ -168,8 +169,10 @@ describe("a page of files", { skip: !given && "bsm view has written none" }, () 
                                     new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name),
                                 ],
                                 preset: "14 bits",
+                                kernels,
                             });
-                        }),
+                        });
+                    },
                     basename(path),
                     base64(readFileSync(path)),
                 );

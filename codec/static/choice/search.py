@@ -20,7 +20,7 @@ from bsm.codec.static.choice.bounds import Bounds, Measures, Trial, trial_of
 from bsm.codec.static.choice.grids import Gridded, exact, paying, rounded
 from bsm.codec.static.choice.laws import DOUBT, Hopes, Law, Way, search, steps_of
 from bsm.codec.static.choice.settling import RATIO
-from bsm.codec.static.options import BALANCED, RANGES, EncodeOptions
+from bsm.codec.static.options import BALANCED, RANGES, EncodeOptions, Paper
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, TRIES, WIDEST, Contract, secant
 
@@ -215,7 +215,8 @@ class Search:
         if not prepared.has_low_frequencies:
             return ways
         blocks = OnVertices(prepared, options, bounds)
-        based = OnCells(prepared, options, bounds) if seen else blocks
+        # The paper's own blocks are on the mesh itself.
+        based = OnCells(prepared, options, bounds) if seen and options.paper == Paper() else blocks
         ways.append(refined := Refined(prepared, bounds, based))
         if bounds.contract.angle < ANY_ANGLE:
             ways.append(Refined(prepared, bounds, based, settled=False))

@@ -48,6 +48,11 @@ def test_a_scan_is_on_cells_and_shown_as_a_whole_early() -> None:
     assert isinstance(base[-1], EndEvent) and not any(isinstance(event, RefinementEvent) for event in base)
 
 
+def test_the_paper_has_its_blocks_on_the_mesh() -> None:
+    header = events_of(encode(scan(), power=2, iterations=2, threads=1))[0].header
+    assert header.paper and header.base == ()
+
+
 @pytest.mark.parametrize(("kind", "which"), [(kind, which) for kind in KINDS for which in (0, -1)])
 def test_damage_is_bounded_and_named(kind: FrameType, which: int) -> None:
     span = [span for span in spans_of(stream()) if span.type == kind][which]
