@@ -33,7 +33,7 @@ def random_streams(seed: str, count: int) -> list[bytes | str]:
 
 
 def store(path: Path, decoded: Decoded) -> None:
-    """Write what was decoded to a file; attribute names are not used as file names."""
+    """Write decoded arrays to a file; names of attributes come from strangers and are not used as names of files."""
     positions, faces, attributes = decoded
     numbered = {f"array {number}": values for number, values in enumerate(attributes.values())}
     np.savez(path, positions=positions, faces=faces, names=np.array([*attributes], str), **numbered)  # type: ignore[arg-type]

@@ -30,7 +30,7 @@ const SEQUENCES = [
     ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : []),
 ];
 
-/** Leave out overlays, and changes behind the mesh. */
+/** Hide what lies over the mesh, and what changes behind it, so that two pictures differ by the mesh alone. */
 const BARE = ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: #e9ecf0 !important }";
 
 /** Shares of the pixels that are red and green, and how high these are on the mean, from the top. */

@@ -28,6 +28,7 @@ PRICES = {"quick": (2e-3,), "normal": (6e-4,), "best": (6e-4, 8e-5)}
 """Prices of a stage of a trial, one search after the other, as shares of the bytes, over the fourth root of the number
 of vertices. The best effort first does all that the normal one does."""
 FINEST = int(RANGES["grid"][1])  # bits along an axis
+USUAL = Paper(), EncodeOptions.block_size, None, EncodeOptions.key_interval
 BYTES = 3.0 / math.log(256.0)  # of a vertex, that a step e times as wide saves where most levels are not 0
 
 
@@ -215,8 +216,9 @@ class Search:
         if not prepared.has_low_frequencies:
             return ways
         blocks = OnVertices(prepared, options, bounds)
-        # The paper's own blocks are on the mesh itself.
-        based = OnCells(prepared, options, bounds) if seen and options.paper == Paper() else blocks
+        # Blocks that somebody asks for are on the mesh itself.
+        asked = (options.paper, options.block_size, options.overlap, options.key_interval) != USUAL
+        based = OnCells(prepared, options, bounds) if seen and not asked else blocks
         ways.append(refined := Refined(prepared, bounds, based))
         if bounds.contract.angle < ANY_ANGLE:
             ways.append(Refined(prepared, bounds, based, settled=False))

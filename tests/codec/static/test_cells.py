@@ -48,9 +48,12 @@ def test_a_scan_is_on_cells_and_shown_as_a_whole_early() -> None:
     assert isinstance(base[-1], EndEvent) and not any(isinstance(event, RefinementEvent) for event in base)
 
 
-def test_the_paper_has_its_blocks_on_the_mesh() -> None:
-    header = events_of(encode(scan(), power=2, iterations=2, threads=1))[0].header
-    assert header.paper and header.base == ()
+@pytest.mark.parametrize(
+    "asked", [{"power": 2, "iterations": 2}, {"block_size": 200}, {"overlap": 1.2}, {"key_interval": 2}]
+)
+def test_blocks_that_are_asked_for_are_on_the_mesh(asked: dict[str, float]) -> None:
+    header = events_of(encode(scan(), threads=1, **asked))[0].header
+    assert header.base == () and bool(header.paper) == ("power" in asked)
 
 
 @pytest.mark.parametrize(("kind", "which"), [(kind, which) for kind in KINDS for which in (0, -1)])
