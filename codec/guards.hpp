@@ -96,30 +96,17 @@ inline bool add_copies(
     return triples(total.size, sums) && triples(vertices.size, positions) && weights.size == vertices.size
         && below(vertices, total.size);
 }
-inline bool face_patches(ConstInts2 faces, Lists around, int64_t crowd, Ints seen, Longs starts, Ints members) {
-    int64_t n = around.starts.size - 1, m = faces.rows, room = m;
-    if (!corners(faces, n) || !graph(around, n, m) || crowd < 0 || seen.size != m || starts.size != m + 1)
-        return false;
-    for (int64_t k = 0; k < 3 * m; k++) {
-        int64_t size = around.starts.data[faces.data[k] + 1] - around.starts.data[faces.data[k]];
-        room += size > crowd ? 0 : size;
-    }
-    return members.size >= room;
-}
 inline bool reach(ConstDoubles2 points, Lists adjacent, double, int64_t most, int64_t begin, Ints seen,
     Longs reached_starts, Ints) {
     int64_t n = points.rows;
     return points.columns == 3 && graph(adjacent, n, n) && most > 0 && begin >= 0 && begin <= n && seen.size == n
         && reached_starts.size == n + 1 && reached_starts.data[begin] >= 0;
 }
-inline bool pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances) {
-    return values.columns == 3 && pairs.columns == 2 && distances.size == pairs.rows && below(pairs, values.rows);
-}
 inline bool follow_normals(Doubles2 positions, ConstInts2 faces, Lists around, ConstDoubles2 normals, int64_t,
-    ConstBytes free, Doubles2 planes, Doubles2 sums) {
+    ConstBytes free, Doubles heights) {
     int64_t n = positions.rows, m = faces.rows;
     return positions.columns == 3 && corners(faces, n) && graph(around, n, m) && triples(m, normals) && free.size == n
-        && rows_of(4, m, planes) && rows_of(16, n, sums);
+        && heights.size == m;
 }
 inline bool filter_normals(FaceGeometry faces, ConstDoubles2 guide, Lists near, double, double, Doubles2 packed,
     Doubles2 filtered) {

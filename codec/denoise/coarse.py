@@ -23,16 +23,21 @@ SHORTEST = 0.1  # of mean edges: the length from which on an edge is not shorter
 RULES = ChainRules(exact=False, key_interval=16, power=3, iterations=2, key_iterations=4, shift=0.125, springs=False)
 
 
+def overlapping(faces: Faces, n: int, block: int = BLOCK_SIZE) -> tuple[Blocks, int]:
+    """Overlapping blocks of about `block` vertices more than the overlap, and the vertices of each."""
+    graph = graph_of_faces(np.ascontiguousarray(faces, dtype=np.int32), n)
+    partition = metis_partition(graph, max(1, round(n / block)))
+    size = block_size(partition, OVERLAP)
+    return grow_blocks(graph, partition, size), size
+
+
 class CoarseFilter:
     """A low-pass filter of everything that lives on the vertices of one connectivity."""
 
     def __init__(
         self, faces: Faces, n: int, keep: float = KEEP, block: int = BLOCK_SIZE, rules: ChainRules = RULES
     ) -> None:
-        graph = graph_of_faces(np.ascontiguousarray(faces, dtype=np.int32), n)
-        partition = metis_partition(graph, max(1, round(n / block)))
-        self._size = block_size(partition, OVERLAP)
-        blocks = grow_blocks(graph, partition, self._size)
+        blocks, self._size = overlapping(faces, n, block)
         self._blocks = _dictionaries(blocks, self._width(keep), rules)
 
     def __call__(self, values: Floats, keep: float = KEEP) -> Floats:

@@ -8,12 +8,10 @@ enum { RANGES = 4, SCALES = 2, SECTORS = 8, RINGS = 2, FILTERED = SCALES * (2 * 
     LIKE = SCALES * 2 * RANGES };
 enum { DESCRIBED = 3 * (1 + FILTERED) + 4 * SECTORS * RINGS + LIKE + SCALES + 1 };
 
-int64_t face_patches(ConstInts2 faces, Lists around, int64_t crowd, Ints seen, Longs starts, Ints members);
 int64_t reach(ConstDoubles2 points, Lists adjacent, double radius, int64_t most, int64_t begin, Ints seen,
     Longs reached_starts, Ints reached);
-void pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances);
 void follow_normals(Doubles2 positions, ConstInts2 faces, Lists around, ConstDoubles2 normals, int64_t iterations,
-    ConstBytes free, Doubles2 planes, Doubles2 sums);
+    ConstBytes free, Doubles heights);
 void filter_normals(FaceGeometry faces, ConstDoubles2 guide, Lists near, double sigma_s, double sigma_r,
     Doubles2 packed, Doubles2 filtered);
 void patch_guidance(ConstDoubles2 normals, ConstDoubles areas, Lists patches, ConstDoubles steps, Lists inner,

@@ -94,9 +94,6 @@ class DenoiseOptions:
         check_options(self, choices, {"iterations": (0, 1 << 20), "keep": (1e-6, 1.0), "block_size": (1, 1 << 20)})
 
 
-FINISHES = {"none": (False, False), "learnt": (True, False), "flat": (False, True), "flat, learnt": (True, True)}
-"""Of a result: whether it then has learnt normals, and whether it is put on the planes that explain it."""
-FLAT = {"none": "flat", "learnt": "flat, learnt"}
 LEARNT = 0.6  # share of learnt normals
 
 
@@ -191,10 +188,11 @@ class Filtered:
         return np.asarray(np.mean([self._results[step] for step in steps], axis=0))
 
     def finished(self, result: Positions, finish: str) -> Positions:
-        """A result, shape (n, 3), after one of `FINISHES`."""
-        to_learn, to_put = FINISHES[finish]
-        moved = self._within(joined(result, self.learnt, LEARNT, self._topology)) if to_learn else result
-        if not to_put:
+        """A result, shape (n, 3), with learnt normals, on the planes that explain it, or both, as the finish says."""
+        moved = result
+        if "learnt" in finish:
+            moved = self._within(joined(result, self.learnt, LEARNT, self._topology))
+        if "flat" not in finish:
             return moved
         put = self.planes(result).put(moved, self._topology)
         assert self._finding is not None

@@ -67,12 +67,10 @@ class FrameDenoiser:
         checked = map(self._checked, frames)
         results = self._automatic(checked) if self._options is None else self._by_options(checked, self._options)
         for given, result in results:
-            moved = (result != given[self._members]).any(axis=1)[self._index]
-            displaced = given + (result - given[self._members])[self._index]
-            # Where copies lie at one place, the result is taken as it is: a sum of differences could leave them apart
-            # by a rounding.
-            alone = (given == given[self._members][self._index]).all(axis=1)
-            displaced[alone] = result[self._index][alone]
+            own = given[self._members]
+            moved = (result != own).any(axis=1)[self._index]
+            # In this order, copies at one place stay together to the last bit.
+            displaced = result[self._index] + (given - own[self._index])
             if self._strength < 1.0:
                 displaced = given + self._strength * (displaced - given)
             yield np.where(moved[:, None], displaced, given)

@@ -80,11 +80,12 @@ def bilateral_normals(positions: Positions, topology: Topology, sigma_r: float) 
     """Yield the normals, shape (m, 3), after 0, 1, 2, ... iterations, without end."""
     geometry = face_geometry(positions, topology.faces)
     starts, members = topology.patches
-    others = Lists(starts - np.arange(len(starts)), np.delete(members, starts[:-1]))  # each patch without its own face
+    others = members != np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    near = Lists(starts - np.arange(len(starts)), members[others])  # each patch without its own face
     sigma_s = mean_centroid_distance(geometry.centroids, topology.pairs)
     while True:
         yield geometry.normals
-        geometry = geometry._replace(normals=filter_normals(geometry, geometry.normals, others, sigma_s, sigma_r))
+        geometry = geometry._replace(normals=filter_normals(geometry, geometry.normals, near, sigma_s, sigma_r))
 
 
 FineStep = Callable[..., Positions]

@@ -21,10 +21,7 @@ from bsm.codec.geometry.metrics import face_geometry
 ALIKE = 0.15  # distance of the mean normals of regions up to which they are joined
 SAME_PLANE = 20.0  # what one plane may explain less well than two
 FEWEST = 30.0  # vertices of a plane
-FREE, LIKE = (
-    4.0,
-    20.0,
-)  # squared ways of vertices that a face without a plane counts; and of a normal that is off by one
+FREE, LIKE = 4.0, 20.0  # squared ways of vertices that a face without a plane counts; and a normal that is off by one
 BENT, ROUGH = 0.05, 0.09  # how far a plane may turn normals; and how far filtered ones may differ from it in the mean
 ROUNDS = 3
 FIRM = 1e-3  # of a vertex's own place against planes, so that nearly equal planes have no edge far away
@@ -144,31 +141,28 @@ class PlaneSearch:
 
     def flat(self, planes: Planes) -> Planes:
         """Return those planes that are not bent."""
-        labels, count = planes.labels, len(planes.heights)
-        chosen, sizes = labels >= 0, np.maximum(np.bincount(labels[labels >= 0], minlength=count), 1)
-        off = np.linalg.norm(self._normals - planes.normals[labels], axis=1) if count else np.zeros(len(labels))
-        rough = np.bincount(labels[chosen], off[chosen], count) / sizes
-        label, corner = np.repeat(labels[chosen], 3), self._topology.faces[chosen].ravel()
-        share = self._shares[corner][:, None]
-        total = np.maximum(_sums(share, label, count), 1e-9)
-        apart = self._noisy[corner] - (_sums(share * self._noisy[corner], label, count) / total)[label]
-        height, u, v = np.einsum("kij,kj->ik", np.linalg.svd(planes.normals[:, None])[2][label], apart)
-        wide = np.sqrt(_sums(share * (u * u + v * v)[:, None], label, count) / total)[:, 0]
-        u, v = u / wide[label], v / wide[label]
-        zero = np.zeros_like(u)
-        terms = np.stack([np.ones_like(u), u, v, u * u, u * v, v * v], axis=1)
-        slopes = np.stack([2.0 * u, v, zero, zero, u, 2.0 * v], axis=1).reshape(-1, 2, 3)
-        square = _sums((share[:, :, None] * terms[:, :, None] * terms[:, None]).reshape(-1, 36), label, count)
-        turns = _sums(share * np.einsum("kia,kib->kab", slopes, slopes).reshape(-1, 9), label, count) / total
-        turns = turns.reshape(-1, 3, 3) / np.square(wide)[:, None, None]
-        inverse = np.linalg.pinv(square.reshape(-1, 6, 6), hermitian=True)
-        fit = np.einsum("kij,kj->ki", inverse, _sums(share * height[:, None] * terms, label, count))[:, 3:]
-        variance = (_sums(share * np.square(height[:, None]), label, count) / total)[:, 0]
-        chance = variance * np.einsum("kij,kji->k", turns, inverse[:, 3:, 3:])
-        turned = np.einsum("ki,kij,kj->k", fit, turns, fit)
-        bent = np.sqrt(np.maximum(turned - chance, 0.0)) + np.sqrt(chance)
-        kept = np.append(np.where((bent < BENT) & (rough < ROUGH), np.arange(count), -1), -1)
-        return replace(planes, labels=kept[labels])
+        labels = planes.labels.copy()
+        for label in np.unique(planes.labels[planes.labels >= 0]):
+            chosen, normal = planes.labels == label, planes.normals[label]
+            rough = np.linalg.norm(self._normals[chosen] - normal, axis=1).mean()
+            if not (rough < ROUGH and self._bent(self._topology.faces[chosen].ravel(), normal) < BENT):
+                labels[chosen] = -1
+        return replace(planes, labels=labels)
+
+    def _bent(self, corners: Order, normal: Floats) -> float:
+        """How far the best quadratic through noisy vertices, shape (k,), turns normals, and by chance might, too."""
+        share = self._shares[corners]
+        apart = self._noisy[corners] - np.average(self._noisy[corners], axis=0, weights=share)
+        height, *sides = np.linalg.svd(normal[None])[2] @ apart.T
+        wide = np.sqrt(np.average(np.square(sides).sum(axis=0), weights=share))
+        (u, v), zero = sides / wide, np.zeros(len(corners))
+        terms = np.stack([np.ones(len(corners)), u, v, u * u, u * v, v * v], axis=1)
+        inverse = np.linalg.pinv(terms.T @ (share[:, None] * terms), hermitian=True)
+        fit = (inverse @ (terms.T @ (share * height)))[3:]
+        slopes = np.stack([[2.0 * u, v, zero], [zero, u, 2.0 * v]]) / wide
+        turns = (slopes * share) @ slopes.transpose(0, 2, 1) / share.sum()
+        chance = np.average(height * height, weights=share) * (turns.sum(axis=0) * inverse[3:, 3:]).sum()
+        return float(np.sqrt(max(fit @ turns.sum(axis=0) @ fit - chance, 0.0)) + np.sqrt(chance))
 
 
 def _fitted(moments: Floats) -> tuple[Floats, Floats, Floats]:

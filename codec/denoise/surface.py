@@ -45,12 +45,10 @@ class Topology:
 
     @cached_property
     def patches(self) -> Lists:
-        """Faces that share a vertex with each face; itself comes first."""
-        sizes = np.minimum(np.diff(self.around.starts), CROWD)
-        members = np.empty(len(self.faces) + int(sizes[self.faces].sum()), np.int32)
-        starts, seen = np.empty(len(self.faces) + 1, np.int64), np.empty(len(self.faces), np.int32)
-        count = _kernels.face_patches(self.faces, self.around, CROWD, seen, starts, members)
-        return Lists(starts, members[:count].copy())
+        """Faces that share a vertex that is not crowded with each face, and itself."""
+        calm = self.incidence[np.diff(self.around.starts) <= CROWD]
+        patches = (calm.T @ calm + sparse.identity(len(self.faces))).tocsr()
+        return Lists(patches.indptr.astype(np.int64), patches.indices.astype(np.int32))
 
     @cached_property
     def pairs(self) -> Indices:
@@ -111,9 +109,8 @@ def surface_normals(positions: Positions, topology: Topology) -> Floats:
 
 def pair_distances(values: Floats, pairs: Indices) -> Floats:
     """How far the rows of `values`, shape (m, 3), that each of `pairs`, shape (e, 2), names are from each other."""
-    distances = np.empty(len(pairs))
-    _kernels.pair_distances(values, pairs, distances)
-    return distances
+    apart = np.take(values, pairs[:, 0], axis=0) - np.take(values, pairs[:, 1], axis=0)
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", apart, apart)))
 
 
 def mean_centroid_distance(centroids: Floats, pairs: Indices) -> float:
@@ -128,7 +125,7 @@ def follow_normals(
 ) -> Positions:
     """Move the vertices until the faces agree with given normals (Sun et al. 2007; equations 12 and 13 of the paper)"""
     moved = np.array(positions, dtype=np.float64)
-    planes, sums = np.empty((len(topology.faces), 4)), np.empty((topology.n, 16))
     movable = np.ones(len(positions), np.uint8) if free is None else free.astype(np.uint8)
-    _kernels.follow_normals(moved, topology.faces, topology.around, normals, iterations, movable, planes, sums)
+    heights = np.empty(len(topology.faces))
+    _kernels.follow_normals(moved, topology.faces, topology.around, normals, iterations, movable, heights)
     return moved

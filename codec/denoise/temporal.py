@@ -5,9 +5,7 @@ from functools import lru_cache
 import numpy as np
 
 from bsm.codec.arrays import Faces, Floats, Positions
-from bsm.codec.blocks.overlap import block_size, grow_blocks, metis_partition
-from bsm.codec.denoise.coarse import BLOCK_SIZE, OVERLAP
-from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.denoise.coarse import overlapping
 from bsm.codec.threads import ordered_map
 
 FEWEST_FRAMES = 8
@@ -17,9 +15,7 @@ class TemporalFilter:
     """The filter with its blocks, which are found once."""
 
     def __init__(self, faces: Faces, n: int) -> None:
-        graph = graph_of_faces(faces, n)
-        partition = metis_partition(graph, max(1, round(n / BLOCK_SIZE)))
-        blocks = grow_blocks(graph, partition, block_size(partition, OVERLAP))
+        blocks, _ = overlapping(faces, n)
         self._blocks = [blocks.members_of(index) for index in range(blocks.count)]
         self._copies = np.bincount(np.concatenate(self._blocks), minlength=n)
 
@@ -48,7 +44,7 @@ def noise_deviation(values: Floats) -> float:
     """Standard deviation of white noise in a matrix of low rank, shape (k, d): by the median of its singular values."""
     short, long = sorted(values.shape)
     singular = np.linalg.svd(values - values.mean(axis=0), compute_uv=False)
-    return float(np.median(singular) / np.sqrt(long * _median_energy(round(short / long, 3))))
+    return float(np.median(singular) / _median_of_noise(short, long))
 
 
 def shrunk(values: Floats, deviation: float) -> tuple[Floats, int]:
@@ -65,10 +61,7 @@ def shrunk(values: Floats, deviation: float) -> tuple[Floats, int]:
 
 
 @lru_cache(maxsize=64)
-def _median_energy(ratio: float) -> float:
-    """Median of the Marchenko-Pastur distribution: the squared singular values of white noise, over the long side."""
-    root = np.sqrt(ratio)
-    energy = np.linspace((1.0 - root) ** 2, (1.0 + root) ** 2, 20001)[1:-1]
-    density = np.sqrt(np.maximum((energy - (1.0 - root) ** 2) * ((1.0 + root) ** 2 - energy), 0.0)) / energy
-    mass = np.cumsum(density)
-    return float(energy[np.searchsorted(mass, 0.5 * mass[-1])])
+def _median_of_noise(short: int, long: int) -> float:
+    """Median singular value of white noise of deviation one, which varies little from draw to draw."""
+    noise = np.random.default_rng(0).normal(size=(short, long))
+    return float(np.median(np.linalg.svd(noise - noise.mean(axis=0), compute_uv=False)))

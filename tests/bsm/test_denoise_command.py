@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from bsm.codec import denoise as library
 from bsm.codec.denoise import filters, normals, rehearsal
 from bsm.codec.denoise.frames import WINDOW
 from bsm.codec.denoise.temporal import FEWEST_FRAMES
-from bsm.commands.denoise import GOALS
+from bsm.commands.denoise import FINISHES, GOALS, _found
 from bsm.commands.flags import FLAGS
 from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from tests.bsm import program
@@ -42,6 +43,13 @@ def frames() -> np.ndarray:
     """More frames than pass the coarse step together."""
     scales = np.linspace(1.0, 1.5, 11)
     return np.stack([gaussian_along_normals(CLEAN.positions * s, CLEAN.faces, 0.2, seed=2) for s in scales])
+
+
+def test_every_finish_has_words():
+    choice = denoise_automatically(NOISY, CLEAN.faces)[1]
+    for finish in ("learnt", "flat", "flat, learnt"):
+        told = list(_found(replace(choice, finish=finish), "shading", 1.0))
+        assert told[-1] == f"finish     {FINISHES[finish]}"
 
 
 def test_without_options_it_says_what_it_chose(noisy_file, tmp_path):

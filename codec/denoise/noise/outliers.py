@@ -21,12 +21,11 @@ clear; others are looked for after these."""
 FEWEST, FEWEST_SHARE, MOST_SHARE = 12, 0.004, 0.2  # how many are believed, as shares of the vertices as well
 ONE_SIDED = 0.5
 DISTINCT = 4.0  # smallest displacement looked for, over what calm surroundings show
-STRAY, PLAINLY, FARTHER, SPIKY = 1.2, 2.0, 2.5, 0.75
-"""Distance from the middle of the neighbors, in theirs, of a vertex that may be a stray, and of one that is; how much
-farther than nine tenths of all vertices those are; and the length of the mean normal around it below which it stands
-out."""
+STRAY, FARTHER, SPIKY = 1.2, 2.0, 0.75
+"""Distance from the middle of the neighbors, in theirs, of a stray; how much farther than nine tenths of all vertices
+it is; and the length of the mean normal around it below which it stands out."""
 STRAY_FAR, STRAY_LEFT = 1.5, 0.15
-"""Of those plainly off: median way back, in mean edges, and the share that may still stand out there. Slivers of CAD
+"""Of strays: median way back, in mean edges, and the share that may still stand out there. Slivers of CAD
 models go 0.1 to 1.3 edges, or a fifth stays."""
 
 
@@ -45,18 +44,18 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
         return positions
     distance, spiky = _distances(positions, probe), _spiky(positions, probe)
     usual = float(np.quantile(distance[probe.counted], 0.9))
-    plain, stray = spiky & (distance > max(PLAINLY, FARTHER * usual)), spiky & (distance > max(STRAY, 2.0 * usual))
-    if not _many(plain):
+    stray = spiky & (distance > max(STRAY, FARTHER * usual))
+    if not _many(stray):
         return positions
     # Only from neighbors that are not strays themselves.
     known = np.where(stray, 0.0, 1.0)
     weight = probe.average @ known
     middle = (probe.average @ (known[:, None] * positions)) / np.maximum(weight, 1e-9)[:, None]
     place = np.where((stray & (weight > 0.0))[:, None], middle, positions)
-    way = np.median(np.linalg.norm(place - positions, axis=1)[plain])
+    way = np.median(np.linalg.norm(place - positions, axis=1)[stray])
     far = way > STRAY_FAR * mean_edge_length(place, probe.topology.faces)
     # Slivers of CAD models look like strays. Put "back", they still stand out, and are then left alone.
-    return place if far and _spiky(place, probe)[plain].mean() < STRAY_LEFT else positions
+    return place if far and _spiky(place, probe)[stray].mean() < STRAY_LEFT else positions
 
 
 def _many(chosen: Mask) -> bool:

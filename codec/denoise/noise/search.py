@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from scipy.cluster.vq import kmeans
 
 from bsm.codec.arrays import Floats, Mask, Positions
 from bsm.codec.denoise.noise.causes import FARTHEST, Box, Spacing, find_grid
@@ -35,7 +36,6 @@ FAINTEST_SHARED, MUCH_SHARED = 0.024, 0.6  # if whiteness is below the second: f
 FEWEST_WINDOWS = 5  # for an estimate
 WHITE = 0.82  # whiteness below which noise is correlated
 NEARBY = 4  # rings of a vertex that tell the side where noise ends
-TERRACED = 0.05  # fewer depths per vertex mean a camera with few depth levels
 NARROWER = 1.04
 """What broad filters may see of views fused on a lattice, over their level: .9 to 1.0; of fields without noise they see
 1.05 (a fractal) to 1.9."""
@@ -164,9 +164,7 @@ def _seen(positions: Positions, evidence: Evidence) -> Suspect | None:
     rays = positions - view.eye
     width = pixel(view.plane(positions), probe.topology) * (rays @ view.axis)
     amount = level * width * np.abs(np.einsum("ij,ij->i", unit(rays), evidence.normals))
-    terraced = min(len(np.unique(column)) for column in positions.T) < TERRACED * len(positions)
-    reason = f"noise of a camera, along its rays{', in steps of depth' if terraced else ''}"
-    view = replace(view, level=level, terraced=terraced)
+    reason, view = "noise of a camera, along its rays", replace(view, level=level)
     return _suspect("view", along, Finding("view", float(np.median(amount)), amount, edge, reason, view=view))
 
 
@@ -243,8 +241,10 @@ def _here_and_there(positions: Positions, evidence: Evidence) -> Suspect | None:
     """Strong and even in some windows, weak in the others."""
     probe, windows = evidence.probe, evidence.probe.windows
     levels = np.where(windows.valid, evidence.levels, 0.0)
-    # Otsu's threshold: the one that leaves two groups which differ most.
-    above = levels > np.exp(_otsu(np.sort(np.log(np.maximum(levels[windows.valid], 0.02)))))
+    logarithms = np.log(np.maximum(levels[windows.valid], 0.02))
+    # The centers of the two groups that differ most.
+    centers, _ = kmeans(logarithms, np.array([logarithms.min(), logarithms.max()]))
+    above = levels > np.exp(centers.mean())
     inner = above & ~windows.beside(~above & windows.valid)
     if not inner.any():
         return None
@@ -261,13 +261,3 @@ def _here_and_there(positions: Positions, evidence: Evidence) -> Suspect | None:
     share = f"noise in {100.0 * inside.mean():.0f} % of the mesh"
     finding = Finding("local", level * evidence.edge, amount, evidence.edge, share, clear=weak < FAINTEST)
     return _suspect("local", evidence, finding, inner)
-
-
-def _otsu(ordered: Floats) -> float:
-    """The value that parts sorted numbers into the two most different groups."""
-    count = len(ordered)
-    sums = np.cumsum(ordered)
-    below = np.arange(1, count)
-    difference = sums[:-1] / below - (sums[-1] - sums[:-1]) / (count - below)
-    place = int(np.argmax(below * (count - below) * difference**2))
-    return float(0.5 * (ordered[place] + ordered[place + 1]))

@@ -51,9 +51,7 @@ def estimate_noise(positions: Positions, smooth: Positions, probe: Probe) -> Noi
 
 
 MOST_STEPS = 12  # averagings for noise that neighbors share, and those for the pixels of a camera's window
-SHARED = (0.5, 0.75)
-"""Strength of noise that the pixels of a window share, over that of single pixels: for cameras that measure depth, and
-for those that match windows, which have steps of depth."""
+SHARED = 0.6  # strength of noise that the pixels of a window share, over that of single pixels
 
 
 class Synthesis:
@@ -78,7 +76,7 @@ class Synthesis:
         if finding.view is not None:
             seen = finding.view.heights(positions, topology)
             shared = self._probe.correlated(white[:, 1], MOST_STEPS)
-            noise = white[:, 0] + SHARED[finding.view.terraced] * shared / shared.std()
+            noise = white[:, 0] + SHARED * shared / shared.std()
             return finding.view.at(positions, seen, seen + finding.view.level * noise)
         normals = surface_normals(positions, topology)
         along = np.einsum("ij,ij->i", white, normals)[:, None]

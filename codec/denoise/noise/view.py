@@ -25,7 +25,6 @@ class View:
     eye: Floats
     axis: Floats
     level: float = 0.0
-    terraced: bool = False
 
     def plane(self, positions: Positions) -> Floats:
         """Where the vertices are in the picture, shape (n, 2)."""

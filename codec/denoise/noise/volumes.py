@@ -10,6 +10,7 @@ from itertools import combinations
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse import linalg
 
 from bsm.codec.arrays import Floats, Order, Positions
 from bsm.codec.denoise.noise.causes import FEW_VALUES, FEWEST_VALUES, Box, rounding_step
@@ -19,9 +20,7 @@ from bsm.codec.denoise.surface import Topology
 HALFWAY = 0.98  # share of the vertices of a binary volume that lie halfway between two cells
 ALIKE, TOGETHER = 1e-3, 1e-4  # directions that are one, and coordinates of one level, in extents
 SAMPLE, DIRECTIONS = 10_000, 5  # faces to look at, and directions of edges that are considered
-ROUNDS, STEPS, POWERS = 3, 75, 15
-# A step above the inverse of the curvature diverges, and the estimate comes from below.
-SAFE = 1.1  # over the estimate of the largest curvature
+ROUNDS, STEPS = 3, 75
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,21 +47,18 @@ class Cells(Box):
                 bent = np.linalg.norm(bends @ found, axis=1, keepdims=True)
                 weights = 1.0 / np.maximum(np.hypot(bent, np.median(bent)), 1e-300)
                 weights /= weights.max()
-            # Power iteration, from a fixed start, so that results are the same each time.
-            curve = np.random.default_rng(0).normal(size=(topology.n, 1))
-            for _ in range(POWERS):
-                curve = back @ (weights * (bends @ (curve / max(float(np.linalg.norm(curve)), 1e-300))))
-            step, ahead, pace = 1.0 / max(SAFE * float(np.linalg.norm(curve)), 1e-300), found, 1.0
+            # A step above the inverse of the curvature diverges. The start is fixed, so that results are.
+            start = np.random.default_rng(0).normal(size=topology.n)
+            curve = linalg.svds(bends.multiply(np.sqrt(weights)), 1, v0=start, return_singular_vectors=False)
+            step, ahead, pace = 1.0 / max(float(curve[0]) ** 2, 1e-300), found, 1.0
             for _ in range(STEPS):
                 slope = back @ (weights * (bends @ ahead))
                 last, found = found, np.clip(ahead - step * slope, given - self.half, given + self.half)
                 # Acceleration is given up where it points uphill (O'Donoghue and Candes 2015), or it would swing about
                 # the solution.
-                if ((ahead - found) * (found - last)).sum() > 0.0:  # it would turn back
-                    ahead, pace = found, 1.0
-                else:
-                    before, pace = pace, 0.5 + np.sqrt(0.25 + pace * pace)
-                    ahead = found + (before - 1.0) / pace * (found - last)
+                uphill = ((ahead - found) * (found - last)).sum() > 0.0
+                before, pace = (1.0, 1.0) if uphill else (pace, 0.5 + np.sqrt(0.25 + pace * pace))
+                ahead = found + (before - 1.0) / pace * (found - last)
         return np.asarray(found @ self.frame)
 
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from bsm.codec.denoise import AutomaticChoice, DenoiseOptions
 
 GOALS = ("shading", "shape")
-FINISHES = {"learnt": "learnt normals", "flat": "few, sharp bends"}
+FINISHES = {"learnt": "learnt normals", "flat": "planes", "flat, learnt": "learnt normals and planes"}
 STREAM = "bsm"
 
 
