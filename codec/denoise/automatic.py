@@ -17,7 +17,7 @@ from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel, Synthesis, estimate_noise
 from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.rehearsal import GOALS, Forecast, Progress, Rehearsal, silent
-from bsm.codec.denoise.safety import judge
+from bsm.codec.denoise.safety import DETAIL_LOST, judge, restraint
 from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference, face_normals
@@ -81,6 +81,7 @@ class AutomaticChoice:
     untreated: float
     expected: float
     finish: str = "none"
+    detailed: bool = False
     outliers: int = 0
     forecast: Forecast | None = None
 
@@ -164,7 +165,10 @@ def choose(
     if steps and doubt:
         steps, expected, reason = (), untreated, f"{reason}, but {doubt}"
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge, slides=level.slides)
-    return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, winner.finish, forecast=forecast)
+    detailed = finding.kind == "white" and rehearsal.lost(winner) > DETAIL_LOST[goal]
+    return AutomaticChoice(
+        steps, finding.kind, reason, noise, untreated, expected, winner.finish, detailed, forecast=forecast
+    )
 
 
 def _gains_by_sliding(given: Positions, finding: Finding, level: NoiseLevel, surface: Filters) -> bool:
@@ -230,8 +234,9 @@ def treat(
     good, reason = judge(noisy, full, finding, surface.probe)
     if reason:
         return noisy, replace(choice, steps=(), reason=reason)
-    result = np.where(good[:, None], full, noisy)
+    share = restraint(finding, choice.noise.normal * finding.edge) if choice.detailed else 1.0
+    result = np.where(good[:, None], noisy + share * (full - noisy) if share < 1.0 else full, noisy)
     if choice.forecast:
         part = noisy + strength * (result - noisy)
-        choice = choice.seen(strength, full, part, touched, surface.topology)
+        choice = choice.seen(share * strength, full, part, touched, surface.topology)
     return result, choice

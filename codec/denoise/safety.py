@@ -16,6 +16,11 @@ MOST, MOST_FUSED, MOST_UNKNOWN = 1.9, 3.0, 1.25
 varies by chance between windows if neighbors share it, and with the slant in scans of one view; in fused views, whose
 broad noise is stronger where few views meet; and where noise is not known."""
 MOST_CORRELATED = 4.0  # at most, correlated noise over its finest frequencies, a ratio that is the same everywhere
+DETAIL_LOST = {"shading": 0.075, "shape": 0.03, "both": 0.03}
+"""Noise may hold detail where rehearsals for a goal lose more roughness than this (a logarithm)."""
+NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 1.03, 4.0, 0.4
+"""Its level over that in the finest frequencies without detail, the share of movements that is not made for each unit
+more, and the largest one."""
 REACHED = 0.5  # share of the level of the noise from which on a window counts for the whole
 FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 
@@ -49,3 +54,9 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     failed = float(bad[judged].mean()) if judged.any() else 0.0
     reason = f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"
     return ~bad[windows.labels], reason if failed > FAILED_SHARE else ""
+
+
+def restraint(finding: Finding, finest: float) -> float:
+    """How much of a movement to make where white noise, of this level in the finest frequencies, may hold detail."""
+    excess = finding.level / finest - NOISE_ALONE if finest > 0.0 else 0.0
+    return 1.0 - min(max(DETAIL_SLOPE * excess, 0.0), DETAIL_MOST)
