@@ -64,7 +64,7 @@ def check_package(package, tmp_path):
         assert done.returncode == 0, done.stderr
     page = (tmp_path / "page.html").read_text()
     assert page.count("AGFzbQ") == 1, "the decoder in WebAssembly is inside"
-    for name in ("encode.wasm", "encode-moving.wasm", "kernels.wasm", "small.wasm"):
+    for name in ("encode.wasm", "encode-moving.wasm", "grid.wasm", "kernels.wasm"):
         assert (tmp_path / "site" / name).read_bytes().startswith(b"\0asm"), name
 
 
@@ -73,7 +73,7 @@ def test_a_checkout_without_links_is_installed_and_viewed(checkout, tmp_path):
     assert wheel.read_bytes() == again.read_bytes()
     package = installed(wheel, tmp_path / "package")
     built = {path.name for path in (package / "bsm" / "viewer" / "built").iterdir()}
-    assert built == {"encode.wasm", "encode-moving.wasm", "kernels.wasm", "small.wasm"}
+    assert built == {"encode.wasm", "encode-moving.wasm", "grid.wasm", "kernels.wasm"}
     assert not list(package.rglob("*.[ch]"))
     licenses = "".join(path.read_text("utf-8") for path in package.glob("*.dist-info/licenses/**/*.txt"))
     assert all(words in licenses for words in ("three.js authors", "Wenzel Jakob", "Thibaut Goetghebuer"))

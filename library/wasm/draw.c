@@ -1,36 +1,64 @@
-/* Normals and bounds for a page: WebAssembly is fast from its first call on, JavaScript is not. */
+/* What a page draws, normals and bounds: WebAssembly is fast from its first call on, JavaScript is not. */
 #include "library/wasm/page.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { AXES = 3 };
+/* What happens to vertices: they come or move, or a face at them is whole now. */
+enum { CAME = 1, MOVED = 2, BESIDE = 4 };
 
-/* Normals `n` of vertices at `p`: sums of those of faces, as long as twice their areas, whose corners all have an
+/* Move `count` vertices, from `first` on or as `chosen`, to `rows`; those that have no origin come with `block`. */
+void page_move(const double *rows, int count, const int32_t *chosen, int first, int32_t block, double *p,
+    int32_t *origin, uint8_t *news) {
+    for (int i = 0; i < count; i++) {
+        int v = chosen != NULL ? chosen[i] : first + i;
+        memcpy(p + AXES * v, rows + AXES * i, AXES * sizeof *p);
+        news[v] |= origin[v] < 0 ? CAME : MOVED;
+        if (origin[v] < 0) origin[v] = block;
+    }
+}
+
+/* List the vertices that are to be drawn anew by their news, behind the number of corners of faces that are whole now.
+ * These corners come to the front of `faces`, and what the listed vertices are to that of the other arrays: `places`,
+ * and normals `n`, sums of those of faces, as long as twice their areas. A face is there when all its corners have an
  * origin, which is 0 or more. */
-void page_normals(const int32_t *faces, int corners, const int32_t *origin, const double *p, float *n, int vertices) {
-    float *end = n + AXES * vertices;
-    memset(n, 0, sizeof(float) * AXES * (size_t)vertices);
+int page_grow(int32_t *faces, int corners, int32_t *origin, const double *p, float *places, int vertices,
+    uint8_t *news, int32_t *list, float *n) {
+    int32_t *whole = faces;
+    int count = 0;
+    memset(n, 0, sizeof *n * AXES * (size_t)vertices);
     for (const int32_t *face = faces, *last = faces + corners; face < last; face += AXES) {
-        if ((origin[face[0]] | origin[face[1]] | origin[face[2]]) < 0) continue;
-        const double *a = p + AXES * face[0], *b = p + AXES * face[1], *c = p + AXES * face[2];
+        int32_t v[AXES] = {face[0], face[1], face[2]};
+        if ((origin[v[0]] | origin[v[1]] | origin[v[2]]) < 0) continue;
+        int what = news[v[0]] | news[v[1]] | news[v[2]];
+        const double *a = p + AXES * v[0], *b = p + AXES * v[1], *c = p + AXES * v[2];
         double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
         double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
         double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
         for (int i = 0; i < AXES; i++) {
-            float *to = n + AXES * face[i];
+            float *to = n + AXES * v[i];
             to[0] = (float)(to[0] + x);
             to[1] = (float)(to[1] + y);
             to[2] = (float)(to[2] + z);
+            if (what & (MOVED | CAME)) news[v[i]] |= BESIDE;
+            if (what & CAME) *whole++ = v[i];
         }
     }
-    for (float *at = n; at < end; at += AXES) {
-        double x = at[0], y = at[1], z = at[2], length = __builtin_sqrt(x * x + y * y + z * z);
-        if (!(length > 0)) continue;
-        at[0] = (float)(x / length);
-        at[1] = (float)(y / length);
-        at[2] = (float)(z / length);
+    *list = (int32_t)(whole - faces);
+    for (int v = 0; v < vertices; v++) {
+        if (news[v] == 0) continue;
+        double square = 0;
+        for (int j = 0; j < AXES; j++) square += (double)n[AXES * v + j] * n[AXES * v + j];
+        double length = square > 0 ? __builtin_sqrt(square) : 1;
+        for (int j = 0; j < AXES; j++) {
+            places[AXES * count + j] = (float)p[AXES * v + j];
+            n[AXES * count + j] = (float)(n[AXES * v + j] / length);
+        }
+        origin[count] = origin[v];
+        list[++count] = v;
     }
+    return count;
 }
 
 /* The lowest and the highest place on each axis, the center of these, and how far from it a vertex is at most. */

@@ -157,7 +157,7 @@ def test_server_has_the_page_and_its_streams():
         entries = listed(page)
         assert [entry["name"] for entry in entries] == ["good-chain.bsm", "good-chain.bsm (2)"]
         assert "AGFzbQ" not in page and int(answer.headers["Content-Length"]) == len(page.encode())
-        for path, accepted, packed in (("", "br, gzip", True), ("", "gzip;q=0", False), ("small.wasm", "gzip", True)):
+        for path, accepted, packed in (("", "br, gzip", True), ("", "gzip;q=0", False), ("grid.wasm", "gzip", True)):
             request = urllib.request.Request(address + path, headers={"Accept-Encoding": accepted})
             answer = urllib.request.urlopen(request)
             data = answer.read()

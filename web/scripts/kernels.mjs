@@ -26,7 +26,7 @@ const SOURCES = ["bitstream", "codec", "library"]
     );
 
 /** Functions for what is drawn (library/wasm/draw.c). */
-const DRAW = ["page_normals", "page_bounds"];
+const DRAW = ["page_move", "page_grow", "page_bounds"];
 /** Functions for the page (library/wasm/page.c, library/bsmdec.h). */
 const PAGE = [
     ...[
@@ -229,17 +229,25 @@ function optionsOf(source, fast, light) {
     ];
 }
 
+/** A build of static meshes without attributes, and without more. */
+function still(more, lacks) {
+    const rest =
+        /(library\/(sequence|attribute|attribute_set|split|whole)|codec\/sequence\/(gop|parts|frames)|container\/declaration|payloads\/zstd)\.c/;
+    return {
+        without: new RegExp(`${rest.source}|${more.source}`),
+        lacks: `${lacks} || record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes`,
+    };
+}
+
 /**
  * Every build: what of the decoder it is without, which headers ask for that, and which sources are compiled for speed;
  * `light`: for light grids alone, 2: with congruent parts, too; `writes`: the encoder; `long`: without brief streams.
  */
 export const KERNEL_BUILDS = {
     "built/kernels.wasm": {},
-    "built/small.wasm": {
-        without:
-            /(library\/(sequence|attribute|attribute_set|split|whole)|codec\/sequence\/(gop|parts|frames)|container\/declaration|payloads\/zstd)\.c/,
-        lacks: "record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes",
-    },
+    "built/small.wasm": still(NOTHING, "false"),
+    "built/grid.wasm": still(/^codec(?!\/basis\/structure)/, "!header->on_grid"),
+    "built/blocks.wasm": { ...still(/payloads\/grid\.c/, "header->on_grid"), long: true },
     "built/moving.wasm": {
         without:
             /(library\/(attribute|attribute_set|split|whole)|payloads\/(grid|zstd)|signal\/layer|container\/declaration)\.c/,

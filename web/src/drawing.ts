@@ -1,9 +1,9 @@
 /** What is drawn of a stream, made in the thread that decodes: arrays that a page hands to its graphics as they are. */
 import type { Attribute } from "./attributes";
 import type { Event, Loose, EventOf } from "./events";
-import { cornersOf, spread, type DrawnAttribute, type DrawnFaces, type Piece } from "./drawn";
+import { spread, type DrawnAttribute, type DrawnFaces, type Piece } from "./drawn";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
-import type { Bounds, Memory } from "./memory";
+import type { Bounds, Memory, Move } from "./memory";
 import { drawnFaces, numbersOf } from "./parting";
 
 export type { DrawnAttribute, Piece };
@@ -51,18 +51,15 @@ type Show = (picture: Picture, moved?: Transferable[]) => void;
 const PAUSE = 30; // milliseconds, at least, before each picture of what grows, but the first one of several blocks
 const LIGHT_PAUSE = 100; // before the first one of a light grid, whose decoder is as fast as a picture
 const SHARE = 4; // times what such a picture takes
-/** What happens to vertices: they move or come, or a face at them is whole now. */
-const [MOVED, CAME, BESIDE] = [1, 2, 4];
 const MOST_NORMAL = 32767;
 
 export class Drawing {
     private readonly limits: Limits;
     private faces: Int32Array = new Int32Array(0);
-    private points = new Float32Array(0);
+    private points: Float64Array = new Float64Array(0);
     private origin: Int32Array = new Int32Array(0);
-    /** What has happened to each vertex since the last picture. */
-    private news = new Uint8Array(0);
-    private isStale = false;
+    /** What has come since vertices were moved last. */
+    private moves: Move[] = [];
     private blocks = 0;
     /** When there may be another picture of what grows, and how long what it shows waits for the first. */
     private due = 0;
@@ -77,7 +74,7 @@ export class Drawing {
     constructor(
         private growing: boolean,
         limits: Partial<Limits>,
-        private readonly memory: Pick<Memory, "normals" | "bounds">,
+        private readonly memory: Memory,
         private readonly show: Show,
     ) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
@@ -122,7 +119,7 @@ export class Drawing {
         this.flush();
         [this.run, this.growing] = [run, false];
         this.faces = new Int32Array(0);
-        [this.points, this.origin] = [new Float32Array(0), new Int32Array(0)];
+        [this.points, this.origin] = [new Float64Array(0), new Int32Array(0)];
         [this.carried.length, this.shape] = [0, undefined];
     }
 
@@ -140,33 +137,13 @@ export class Drawing {
 
     /** Show what has come: its vertices, the faces that are whole by it, and the normals at these. */
     flush(): void {
-        if (!this.growing || !this.isStale) return;
+        if (!this.growing || this.moves.length === 0) return;
         const begin = performance.now();
-        const { faces, news, origin, points } = this;
-        const corners: number[] = [];
-        for (let k = 0; k < faces.length; k += 3) {
-            const a = faces[k];
-            const b = faces[k + 1];
-            const c = faces[k + 2];
-            const what = (news[a] | news[b] | news[c]) & (MOVED | CAME);
-            if (what === 0 || origin[a] < 0 || origin[b] < 0 || origin[c] < 0) continue;
-            if (what & CAME) corners.push(a, b, c);
-            for (let d = k; d < k + 3; d++) news[faces[d]] |= BESIDE;
-        }
-        const all = new Int32Array(news.length);
-        let count = 0;
-        for (let vertex = 0; vertex < news.length; vertex++) if (news[vertex] > 0) all[count++] = vertex;
-        const vertices = all.slice(0, count);
-        news.fill(0);
-        this.isStale = false;
-        const [positions, normals] = [points, this.memory.normals(faces, origin, points)].map((each) =>
-            spread(each, 3, vertices),
-        );
-        const [own, index] = [vertices.map((vertex) => origin[vertex]), new Uint32Array(corners)];
-        this.show(
-            { type: "grown", vertices, positions, normals, origin: own, index, blocks: this.blocks },
-            [vertices, positions, normals, own, index].map(({ buffer }) => buffer),
-        );
+        const news = this.settle();
+        const grown = this.memory.grown(this.faces, this.points, this.origin, news);
+        const { vertices, positions, normals, origin, index } = grown;
+        const moved = [vertices, positions, normals, origin, index].map(({ buffer }) => buffer);
+        this.show({ type: "grown", ...grown, blocks: this.blocks }, moved);
         const now = performance.now();
         this.due = now + Math.max(PAUSE, SHARE * (now - begin));
     }
@@ -174,37 +151,26 @@ export class Drawing {
     private begin({ faces, vertices: size, loose }: EventOf<"connectivity">): void {
         this.faces = faces;
         this.origin = new Int32Array(size).fill(-1);
-        this.points = new Float32Array(3 * size);
+        this.points = new Float64Array(3 * size);
         loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
-        this.news = new Uint8Array(size);
         this.due = performance.now() + this.first; // a mesh that is whole by then needs no earlier picture
         if (this.growing) this.show({ type: "begun", vertices: size, corners: faces.length, loose });
     }
 
     private grow(event: EventOf<"block" | "refinement">): void {
-        const { points, origin, news, blocks } = this;
-        const { first, positions } = event;
-        if (first !== undefined) {
-            const end = first + positions.length / 3;
-            points.set(positions, 3 * first);
-            news.fill(CAME, first, end);
-            origin.fill(blocks, first, end);
-        } else {
-            const { vertices } = event;
-            for (let row = 0; row < vertices.length; row++) {
-                const vertex = vertices[row];
-                for (let d = 0; d < 3; d++) points[3 * vertex + d] = positions[3 * row + d];
-                news[vertex] |= origin[vertex] < 0 ? CAME : MOVED;
-                if (origin[vertex] < 0) origin[vertex] = blocks;
-            }
-        }
-        this.isStale = true;
+        this.moves.push([event, this.blocks]);
         if (event.type === "block") this.blocks++;
         if (performance.now() > this.due) this.flush();
     }
 
+    /** Move the vertices that have come; what has happened to each. */
+    private settle(): Uint8Array {
+        return this.memory.moved(this.points, this.origin, this.moves.splice(0));
+    }
+
     private take(positions: Float64Array): void {
-        this.points = new Float32Array(positions);
+        this.settle();
+        this.points = positions;
         if (this.blocks === 0) this.origin.fill(0);
         else this.origin = this.origin.map((block) => Math.max(block, 0));
     }
@@ -217,8 +183,8 @@ export class Drawing {
             this.finish();
         }
         const { vertices, attributes: drawn } = this.shape!;
-        const positions = spread(points, 3, vertices);
-        const normals = spread(this.memory.normals(this.faces, this.origin, points), 3, vertices);
+        const all = this.memory.grown(this.faces, points, this.origin);
+        const [positions, normals] = [all.positions, all.normals].map((each) => spread(each, 3, vertices));
         const small = new Int16Array(normals.length);
         for (let i = 0; i < small.length; i++) small[i] = Math.round(normals[i] * MOST_NORMAL);
         const attributes = moved.flatMap((attribute) => {
@@ -231,19 +197,13 @@ export class Drawing {
 
     /** The mesh is whole: part its vertices where its attributes do, and sort its faces by parts and materials. */
     private finish(): void {
+        this.settle();
         const { faces, origin, points, carried, blocks } = this;
-        const isThere = (corner: number): boolean => origin[faces[corner]] >= 0;
-        const isWhole = !origin.includes(-1);
-        const chosen = (): Int32Array =>
-            new Int32Array(faces.length / 3)
-                .map((_, face) => face)
-                .filter((face) => isWhole || (isThere(3 * face) && isThere(3 * face + 1) && isThere(3 * face + 2)));
+        const all = this.memory.grown(faces, points, origin);
         const { index, vertices, pieces, attributes, own } =
-            carried.length > 0
-                ? drawnFaces(faces, chosen(), carried, points.length / 3)
-                : bare(isWhole ? new Uint32Array(faces) : cornersOf(faces, chosen()));
-        const positions = spread(points, 3, vertices);
-        const normals = own ?? spread(this.memory.normals(faces, origin, points), 3, vertices);
+            carried.length > 0 ? drawnFaces(faces, origin, carried) : bare(all.index);
+        const positions = spread(all.positions, 3, vertices);
+        const normals = own ?? spread(all.normals, 3, vertices);
         const shape = (this.shape = {
             index,
             positions,

@@ -15,7 +15,7 @@ import type { Changes, Loose, Metadata } from "./events";
 import type { Header } from "./header";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
-import { errorName, Memory } from "./memory";
+import { errorName, Memory, type ViewType } from "./memory";
 import type { Share, SharedBlock } from "./share";
 
 /** Events in the order of library/bsmdec.h, and one of decoders with helpers. */
@@ -36,7 +36,7 @@ export const [
     AWAITED,
 ] = Array.from({ length: 14 }, (_, i) => i);
 
-const VIEWS: ViewType<ArrayLike<number> & { slice(): ArrayLike<number> }>[] = [
+const VIEWS: ViewType<ArrayLike<number>>[] = [
     Uint8Array,
     Int8Array,
     Uint16Array,
@@ -72,11 +72,6 @@ const NUMBERS = [
 /** The fields of a header by their names: the record in C has them by their keys. */
 type FieldLists = Record<keyof typeof HEADER_KEYS, number[]>;
 
-interface ViewType<View> {
-    BYTES_PER_ELEMENT: number;
-    new (buffer: ArrayBuffer, at: number, length: number): View;
-}
-
 /** An event as the decoder in C reports it, with the numbers of vertices and faces once they are known. */
 export type RawEvent = Record<"type" | "index" | "count" | "vertices" | "faces", number>;
 
@@ -92,10 +87,7 @@ export class Engine extends Memory {
 
     push(data: Uint8Array): void {
         if (data.length === 0) return;
-        this.lent(data.length, (at) => {
-            new Uint8Array(this.buffer, at).set(data);
-            this.call("bsmdec_push", this.decoder, at, data.length);
-        });
+        this.held([data], (at) => this.call("bsmdec_push", this.decoder, at, data.length));
     }
 
     finish(): void {
@@ -136,7 +128,7 @@ export class Engine extends Memory {
     header(): Header {
         const at = this.call("page_header");
         const record = this.doubles(at, KEYS * MOST_LIST);
-        const counts = this.ints(at + 8 * KEYS * MOST_LIST, KEYS);
+        const counts = this.copied(Int32Array, at + 8 * KEYS * MOST_LIST, KEYS);
         const listOf = (key: number): number[] => [...record.subarray(MOST_LIST * key, MOST_LIST * key + counts[key])];
         const lists = Object.fromEntries(
             Object.entries(HEADER_KEYS).map(([name, key]) => [name, listOf(key)]),
@@ -158,7 +150,7 @@ export class Engine extends Memory {
                 this.call("page_metadata", index, at);
                 const view = new DataView(this.buffer, at);
                 const type = view.getInt32(4, true);
-                const bytes = this.copied(view.getUint32(24, true), view.getUint32(28, true));
+                const bytes = this.copied(Uint8Array, view.getUint32(24, true), view.getUint32(28, true));
                 const whole = view.getBigInt64(8, true);
                 const integer = whole >= -(2n ** 31n) && whole < 2n ** 32n ? Number(whole) : whole;
                 const value =
@@ -191,16 +183,19 @@ export class Engine extends Memory {
     changes(name = "page_changes"): Changes {
         const [count, vertices, positions, final] = this.rows(name);
         return {
-            vertices: this.ints(vertices, count),
+            vertices: this.copied(Int32Array, vertices, count),
             positions: this.doubles(positions, 3 * count),
-            final: this.copied(final, count),
+            final: this.copied(Uint8Array, final, count),
         };
     }
 
     /** Vertices without a position, and those that are less exact than they were encoded. */
     losses(): { missing: Int32Array; degraded: Int32Array } {
         const [count, missing, degraded, others] = this.rows("page_losses");
-        return { missing: this.ints(missing, count), degraded: this.ints(degraded, this.doubles(others, 1)[0]) };
+        return {
+            missing: this.copied(Int32Array, missing, count),
+            degraded: this.copied(Int32Array, degraded, this.doubles(others, 1)[0]),
+        };
     }
 
     /** An attribute, if it is whole, and moves where that is asked for. */
@@ -245,7 +240,7 @@ export class Engine extends Memory {
         return {
             index,
             block: {
-                vertices: new Int32Array(this.buffer, vertices, count).slice(),
+                vertices: this.copied(Int32Array, vertices, count),
                 positions: this.doubles(positions, 3 * count),
                 weights: this.doubles(weights, count),
             },
@@ -273,24 +268,16 @@ export class Engine extends Memory {
         return new Uint32Array(this.buffer, at, 4).slice();
     }
 
-    private ints(at: number, count: number): Int32Array {
-        return new Int32Array(this.buffer, count > 0 ? at : 0, count).slice();
-    }
-
-    private copied(at: number, count: number): Uint8Array {
-        return new Uint8Array(this.buffer, at, count).slice();
-    }
-
     private text(at: number): string {
         const bytes = new Uint8Array(this.buffer, at);
         return TEXTS.decode(bytes.slice(0, bytes.indexOf(0)));
     }
 
     /** An array that a function fills, which takes the decoder, `given`, the place and the size. */
-    private filled<View>(kind: ViewType<{ slice(): View }>, count: number, name: string, ...given: number[]): View {
+    private filled<View>(kind: ViewType<View>, count: number, name: string, ...given: number[]): View {
         return this.lent(Math.max(1, count) * kind.BYTES_PER_ELEMENT, (at) => {
             if (this.call(name, this.decoder, ...given, at, count) !== 0) throw this.error();
-            return new kind(this.buffer, at, count).slice();
+            return this.copied(kind, at, count);
         });
     }
 }

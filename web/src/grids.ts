@@ -22,12 +22,12 @@ class Light extends Memory {
 
     /** CRC-32 of zlib; `before` is that of the bytes in front. */
     crc32(data: Uint8Array, before = 0): number {
-        return this.with(data, (at) => this.call("light_sum", at, data.length, before));
+        return this.held([data], (at) => this.call("light_sum", at, data.length, before));
     }
 
     /** CRC-16 called XMODEM. */
     crc16(data: Uint8Array): number {
-        return this.with(data, (at) => this.call("light_short_sum", at, data.length));
+        return this.held([data], (at) => this.call("light_short_sum", at, data.length));
     }
 
     /** CRC-32 of the positions, in which -0 is 0 (F 5.10). */
@@ -51,15 +51,11 @@ class Light extends Memory {
             ...(lattice.length ? lattice : [0, 0]),
             congruence,
         ];
-        this.lent(8 * numbers.length, (at) => {
-            new Float64Array(this.buffer, at).set(numbers);
-            this.check(this.call("light_begin", at));
-        });
+        this.held([new Float64Array(numbers)], (at) => this.check(this.call("light_begin", at)));
     }
 
     faces(payload: Uint8Array, count: number): Int32Array {
-        const at = this.given("light_faces", payload);
-        return new Int32Array(this.buffer, at, 3 * count).slice();
+        return this.copied(Int32Array, this.given("light_faces", payload), 3 * count);
     }
 
     /** Where the positions are, once those of `count` vertices from `first` on are there. */
@@ -73,15 +69,7 @@ class Light extends Memory {
     }
 
     private given(name: string, payload: Uint8Array, ...more: number[]): number {
-        return this.with(payload, (at) => this.check(this.call(name, at, payload.length, ...more)));
-    }
-
-    /** The result of `work` with bytes in the memory. */
-    private with(data: Uint8Array, work: (at: number) => number): number {
-        return this.lent(data.length, (at) => {
-            new Uint8Array(this.buffer, at).set(data);
-            return work(at);
-        });
+        return this.held([payload], (at) => this.check(this.call(name, at, payload.length, ...more)));
     }
 
     private check(result: number): number {

@@ -1,5 +1,6 @@
 /** Calls of C that was compiled to WebAssembly, and the memory that it works on. */
 import { LimitError } from "./errors";
+import type { Changes } from "./events";
 import type { Exports, Kernels } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
 
@@ -24,6 +25,25 @@ export interface Bounds {
     high: number[];
     center: [number, number, number];
     radius: number;
+}
+
+/** A kind of array, over memory. */
+export interface ViewType<View> {
+    BYTES_PER_ELEMENT: number;
+    new (buffer: ArrayBuffer, at: number, length: number): View & { slice(): View };
+}
+
+/** What a block, of this number, or levels have changed. */
+export type Move = [changes: Pick<Changes, "first" | "vertices" | "positions">, block: number];
+
+/** Vertices that are to be drawn anew, what they are now, and corners of the faces that are whole by them. */
+export interface Grown {
+    vertices: Int32Array;
+    positions: Float32Array;
+    normals: Float32Array;
+    /** The block that each came with. */
+    origin: Int32Array;
+    index: Uint32Array;
 }
 
 export class Memory {
@@ -64,10 +84,7 @@ export class Memory {
             Infinity,
             l.memory,
         ];
-        this.decoder = this.lent(8 * bounds.length, (at) => {
-            new Float64Array(this.buffer, at).set(bounds);
-            return this.call(begin, at, ...more);
-        });
+        this.decoder = this.held([new Float64Array(bounds)], (at) => this.call(begin, at, ...more));
         if (!this.decoder) throw new LimitError("this machine has no memory for a decoder");
     }
 
@@ -86,28 +103,92 @@ export class Memory {
     }
 
     doubles(at: number, count: number): Float64Array {
-        return new Float64Array(this.buffer, count > 0 ? at : 0, count).slice();
+        return this.copied(Float64Array, at, count);
     }
 
-    /** Normals of vertices at `points`, by the faces whose corners all have an origin, which is 0 or more. */
-    normals(faces: Int32Array, origin: Int32Array, points: ArrayLike<number>): Float32Array {
-        const size = points.length;
-        return this.lent(12 * size + 4 * (origin.length + faces.length), (at) => {
-            new Float64Array(this.buffer, at).set(points);
-            const [found, origins, corners] = [at + 8 * size, at + 12 * size, at + 12 * size + 4 * origin.length];
-            new Int32Array(this.buffer, origins).set(origin);
-            new Int32Array(this.buffer, corners).set(faces);
-            this.call("page_normals", corners, faces.length, origins, at, found, size / 3);
-            return new Float32Array(this.buffer, found, size).slice();
+    /** Move vertices, and give those that come their origin; returns the news of each, for `grown`. */
+    moved(points: Float64Array, origin: Int32Array, moves: Move[]): Uint8Array {
+        const size = origin.length;
+        return this.held([points, origin, new Uint8Array(size)], (at, origins, news) => {
+            for (const [changes, block] of moves) {
+                const { first, positions } = changes;
+                const chosen = first === undefined ? changes.vertices : new Int32Array(0);
+                this.held([positions, chosen], (rows, places) =>
+                    this.call(
+                        "page_move",
+                        rows,
+                        positions.length / 3,
+                        first === undefined ? places : 0,
+                        first ?? 0,
+                        block,
+                        at,
+                        origins,
+                        news,
+                    ),
+                );
+            }
+            points.set(this.doubles(at, 3 * size));
+            origin.set(this.copied(Int32Array, origins, size));
+            return this.copied(Uint8Array, news, size);
+        });
+    }
+
+    /** What is to be drawn anew of faces whose corners all have an origin, by the news of vertices: all, without these. */
+    grown(
+        faces: Int32Array,
+        points: Float64Array,
+        origin: Int32Array,
+        news: Uint8Array = new Uint8Array(origin.length).fill(1),
+    ): Grown {
+        const size = origin.length;
+        const arrays = [faces, origin, points, news, new Int32Array(size + 1), new Float32Array(6 * size)];
+        return this.held(arrays, (corners, origins, at, fresh, list, places) => {
+            const normals = places + 12 * size;
+            const count = this.call(
+                "page_grow",
+                corners,
+                faces.length,
+                origins,
+                at,
+                places,
+                size,
+                fresh,
+                list,
+                normals,
+            );
+            return {
+                vertices: this.copied(Int32Array, list + 4, count),
+                positions: this.copied(Float32Array, places, 3 * count),
+                normals: this.copied(Float32Array, normals, 3 * count),
+                origin: this.copied(Int32Array, origins, count),
+                index: this.copied(Uint32Array, corners, this.copied(Int32Array, list, 1)[0]),
+            };
         });
     }
 
     bounds(points: Float32Array): Bounds {
-        return this.lent(80 + 4 * points.length, (at) => {
-            new Float32Array(this.buffer, at + 80).set(points);
-            this.call("page_bounds", at + 80, points.length / 3, at);
-            const [lx, ly, lz, hx, hy, hz, x, y, z, radius] = this.doubles(at, 10);
+        return this.held([points, new Float64Array(10)], (at, found) => {
+            this.call("page_bounds", at, points.length / 3, found);
+            const [lx, ly, lz, hx, hy, hz, x, y, z, radius] = this.doubles(found, 10);
             return { low: [lx, ly, lz], high: [hx, hy, hz], center: [x, y, z], radius };
+        });
+    }
+
+    protected copied<View>(kind: ViewType<View>, at: number, count: number): View {
+        return new kind(this.buffer, count > 0 ? at : 0, count).slice();
+    }
+
+    /** The result of `work` with arrays in the memory, behind places that are known. */
+    protected held<Result>(
+        [array, ...rest]: ArrayBufferView[],
+        work: (...places: number[]) => Result,
+        ...places: number[]
+    ): Result {
+        if (!array) return work(...places);
+        const { buffer, byteOffset, byteLength } = array;
+        return this.lent(byteLength, (at) => {
+            new Uint8Array(this.buffer, at).set(new Uint8Array(buffer, byteOffset, byteLength));
+            return this.held(rest, work, ...places, at);
         });
     }
 

@@ -7,8 +7,11 @@ const LABELS = [["part", "object"], ["material"]]; // by the first of the names 
 const LINEAR = "COLOR_0"; // what streams in glTF call colors: others are sRGB
 const BASES = { texcoord: "uv", color: "color", normal: "normal" } as const;
 
-/** Faces `whole`, which are sorted, of a mesh of `size` vertices, with all that it carries. */
-export function drawnFaces(faces: Int32Array, whole: Int32Array, carried: Attribute[], size: number): DrawnFaces {
+/** Faces whose corners all have an origin, which is 0 or more, in order, with all that a mesh carries. */
+export function drawnFaces(faces: Int32Array, origin: Int32Array, carried: Attribute[]): DrawnFaces {
+    const whole = new Int32Array(faces.length / 3)
+        .map((_, face) => face)
+        .filter((face) => [0, 1, 2].every((k) => origin[faces[3 * face + k]] >= 0));
     const ofFaces = carried.filter(({ domain, components }) => domain === "face" && components === 1);
     const labels = LABELS.map((names) =>
         names.map((known) => ofFaces.find(({ name }) => name === known)).find(Boolean),
@@ -26,7 +29,7 @@ export function drawnFaces(faces: Int32Array, whole: Int32Array, carried: Attrib
         else pieces.push((last = { part: part(face), material: material(face), start: 3 * i, count: 3 }));
     });
     const drawn = carried.filter((attribute) => !labels.includes(attribute));
-    const { index, vertices, rows } = parted(faces, whole, drawn, size);
+    const { index, vertices, rows } = parted(faces, whole, drawn, origin.length);
     const normal = drawn.find(({ semantic, domain }) => semantic === "normal" && domain !== "face");
     const used = new Map([
         ["position", 1],

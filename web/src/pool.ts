@@ -52,9 +52,11 @@ const MOMENT = 100; // milliseconds that a stream waits for the headers of other
 const READS: Record<Build, Build[]> = {
     quick: ["quick"],
     parts: ["quick", "parts"],
+    grid: ["quick", "parts", "grid"],
+    blocks: ["blocks"],
     moving: ["moving"],
-    small: ["quick", "parts", "small"],
-    whole: ["quick", "parts", "moving", "small", "whole"],
+    small: ["quick", "parts", "grid", "blocks", "small"],
+    whole: ["quick", "parts", "grid", "blocks", "moving", "small", "whole"],
 };
 const BUILDS = Object.keys(READS) as Build[];
 
@@ -200,7 +202,7 @@ export class Pool {
     private helpersFor(stream: PooledStream, hand: Hand): Hand[] {
         const { need, wishes } = stream;
         const most = Math.min(processors(), this.limit) - 1;
-        if (isLight(need.build) || need.vertices < (wishes.worthwhile ?? WORTHWHILE) || this.waiting.length > 0)
+        if (isLight(need.build) || need.members < (wishes.worthwhile ?? WORTHWHILE) || this.waiting.length > 0)
             return [];
         const busy = this.hands.filter((other) => other !== hand && other.streams.size > 0).length;
         const found: Hand[] = [];
@@ -282,7 +284,7 @@ class PooledStream {
     closed = false;
     begun = false;
     task = -1;
-    need: Need = { build: "whole", vertices: 0 };
+    need: Need = { build: "whole", members: 0 };
     kernels?: WebAssembly.Module;
     /** Whether its need is known; `said` waits for that, or for its end. */
     known = false;
@@ -305,7 +307,7 @@ class PooledStream {
         this.pieces.push(data);
         if (this.say) this.say({ task: this.task, data }, []);
         else if (!this.known) {
-            const need = this.wishes.tolerant ? { build: "whole" as const, vertices: 0 } : needOf(joined(this.pieces));
+            const need = this.wishes.tolerant ? { build: "whole" as const, members: 0 } : needOf(joined(this.pieces));
             this.known = need !== undefined || data === null;
             if (!this.known) return;
             this.tell();

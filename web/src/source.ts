@@ -25,6 +25,8 @@ const KERNELS: Record<Build, () => URL> = {
     small: () => new URL("./small.wasm", import.meta.url),
     quick: () => new URL("./quick.wasm", import.meta.url),
     parts: () => new URL("./parts.wasm", import.meta.url),
+    grid: () => new URL("./grid.wasm", import.meta.url),
+    blocks: () => new URL("./blocks.wasm", import.meta.url),
     moving: () => new URL("./moving.wasm", import.meta.url),
 };
 

@@ -8,9 +8,9 @@ const MOST = 3;
 /** A team has a line of its own to each thread, with one stream on it. */
 const TASK = 0;
 
-/** How many helpers have something to do; none for fewer vertices than are worthwhile. */
+/** How many helpers have something to do; none for blocks of fewer vertices than are worthwhile. */
 export function helpersFor(header: Header, worthwhile = WORTHWHILE): number {
-    if (header.vertices < worthwhile) return 0;
+    if (header.blocks * header.blockSize < worthwhile) return 0;
     return Math.max(
         0,
         Math.min(Math.ceil(header.blocks / (header.keyInterval || header.blocks)), processors(), MOST + 1) - 1,

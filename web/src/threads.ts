@@ -1,6 +1,6 @@
 /** What this machine has. */
 
-/** Vertices from which on helpers win more than they cost. */
+/** Vertices of blocks from which on helpers win more than they cost: each starts a thread and decodes all faces. */
 export const WORTHWHILE = 8192;
 
 /** Threads that this machine runs at the same time. */

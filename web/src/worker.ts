@@ -24,7 +24,7 @@ export interface Start {
     drawing?: "whole" | "growing";
     /** Events that another decoder has reported of this stream, which are not to be reported again. */
     reported?: number;
-    /** Threads that help this one, and vertices from which on that is worthwhile. */
+    /** Threads that help this one, and vertices of blocks from which on that is worthwhile. */
     helpers?: MessagePort[];
     worthwhile?: number;
     share?: Share;

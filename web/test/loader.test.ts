@@ -782,7 +782,7 @@ describe(
         });
 
         test("says that a page was sent where a stream or a part of the decoder was asked for", async () => {
-            for (const name of ["page.bsm", "own/small.wasm", "own/small-worker.js"])
+            for (const name of ["page.bsm", "own/blocks.wasm", "own/small-worker.js"])
                 site.extra.set(`/${name}`, "<!DOCTYPE html><html><body>Not here</body></html>");
             const seen = await found(`
             const problem = (loader, url) => loader.loadAsync(url).then(() => "none", ({ message }) => message);
@@ -790,7 +790,7 @@ describe(
             assert.equal(seen.stream, "/page.bsm: the server sent an HTML page; is the address right?");
             assert.match(
                 String(seen.kernels),
-                /^.stream.good-labels.bsm: http:.*own.small.wasm: the server sent an HTML page; is the address right.$/,
+                /^.stream.good-labels.bsm: http:.*own.blocks.wasm: the server sent an HTML page; is the address right.$/,
             );
         });
 

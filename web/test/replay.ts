@@ -94,9 +94,10 @@ class End {
 }
 
 const KERNELS: Record<Build, Promise<WebAssembly.Module>> = Object.fromEntries(
-    Object.entries({ whole: "kernels", small: "small", moving: "moving", quick: "quick", parts: "parts" }).map(
-        ([build, name]) => [build, WebAssembly.compile(readFileSync(join(WEB, `built/${name}.wasm`)))],
-    ),
+    ["kernels", "small", "grid", "blocks", "moving", "quick", "parts"].map((name) => [
+        name === "kernels" ? "whole" : name,
+        WebAssembly.compile(readFileSync(join(WEB, `built/${name}.wasm`))),
+    ]),
 ) as never;
 await Promise.all(Object.values(KERNELS)); // nothing may come of itself
 

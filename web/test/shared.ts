@@ -6,6 +6,7 @@ import { pathToFileURL } from "node:url";
 import { inflateSync } from "node:zlib";
 import { chromium, type Browser, type Page } from "playwright-core";
 import { crc16, crc32 } from "./checksums";
+import { isLight, type Build } from "../src/peek";
 import { parseVarint } from "../src/varint";
 import {
     decode,
@@ -54,8 +55,8 @@ export async function chromiumFor(context: TestContext, ...flags: string[]): Pro
 }
 
 /** A build of less than all, as the decoder that tests of the sources take. */
-export async function lesserDecode(build: "small" | "quick" | "parts" | "moving"): Promise<(data: Uint8Array) => Mesh> {
-    const script = { parts: "quick", moving: "small", quick: "quick", small: "small" }[build];
+export async function lesserDecode(build: Exclude<Build, "whole">): Promise<(data: Uint8Array) => Mesh> {
+    const script = isLight(build) ? "quick" : "small";
     const lesser = (await import(pathToFileURL(join(WEB, `built/${script}.js`)).href)) as {
         decode: typeof decode;
         Decoder: typeof Decoder;

@@ -118,7 +118,7 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
             "never less is seen",
         );
         assert.ok(asked.length > 2 && asked.every((range) => range?.startsWith("bytes=")), "by ranges");
-        assert.deepEqual(kernels, ["small.wasm"], "no more of the decoder than tiles need");
+        assert.deepEqual(kernels, ["grid.wasm"], "no more of the decoder than tiles need");
         const { share } = silhouette(far);
         assert.ok(share > 0.05 && share < 0.9, `share ${share}`);
         await page.keyboard.press("h"); // nothing lies before the mesh

@@ -238,7 +238,7 @@ def site_with(contents: Sequence[Content | Tiled]) -> dict[str, bytes | Ranged]:
             entries.append(content.listed(number))
         else:
             entries.append(listed(content, f"/{number}", place))
-    built["index.html"] = _page(entries, script(place, "small.wasm", "encoder.js")).encode()
+    built["index.html"] = _page(entries, script(place, "grid.wasm", "encoder.js")).encode()
     return built
 
 
@@ -297,7 +297,7 @@ class PageServer(ThreadingHTTPServer):
                 entries.append(content.listed(number))
             else:
                 entries.append(listed(content, path, self.place))
-        module = script(self.place, "small.wasm")
+        module = script(self.place, "grid.wasm")
         self.content["/"] = ("text/html; charset=utf-8", _page(entries, module).encode())
         self.policy = _POLICY.format(base64.b64encode(hashlib.sha256(module.encode()).digest()).decode())
 

@@ -13,7 +13,7 @@ export interface Inlined {
 }
 
 /** What `bsm.viewer.page` says before the script. */
-declare const KERNELS: { kernels: Inlined; small?: Inlined; encoder?: Inlined };
+declare const KERNELS: { kernels: Inlined; grid?: Inlined; encoder?: Inlined };
 
 /** The script of the thread that encodes, where no server does; whether `bsm view` serves the page, and can encode. */
 export const encoder = KERNELS.encoder?.url;
@@ -33,7 +33,7 @@ export async function bytesOf({ url, data, bytes }: Inlined): Promise<Uint8Array
 
 /** The decoder, compiled. */
 export const load = once(async (build: Build) =>
-    WebAssembly.compile(await bytesOf((build === "small" && KERNELS.small) || KERNELS.kernels)),
+    WebAssembly.compile(await bytesOf((build === "grid" && KERNELS.grid) || KERNELS.kernels)),
 );
 
 export const inlined: Source = {
@@ -43,6 +43,6 @@ export const inlined: Source = {
         URL.revokeObjectURL(url);
         return worker;
     },
-    kernels: (build) => load(build === "small" && KERNELS.small ? build : "whole"),
+    kernels: (build) => load(build === "grid" && KERNELS.grid ? build : "whole"),
     local: () => Promise.resolve({ openDesk }),
 };
