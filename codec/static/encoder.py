@@ -23,7 +23,7 @@ from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.choice.attributes import Sent, smallest
 from bsm.codec.static.choice.bounds import LEAST
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
-from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.options import PRESETS, RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import WIDEST, Contract, Target, search_step
 from bsm.codec.static.verification import AsGiven, require, verify
@@ -59,7 +59,7 @@ class Attempt:
         return 8.0 * self.size / self.header.vertices
 
 
-SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
+SIZES, PROMISED_SIZES = RANGES["grid_cell"], (1e-42, 1e30)
 """Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
 LOOKS = [Contract(WIDEST, look=kept.look) for preset in reversed(PRESETS.values()) if (kept := preset.promise)]

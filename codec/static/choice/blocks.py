@@ -15,6 +15,7 @@ from bsm.codec.static.choice.bounds import COARSEST, LEAST, SPIKE, Bounds, Trial
 from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
+from bsm.codec.static.targets import TRIES
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
 from bsm.codec.static.ways.in_cells import SPREADS, InCells
@@ -24,7 +25,6 @@ BROADEST = 0.14
 SPARSE = 0.08  # the step, in mean edges, from which on most levels are 0
 BASE = 0.36  # the step of blocks on all vertices below a layer, over the square root of the layer's step
 APART = 4.0  # steps with other blocks, over one another
-NEARER = 4  # rounds: heights that are mended change steps of others
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
 
 
@@ -140,7 +140,7 @@ class Refined:
     ) -> tuple[Layer, Levels, Matrix]:
         """These levels, but the nearest ones at edges that fold over."""
         shaper = self._bounds.measures.shaper
-        for _ in range(NEARER):
+        for _ in range(TRIES):  # heights that are mended change steps of others
             if not len(wrong := shaper.over(base.moved(layer, levels, known))):
                 break
             levels = levels.copy()

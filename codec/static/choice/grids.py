@@ -200,7 +200,9 @@ class Gridded:
         start = tuple(self._hold(value) for value in origin + least * held)
         grid = Raster(start, held, tuple(int(value) for value in np.ptp(places, axis=0)), turn=self.turn)
         largest = np.array(grid.largest, np.int32)
-        places = self._prepared.linked.mended(places - least, largest, self._wanted(grid, places - least))
+        places = places - least
+        if self._bounds.contract.is_local:  # no mean sees a face without area, and on coarse grids many have none
+            places = self._prepared.linked.mended(places, largest, self._wanted(grid, places))
         return replace(self._candidate(grid, places), step=step)
 
     def _apart(self, places: Levels, low: Matrix, cell: float) -> Levels:

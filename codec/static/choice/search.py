@@ -24,10 +24,8 @@ from bsm.codec.static.options import BALANCED, RANGES, EncodeOptions, Paper
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, TRIES, WIDEST, Contract, secant
 
-PRICES = {"quick": (2e-3,), "normal": (6e-4,), "best": (6e-4, 8e-5)}
-"""Prices of a stage of a trial, one search after the other, as shares of the bytes, over the fourth root of the number
-of vertices. The best effort first does all that the normal one does."""
-FINEST = int(RANGES["grid"][1])  # bits along an axis
+QUICK, PRICE = 2e-3, 6e-4
+"""Prices of a stage of a trial, as shares of the bytes, over the fourth root of the number of vertices."""
 USUAL = Paper(), EncodeOptions.block_size, None, EncodeOptions.key_interval
 BYTES = 3.0 / math.log(256.0)  # of a vertex, that a step e times as wide saves where most levels are not 0
 
@@ -81,7 +79,9 @@ class Search:
     def __init__(self, measures: Measures, options: EncodeOptions, size: Callable[[Draft], int]) -> None:
         self._measures, self._prepared = measures, measures.prepared
         self._options, self._size = options, size
-        self._prices = [price * self._prepared.graph.size**0.25 for price in PRICES[options.effort]]
+        price = (QUICK if options.effort == "quick" else PRICE) * self._prepared.graph.size**0.25
+        # The best effort first does all that the normal one does.
+        self._prices = [price, price / 8.0] if options.effort == "best" else [price]
 
     def smallest(self, contract: Contract) -> Draft:
         """The smallest stream that keeps a contract; raises `TargetError` if none does."""
@@ -141,7 +141,7 @@ class Search:
 
     def _finest(self, bounds: Bounds) -> Draft:
         """The finest grid, or exact positions, where no other stream keeps a contract."""
-        for draft in (rounded(self._prepared, FINEST), exact(self._prepared)):
+        for draft in (rounded(self._prepared, int(RANGES["grid"][1])), exact(self._prepared)):
             if bounds.keeps(trial_of(self._prepared, draft)):
                 return draft
         raise TargetError(f"{bounds.contract} cannot be kept on this mesh; the best possible is {bounds.had}")
@@ -219,9 +219,8 @@ class Search:
         # Blocks that somebody asks for are on the mesh itself.
         asked = (options.paper, options.block_size, options.overlap, options.key_interval) != USUAL
         based = OnCells(prepared, options, bounds) if seen and not asked else blocks
-        ways.append(refined := Refined(prepared, bounds, based))
-        if bounds.contract.angle < ANY_ANGLE:
-            ways.append(Refined(prepared, bounds, based, settled=False))
+        refined = Refined(prepared, bounds, based, settled=seen or bounds.contract.angle == ANY_ANGLE)
+        ways.append(refined)
         if bounds.contract.visual < math.inf:  # it counts errors in all directions
             ways.append(Refined(prepared, bounds, based, ratio=math.sqrt(RATIO)))
         return ways if seen else [*ways, Plain(bounds, blocks, refined.first)]
