@@ -101,17 +101,9 @@ function ofCorners(
     if (rows.counts.length === 0 || lacking === written.length) return undefined;
     const name = OF_CORNERS[keyword];
     const [table, width] = name === "normal" ? [rows.columns(0, 3), 3] : texcoordsOf(rows);
-    if (lacking === 0)
-        return {
-            name,
-            values: compact(table, width),
-            components: width,
-            domain: "corner",
-            semantic: name,
-            indices: written,
-        };
-    const all = [...table];
-    const indices = [...written];
+    const column = { name, components: width, domain: "corner", semantic: name } as const;
+    if (lacking === 0) return { ...column, values: compact(table, width), indices: written };
+    const [all, indices] = [[...table], [...written]];
     let at = 0;
     sizes.forEach((size, face) => {
         const own = corners.slice(at, at + size);
@@ -125,8 +117,7 @@ function ofCorners(
     notes.push(
         `corners without ${PLURALS[name]} were given ${name === "normal" ? "those of their faces" : "zeros"}: ${lacking}`,
     );
-    const values = compact(Float64Array.from(all), width);
-    return { name, values, components: width, domain: "corner", semantic: name, indices };
+    return { ...column, values: compact(Float64Array.from(all), width), indices };
 }
 
 /** Lines of one to three numbers, those that are not there zero; the third only if it is of use. */

@@ -2,43 +2,24 @@
 import { colorColumn, meaningOf, PLURALS, type Column, type Polygons, type ColumnValues } from "./polygons";
 import { metadataIn, Rows, textOf, wordsOf } from "./text";
 
-/** Arrays of the numbers that a DataView reads, by the names of its methods. */
-const ARRAYS = {
-    Int8: Int8Array,
-    Uint8: Uint8Array,
-    Int16: Int16Array,
-    Uint16: Uint16Array,
-    Int32: Int32Array,
-    Uint32: Uint32Array,
-    Float32: Float32Array,
-    Float64: Float64Array,
-    BigInt64: Float64Array,
-    BigUint64: Float64Array,
-};
-type NumberKind = keyof typeof ARRAYS;
+/** Numbers by the names of the methods by which a DataView reads them: their arrays, and what headers call them. */
+const KINDS = {
+    Int8: [Int8Array, "int8", "char"],
+    Uint8: [Uint8Array, "uint8", "uchar"],
+    Int16: [Int16Array, "int16", "short"],
+    Uint16: [Uint16Array, "uint16", "ushort"],
+    Int32: [Int32Array, "int32", "int"],
+    Uint32: [Uint32Array, "uint32", "uint"],
+    Float32: [Float32Array, "float32", "float"],
+    Float64: [Float64Array, "float64", "double"],
+    BigInt64: [Float64Array, "int64", "long"],
+    BigUint64: [Float64Array, "uint64", "ulong"],
+} as const;
+type NumberKind = keyof typeof KINDS;
 type Read = (this: DataView, at: number, little: boolean) => number | bigint;
-const TYPES: Record<string, NumberKind> = {
-    char: "Int8",
-    uchar: "Uint8",
-    short: "Int16",
-    ushort: "Uint16",
-    int: "Int32",
-    uint: "Uint32",
-    float: "Float32",
-    double: "Float64",
-    int8: "Int8",
-    uint8: "Uint8",
-    int16: "Int16",
-    uint16: "Uint16",
-    int32: "Int32",
-    uint32: "Uint32",
-    float32: "Float32",
-    float64: "Float64",
-    int64: "BigInt64",
-    uint64: "BigUint64",
-    long: "BigInt64",
-    ulong: "BigUint64",
-};
+const TYPES: Record<string, NumberKind> = Object.fromEntries(
+    Object.entries(KINDS).flatMap(([kind, [, ...names]]) => names.map((name) => [name, kind as NumberKind])),
+);
 const ORDERS = ["ascii", "binary_little_endian", "binary_big_endian"];
 /** Properties that are one value together, the first of a meaning and a width. */
 const GROUPS: [meaning: "normal" | "color" | "texcoord", names: string[]][] = [
@@ -180,7 +161,7 @@ function tablesOf({ elements, order, size }: PlyHeader, bytes: Uint8Array): Map<
         const view = new DataView(bytes.buffer, bytes.byteOffset + size, bytes.byteLength - size);
         const isLittle = order === "binary_little_endian";
         const [reads, sizes] = [{} as Record<NumberKind, Read>, {} as Record<NumberKind, number>];
-        for (const kind of Object.keys(ARRAYS) as NumberKind[])
+        for (const kind of Object.keys(KINDS) as NumberKind[])
             [reads[kind], sizes[kind]] = [view[`get${kind}`], Number(/\d+/.exec(kind)) / 8];
         const next = (kind: NumberKind): number => {
             const from = at;
@@ -213,7 +194,7 @@ function tablesOf({ elements, order, size }: PlyHeader, bytes: Uint8Array): Map<
 
 /** Numbers in the type that the header declares, if they fit into it, as those of a text may not. */
 function typed(values: number[], type: NumberKind): ColumnValues {
-    const made: ColumnValues = ARRAYS[type].from(values);
+    const made: ColumnValues = KINDS[type][0].from(values);
     return type.startsWith("F") || values.every((value, i) => made[i] === value) ? made : Float64Array.from(values);
 }
 

@@ -7,6 +7,7 @@
  * too. A polygon whose sides cross stays a fan, and a note says so.
  */
 import earcut from "earcut";
+import { Vector3 } from "three";
 import type { AttributeInput, MeshInput } from "../encoding";
 
 export type ColumnValues =
@@ -75,19 +76,10 @@ export function meshOfPolygons(polygons: Polygons): { mesh: PlainMesh; notes: st
             refused.push([PLURALS[column.name] ?? column.name, wrong]);
             continue;
         }
-        const { indices } = column;
-        if (domain === "vertex") attributes.push({ name, values, components, semantic });
-        else if (domain === "face")
-            attributes.push({ name, values: picked(values, components, owners), components, domain, semantic });
-        else
-            attributes.push({
-                name,
-                values,
-                components,
-                domain,
-                semantic,
-                indices: Int32Array.from(places, (place) => (indices ? indices[place] : place)),
-            });
+        const own = domain === "face" ? picked(values, components, owners) : values;
+        const indexOf = (place: number): number => column.indices?.[place] ?? place;
+        const indices = domain === "corner" ? Int32Array.from(places, indexOf) : undefined;
+        attributes.push({ name, values: own, components, domain, semantic, indices });
     }
     if (dropped.length > 0) notes.push(`left out: ${dropped.join(", ")}`);
     for (const [name, why] of refused) notes.push(`left out: ${name}, because ${why}`);
@@ -233,28 +225,29 @@ export function grouped(
     };
 }
 
-type Vector = [x: number, y: number, z: number];
-
-/** Twice the area of a triangle, along its normal. */
-function areaOf(points: Float64Array, a: number, b: number, c: number): Vector {
-    const edge = (to: number): Vector => [
-        points[3 * to] - points[3 * a],
-        points[3 * to + 1] - points[3 * a + 1],
-        points[3 * to + 2] - points[3 * a + 2],
-    ];
-    const [u, v] = [edge(b), edge(c)];
-    return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+/** Twice the areas of triangles, along their normals. */
+function areasOf(points: Float64Array, corners: ArrayLike<number>, cut: number[]): Vector3[] {
+    const at = (i: number): Vector3 => new Vector3().fromArray(points, 3 * corners[cut[i]]);
+    const areaOf = (_: unknown, i: number): Vector3 => {
+        const first = at(3 * i);
+        return at(3 * i + 1)
+            .sub(first)
+            .cross(at(3 * i + 2).sub(first));
+    };
+    return Array.from({ length: cut.length / 3 }, areaOf);
 }
 
-const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const sumOf = (vectors: Vector3[]): Vector3 => vectors.reduce((sum, each) => sum.add(each), new Vector3());
+
+/** The triangles of a polygon from one corner on. */
+const fanOf = (size: number, turn = 0): number[] =>
+    Array.from({ length: size - 2 }, (_, i) => [turn, (i + 1 + turn) % size, (i + 2 + turn) % size]).flat();
 
 /** The unit normal of a polygon; zeros without one. */
-export function polygonNormal(positions: Float64Array, corners: ArrayLike<number>): Vector {
-    const sum: Vector = [0, 0, 0];
-    for (let i = 1; i + 1 < corners.length; i++)
-        areaOf(positions, corners[0], corners[i], corners[i + 1]).forEach((part, d) => (sum[d] += part));
+export function polygonNormal(positions: Float64Array, corners: ArrayLike<number>): number[] {
+    const sum = sumOf(areasOf(positions, corners, fanOf(corners.length))).toArray();
     const length = Math.hypot(...sum);
-    return length > 0 ? [sum[0] / length, sum[1] / length, sum[2] / length] : [0, 0, 0];
+    return sum.map((part) => (length > 0 ? part / length : 0));
 }
 
 /** Cut polygons into triangles, in the order of the polygons: the corners of each, and whose they are. */
@@ -270,7 +263,7 @@ function triangulated(
     let [first, at, crossing] = [0, 0, 0];
     sizes.forEach((size, polygon) => {
         owners.fill(polygon, at, at + Math.max(size - 2, 0));
-        const { cut, crosses } = cutOf(scaled, corners, first, size);
+        const { cut, crosses } = cutOf(scaled, Array.prototype.slice.call(corners, first, first + size));
         crossing += Number(crosses);
         for (let i = 0; i < cut.length; i++) places[3 * at + i] = first + cut[i];
         at += Math.max(size - 2, 0);
@@ -280,58 +273,28 @@ function triangulated(
 }
 
 /** The triangles of one polygon: a fan from the first corner from which none is folded, or ears. */
-function cutOf(
-    points: Float64Array,
-    corners: ArrayLike<number>,
-    first: number,
-    size: number,
-): { cut: ArrayLike<number>; crosses: boolean } {
+function cutOf(points: Float64Array, corners: number[]): { cut: number[]; crosses: boolean } {
+    const size = corners.length;
     if (size < 3) return { cut: [], crosses: false };
     if (size === 3) return { cut: [0, 1, 2], crosses: false };
-    const fan = (turn: number): number[] =>
-        Array.from({ length: size - 2 }, (_, i) => [turn, (i + 1 + turn) % size, (i + 2 + turn) % size]).flat();
-    const vectorsOf = (cut: number[]): Vector[] =>
-        Array.from({ length: cut.length / 3 }, (_, i) =>
-            areaOf(
-                points,
-                corners[first + cut[3 * i]],
-                corners[first + cut[3 * i + 1]],
-                corners[first + cut[3 * i + 2]],
-            ),
-        );
-    const normal: Vector = [0, 0, 0];
-    for (const vector of vectorsOf(fan(0))) vector.forEach((part, d) => (normal[d] += part));
+    const normal = sumOf(areasOf(points, corners, fanOf(size)));
     for (let turn = 0; turn < Math.min(size, MOST_TURNS); turn++) {
-        const cut = fan(turn);
-        if (!vectorsOf(cut).some((vector) => dot(vector, normal) < 0)) return { cut, crosses: false };
+        const cut = fanOf(size, turn);
+        if (!areasOf(points, corners, cut).some((area) => area.dot(normal) < 0)) return { cut, crosses: false };
     }
     if (size > MOST_CORNERS)
         throw new Error(`a polygon that is not convex has ${size} corners; cut it into triangles before`);
-    const ears = earsOf(points, corners, first, size, normal);
-    return ears.length === 3 * (size - 2) ? { cut: ears, crosses: false } : { cut: fan(0), crosses: true };
+    const ears = earsOf(points, corners, normal.toArray());
+    return ears.length === 3 * (size - 2) ? { cut: ears, crosses: false } : { cut: fanOf(size), crosses: true };
 }
 
 /** Clip the ears of a polygon that is not convex; one whose sides cross gets too few or many. */
-function earsOf(
-    points: Float64Array,
-    corners: ArrayLike<number>,
-    first: number,
-    size: number,
-    normal: Vector,
-): number[] {
-    const sizes = normal.map(Math.abs);
+function earsOf(points: Float64Array, corners: number[], normal: number[]): number[] {
+    const [size, sizes] = [corners.length, normal.map(Math.abs)];
     const axis = sizes.indexOf(Math.max(...sizes));
-    const [u, v] = [
-        [1, 2],
-        [0, 2],
-        [0, 1],
-    ][axis];
+    const [u, v] = [0, 1, 2].filter((d) => d !== axis);
     const sign = normal[axis] < 0 !== (axis === 1) ? -1 : 1; // counterclockwise as seen from there
-    const flat = Array.from({ length: size }, (_, i) => {
-        const at = 3 * corners[first + i];
-        return [sign * points[at + u], points[at + v]];
-    }).flat();
-    const found = earcut(flat);
+    const found = earcut(corners.flatMap((corner) => [sign * points[3 * corner + u], points[3 * corner + v]]));
     if (found.length >= 3 * (size - 2)) return found;
     // Corners on a straight line between others are left out; faces beside it may have them.
     const sides = new Map<number, [number, number]>();
