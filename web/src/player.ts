@@ -31,6 +31,7 @@ p { position: absolute; inset: auto 0 45% 0; margin: 0; padding: 0 1em; text-ali
     font: 14px system-ui, sans-serif; color: #222; }`;
 /** What a sequence says, and the element says again. */
 const PASSED = ["play", "pause", "frame", "loop", "ended", "waiting"] as const;
+const LABEL = "A mesh in three dimensions. Arrow keys turn it, plus and minus zoom.";
 const TAP = 6; // pixels that a finger may move while it taps
 /** How far outside of the window a player is drawn already. */
 const NEAR = "20%";
@@ -47,6 +48,11 @@ const Base = (globalThis.HTMLElement ?? Object) as typeof HTMLElement;
  */
 export class BSMPlayer extends Base {
     static readonly observedAttributes = ["src", "loop", "rate", "poster", "controls", "disable-zoom"];
+    declare src: string;
+    declare poster: string;
+    declare loop: boolean;
+    declare controls: boolean;
+    declare autoplay: boolean;
     readonly loader = new BSMLoader();
     readonly scene = new Scene();
     readonly camera = new PerspectiveCamera(35);
@@ -71,22 +77,6 @@ export class BSMPlayer extends Base {
     /** Stops the load; what has been stopped is not shown. */
     private loading = new AbortController();
 
-    get src(): string {
-        return this.getAttribute("src") ?? "";
-    }
-
-    set src(url: string) {
-        this.setAttribute("src", url);
-    }
-
-    get loop(): boolean {
-        return this.hasAttribute("loop");
-    }
-
-    set loop(loop: boolean) {
-        this.toggleAttribute("loop", loop);
-    }
-
     /** 1 where the attribute says nothing that it can be. */
     get rate(): number {
         const rate = Number(this.getAttribute("rate") ?? 1);
@@ -95,30 +85,6 @@ export class BSMPlayer extends Base {
 
     set rate(rate: number) {
         this.setAttribute("rate", `${rate}`);
-    }
-
-    get controls(): boolean {
-        return this.hasAttribute("controls");
-    }
-
-    set controls(controls: boolean) {
-        this.toggleAttribute("controls", controls);
-    }
-
-    get autoplay(): boolean {
-        return this.hasAttribute("autoplay");
-    }
-
-    set autoplay(autoplay: boolean) {
-        this.toggleAttribute("autoplay", autoplay);
-    }
-
-    get poster(): string {
-        return this.getAttribute("poster") ?? "";
-    }
-
-    set poster(url: string) {
-        this.setAttribute("poster", url);
     }
 
     get paused(): boolean {
@@ -154,17 +120,9 @@ export class BSMPlayer extends Base {
         canvas.setAttribute("part", "canvas");
         canvas.tabIndex = 0;
         canvas.setAttribute("role", "img");
-        canvas.setAttribute(
-            "aria-label",
-            this.getAttribute("aria-label") ?? "A mesh in three dimensions. Arrow keys turn it, plus and minus zoom.",
-        );
-        (this.shadowRoot ?? this.attachShadow({ mode: "open" })).replaceChildren(
-            style,
-            canvas,
-            picture,
-            note,
-            this.bar.element,
-        );
+        canvas.setAttribute("aria-label", this.getAttribute("aria-label") ?? LABEL);
+        const shadow = this.shadowRoot ?? this.attachShadow({ mode: "open" });
+        shadow.replaceChildren(style, canvas, picture, note, this.bar.element);
         this.orbit = new OrbitControls(camera, canvas);
         this.orbit.addEventListener("change", () => this.redraw());
         this.orbit.addEventListener("start", () => (this.touched = true));
@@ -278,9 +236,7 @@ export class BSMPlayer extends Base {
         if (!this.src) return;
         const { signal } = (this.loading = new AbortController());
         const mine = (): boolean => !signal.aborted;
-        const failed = (error: unknown): void => {
-            if (mine()) this.fail(error);
-        };
+        const failed = (error: unknown): void => void (mine() && this.fail(error));
         this.note.setAttribute("role", "status");
         this.note.textContent = "Loading";
         const onProgress = ({ lengthComputable, loaded, total }: ProgressEvent): void => {
@@ -341,16 +297,12 @@ export class BSMPlayer extends Base {
 
     /** Have the ball fill the shorter side, until the reader chooses another place. */
     private aim(): void {
-        const {
-            ball: { center, radius },
-            camera,
-            orbit,
-        } = this;
+        const { ball, camera, orbit } = this;
         const half = Math.atan(Math.tan((Math.PI / 360) * camera.fov) * Math.min(camera.aspect, 1));
-        const far = (ROOM * radius) / Math.sin(half) || 1;
+        const far = (ROOM * ball.radius) / Math.sin(half) || 1;
         [camera.near, camera.far] = [far / 100, 10 * far];
-        camera.position.copy(FRONT).multiplyScalar(far).add(center);
-        orbit?.target.copy(center);
+        camera.position.copy(FRONT).multiplyScalar(far).add(ball.center);
+        orbit?.target.copy(ball.center);
         orbit?.update();
     }
 
@@ -385,6 +337,26 @@ export class BSMPlayer extends Base {
         this.dispatchEvent(new CustomEvent(type, { detail }));
     }
 }
+
+/** Properties that are attributes. */
+for (const name of ["src", "poster"])
+    Object.defineProperty(BSMPlayer.prototype, name, {
+        get(this: BSMPlayer): string {
+            return this.getAttribute(name) ?? "";
+        },
+        set(this: BSMPlayer, value: string) {
+            this.setAttribute(name, value);
+        },
+    });
+for (const name of ["loop", "controls", "autoplay"])
+    Object.defineProperty(BSMPlayer.prototype, name, {
+        get(this: BSMPlayer): boolean {
+            return this.hasAttribute(name);
+        },
+        set(this: BSMPlayer, value: boolean) {
+            this.toggleAttribute(name, value);
+        },
+    });
 
 if (globalThis.customElements && !customElements.get("bsm-player")) customElements.define("bsm-player", BSMPlayer);
 
