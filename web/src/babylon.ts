@@ -1,13 +1,6 @@
 /** Scenes of glTF whose geometry is BSM streams (EXT_bsm_compression), in Babylon.js: an extension of its loader. */
 import type { AbstractMesh } from "@babylonjs/core/Meshes/abstractMesh.js";
-import type {
-    GLTFLoader,
-    IBufferView,
-    IGLTFLoaderExtension,
-    IMesh,
-    IMeshPrimitive,
-    INode,
-} from "@babylonjs/loaders/glTF/2.0/index.js";
+import type * as glTF from "@babylonjs/loaders/glTF/2.0/index.js";
 import { registerGLTFExtension } from "@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js";
 import type { Picture, PictureOf, Shape } from "./index";
 import { Playback } from "./playback";
@@ -73,23 +66,18 @@ class Played {
         for (const [mesh, before] of this.worn) {
             if (before !== shape) mesh.setIndices(shape.index, shape.positions.length / 3);
             mesh.setVerticesData("position", picture.positions, true);
-            mesh.setVerticesData(
-                "normal",
-                Float32Array.from(picture.normals, (normal) => normal / MOST_NORMAL),
-                true,
-            );
-            for (const { name, values } of before === shape
-                ? picture.attributes
-                : [...shape.attributes, ...picture.attributes]) {
+            const normals = Float32Array.from(picture.normals, (normal) => normal / MOST_NORMAL);
+            mesh.setVerticesData("normal", normals, true);
+            const stays = before === shape ? [] : shape.attributes;
+            for (const { name, values } of [...stays, ...picture.attributes])
                 if (KINDS[name]) mesh.setVerticesData(KINDS[name], Float32Array.from(values), true);
-            }
             this.worn.set(mesh, shape);
         }
     }
 }
 
 /** Streams are decoded in threads, each once; meshes that say so play the frames of theirs. */
-class BabylonBSMExtension implements IGLTFLoaderExtension {
+class BabylonBSMExtension implements glTF.IGLTFLoaderExtension {
     readonly name = EXTENSION;
     enabled = true;
     private streams = new CodedViews<Promise<Shape>>();
@@ -97,7 +85,7 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
     private readonly sequences = new Map<string, Played>();
 
     constructor(
-        private readonly loader: GLTFLoader,
+        private readonly loader: glTF.GLTFLoader,
         private readonly pool: Pool,
     ) {}
 
@@ -110,47 +98,41 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
     _loadMeshPrimitiveAsync(
         context: string,
         name: string,
-        node: INode,
-        mesh: IMesh,
-        primitive: IMeshPrimitive,
+        node: glTF.INode,
+        mesh: glTF.IMesh,
+        primitive: glTF.IMeshPrimitive,
         assign: (mesh: AbstractMesh) => void,
     ): Promise<AbstractMesh> | null {
         const moving = mesh.extensions?.[EXTENSION] as { stream: number } | undefined;
         const loading = moving && this.loader._loadMeshPrimitiveAsync(context, name, node, mesh, primitive, assign);
-        return (
-            loading?.then(
-                (made) => (this.sequences.get(placeOf(this.viewOf(context, moving!.stream)))?.playOn(made), made),
-            ) ?? null
-        );
+        const play = (made: AbstractMesh): AbstractMesh => {
+            this.sequences.get(placeOf(this.viewOf(context, moving!.stream)))?.playOn(made);
+            return made;
+        };
+        return loading?.then(play) ?? null;
     }
 
     /** The bytes of a bufferView that a stream holds; null: it is a plain one. */
     loadBufferViewAsync(
         context: string,
-        { extensions, byteLength, index }: IBufferView,
+        { extensions, byteLength, index }: glTF.IBufferView,
     ): Promise<ArrayBufferView> | null {
         const coded = extensions?.[EXTENSION] as Coded | undefined;
-        return coded ? this.decoded(context, coded, byteLength, index) : null;
-    }
-
-    private async decoded(context: string, coded: Coded, byteLength: number, index: number): Promise<ArrayBufferView> {
+        if (!coded) return null;
         const from = this.viewOf(context, coded.stream);
-        return new Uint8Array(
-            await this.streams.made(from, coded, byteLength, index, () => this.decode(context, from)),
-        );
+        const made = this.streams.made(from, coded, byteLength, index, () => this.decode(context, from));
+        return made.then((bytes) => new Uint8Array(bytes));
     }
 
-    private viewOf(context: string, stream: number): IBufferView {
+    private viewOf(context: string, stream: number): glTF.IBufferView {
         const view = this.loader.gltf.bufferViews?.[stream];
         if (!view) throw new Error(`${context}: there is no bufferView ${stream}`);
         return view;
     }
 
-    private async decode(context: string, view: IBufferView): Promise<Shape> {
-        const { buffer, byteOffset, byteLength } = await this.loader.loadBufferViewAsync(
-            `/bufferViews/${view.index}`,
-            view,
-        );
+    private async decode(context: string, view: glTF.IBufferView): Promise<Shape> {
+        const loading = this.loader.loadBufferViewAsync(`/bufferViews/${view.index}`, view);
+        const { buffer, byteOffset, byteLength } = await loading;
         let [shape, sequence, rate]: [Shape?, Played?, unknown?] = [];
         const take = (picture: Picture, decoding: StreamDecoding): void => {
             if (picture.type === "whole") ({ shape } = picture);
@@ -163,13 +145,8 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
             if (sequence) sequence.complete = true;
             if (error) this.loader.log(`${context}: ${error}`);
         };
-        return this.streams.decode(
-            this.pool,
-            new Uint8Array(buffer.slice(byteOffset, byteOffset + byteLength) as ArrayBuffer),
-            `${context}: bufferView ${view.index}`,
-            take,
-            end,
-        );
+        const data = new Uint8Array(buffer.slice(byteOffset, byteOffset + byteLength) as ArrayBuffer);
+        return this.streams.decode(this.pool, data, `${context}: bufferView ${view.index}`, take, end);
     }
 }
 

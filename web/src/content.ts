@@ -33,14 +33,11 @@ const LABELS = ["part", "material"];
 const ROUNDED = 0.51 / 65535; // by which colors of glTF are off
 type ThreeAttribute = BufferAttribute | InterleavedBufferAttribute;
 
-const semanticOf = (name: string): AttributeInput["semantic"] =>
-    name === "normal"
-        ? "normal"
-        : name.startsWith("color")
-          ? "color"
-          : /^(uv|texcoord)\d*$/.test(name)
-            ? "texcoord"
-            : "generic";
+function semanticOf(name: string): AttributeInput["semantic"] {
+    if (name === "normal") return "normal";
+    if (name.startsWith("color")) return "color";
+    return /^(uv|texcoord)\d*$/.test(name) ? "texcoord" : "generic";
+}
 
 /** One mesh of all that a geometry, or an object with all that is in it, draws; `note` receives what is left out. */
 export function meshOf(
@@ -70,20 +67,9 @@ export function meshOf(
         if (semanticOf(name) !== "color" || components < 3)
             return [{ name, components, semantic: semanticOf(name), values }];
         const isBright = Array.prototype.some.call(values, (share: number) => share < 0 || share > 1); // more than a screen shows
-        return [
-            isBright
-                ? { name, components, values }
-                : {
-                      name,
-                      components,
-                      semantic: "color",
-                      values: filed(
-                          values,
-                          components,
-                          own.every(({ array }) => array.BYTES_PER_ELEMENT === 1),
-                      ),
-                  },
-        ];
+        if (isBright) return [{ name, components, values }];
+        const isOfBytes = own.every(({ array }) => array.BYTES_PER_ELEMENT === 1);
+        return [{ name, components, semantic: "color", values: filed(values, components, isOfBytes) }];
     });
     const labels = LABELS.map((name, which) => ({
         name,
@@ -127,13 +113,8 @@ function facesOf(
     { geometry, material, matrix }: Part,
     materials: Material[],
 ): { corners: Uint32Array; labels: number[] } {
-    const {
-        index,
-        attributes,
-        groups,
-        drawRange: { start, count },
-        morphAttributes,
-    } = geometry;
+    const { index, attributes, groups, drawRange, morphAttributes } = geometry;
+    const { start, count } = drawRange;
     if (!(attributes.position as ThreeAttribute)?.array) refuse("the geometry has no positions");
     if (Object.values(morphAttributes).some(({ length }) => length > 0))
         refuse("no stream has morph targets: delete geometry.morphAttributes, or encode each shape");
@@ -149,14 +130,12 @@ function facesOf(
     const labels = new Int32Array(all.length).fill(isGrouped ? -1 : numberOf());
     if (isGrouped || !own)
         for (const group of groups) labels.fill(numberOf(group.materialIndex), group.start, group.start + group.count);
-    const firsts = Array.from(
-        { length: Math.floor(Math.min(count, all.length - start) / 3) },
-        (_, i) => start + 3 * i,
-    ).filter((first) => labels[first] >= 0);
-    const isMirrored = matrix !== undefined && matrix.determinant() < 0;
+    const length = Math.floor(Math.min(count, all.length - start) / 3);
+    const firsts = Array.from({ length }, (_, i) => start + 3 * i).filter((first) => labels[first] >= 0);
+    const order = matrix !== undefined && matrix.determinant() < 0 ? [2, 1, 0] : [0, 1, 2]; // of a mirrored one
     const corners = Uint32Array.from(
         { length: 3 * firsts.length },
-        (_, i) => all[firsts[Math.floor(i / 3)] + (isMirrored ? 2 - (i % 3) : i % 3)],
+        (_, i) => all[firsts[Math.floor(i / 3)] + order[i % 3]],
     );
     return { corners, labels: firsts.map((first) => labels[first]) };
 }
@@ -171,19 +150,14 @@ function filed(
     ofBytes: boolean,
 ): Uint8Array | Uint16Array | Float32Array {
     const [color, shares] = [new Color(), Float32Array.from(linear)];
-    for (let i = 0; i < shares.length; i += components)
-        color
-            .fromArray(linear as number[], i)
-            .convertLinearToSRGB()
-            .toArray(shares, i);
+    for (let i = 0; i < shares.length; i += components) {
+        color.fromArray(linear as number[], i).convertLinearToSRGB();
+        color.toArray(shares, i);
+    }
     const bytes = Uint8Array.from(shares, (share) => Math.round(255 * share));
-    return bytes.every(
-        (byte, i) => Math.abs((i % components < 3 ? linearOf(byte / 255) : byte / 255) - linear[i]) <= ROUNDED,
-    )
-        ? bytes
-        : ofBytes
-          ? Uint16Array.from(shares, (share) => Math.round(65535 * share))
-          : shares;
+    const back = (byte: number, i: number): number => (i % components < 3 ? linearOf(byte / 255) : byte / 255);
+    if (bytes.every((byte, i) => Math.abs(back(byte, i) - linear[i]) <= ROUNDED)) return bytes;
+    return ofBytes ? Uint16Array.from(shares, (share) => Math.round(65535 * share)) : shares;
 }
 
 /** The numbers that an attribute stands for, where its object is. */
@@ -192,41 +166,30 @@ function valuesOf({ geometry, matrix }: Part, name: string): ArrayLike<number> {
     const { array, itemSize, normalized } = attribute;
     const isPlace = name === "position";
     const [count, width] = [geometry.attributes.position.count, isPlace ? 3 : itemSize];
-    const isMoved =
-        matrix !== undefined &&
-        (isPlace || /^(normal|tangent)$/.test(name)) &&
-        !matrix.equals(matrix.clone().identity());
-    const isPlain =
-        !("data" in attribute || "isFloat16BufferAttribute" in attribute) && !normalized && kindOf(array) !== undefined;
+    const moves = isPlace || /^(normal|tangent)$/.test(name);
+    const isMoved = matrix !== undefined && moves && !matrix.equals(matrix.clone().identity());
+    const isPacked = "data" in attribute || "isFloat16BufferAttribute" in attribute || normalized;
+    const isPlain = !isPacked && kindOf(array) !== undefined;
     if (isPlain && !isMoved && width === itemSize && (!isPlace || /^float/.test(kindOf(array)!)))
         return array.subarray(0, width * count);
-    const read = (i: number): number =>
+    const read = (_: unknown, i: number): number =>
         i % width < itemSize ? attribute[GETTERS[i % width]](Math.floor(i / width)) : 0;
-    const moved = new BufferAttribute(
-        Float64Array.from({ length: width * Math.min(count, attribute.count) }, (_, i) => read(i)),
-        width,
-    );
+    const length = width * Math.min(count, attribute.count);
+    const moved = new BufferAttribute(Float64Array.from({ length }, read), width);
     if (!isMoved)
         return isPlace && (kindOf(array) === "float64" || !normalized) ? moved.array : Float32Array.from(moved.array);
     if (isPlace) return moved.applyMatrix4(matrix).array; // a matrix may place it where single precision is coarse
-    return Float32Array.from(
-        (name === "normal"
-            ? moved.applyNormalMatrix(new Matrix3().getNormalMatrix(matrix))
-            : moved.transformDirection(matrix)
-        ).array,
-    );
+    if (name === "normal") moved.applyNormalMatrix(new Matrix3().getNormalMatrix(matrix));
+    else moved.transformDirection(matrix);
+    return Float32Array.from(moved.array);
 }
 
 /** Arrays one behind the other, in the kind of all or as floats. */
 function joined<Kind extends ArrayLike<number>>(arrays: readonly Kind[]): Kind {
     if (arrays.length === 1) return arrays[0];
     const kinds = new Set(arrays.map(kindOf));
-    const Type =
-        kinds.size === 1
-            ? (arrays[0].constructor as Float32ArrayConstructor)
-            : kinds.has("float64")
-              ? Float64Array
-              : Float32Array;
+    const Mixed = kinds.has("float64") ? Float64Array : Float32Array;
+    const Type = kinds.size === 1 ? (arrays[0].constructor as Float32ArrayConstructor) : Mixed;
     const all = new Type(arrays.reduce((sum, { length }) => sum + length, 0));
     arrays.reduce((at, array) => (all.set(array, at), at + array.length), 0);
     return all as unknown as Kind;

@@ -75,11 +75,8 @@ const WAYS = ["default", "exact", "bits", "bound", "percent", "degrees", "recomp
 
 /** The kind of an array, of any realm; undefined where C takes no such numbers. */
 export function kindOf(values: ArrayLike<number>): Attribute["kind"] | undefined {
-    return KINDS.find(
-        (kind) =>
-            (values as Float32Array | null)?.[Symbol.toStringTag]?.replace("Clamped", "").toLowerCase() ===
-            `${kind}array`,
-    );
+    const name = (values as Float32Array | null)?.[Symbol.toStringTag]?.replace("Clamped", "").toLowerCase();
+    return KINDS.find((kind) => name === `${kind}array`);
 }
 
 export function refuse(what: string): never {
@@ -141,18 +138,11 @@ export function encodeWith(
     calls.make_priors?.();
     const places = put(positions);
     calls.encode_begin(vertices, faces.length / 3, isSingle ? 0 : places, isSingle ? places : 0, put(faces), frames);
-    for (const {
-        name,
-        values: numbers,
-        components,
-        domain = "vertex",
-        semantic = "generic",
-        indices,
-        quality,
-    } of attributes) {
+    for (const attribute of attributes) {
+        const { name, values: numbers, components, domain = "vertex", semantic = "generic", indices } = attribute;
         requireNumbers(numbers, `values of ${name}`);
         const values = (kindOf(numbers) ? numbers : Float32Array.from(numbers)) as Float32Array;
-        const asked = options.qualities?.[name] ?? quality ?? "default";
+        const asked = options.qualities?.[name] ?? attribute.quality ?? "default";
         const [way, amount] = typeof asked === "string" ? [asked, 0] : (Object.entries(asked)[0] ?? ["", 0]);
         const rows = indices && domain === "corner" ? indices.length : values.length / components;
         if (rows !== { vertex: vertices, corner: faces.length, face: faces.length / 3 }[domain])
@@ -160,50 +150,26 @@ export function encodeWith(
         const isAmount = way === "bits" ? Number.isInteger(amount) : Number.isFinite(amount);
         if (name.includes("\0") || !isAmount || !WAYS.includes(way))
             refuse(`the attribute ${name.replaceAll("\0", "?")} has a name or a quality that nothing can have`);
-        const row = [
-            DOMAINS.indexOf(domain),
-            SEMANTICS.indexOf(semantic),
-            KINDS.indexOf(kindOf(values)!),
-            components,
-            values.length / components,
-        ] as const;
-        if (
-            !calls.encode_attribute(
-                text(name),
-                ...row,
-                put(values),
-                indices ? put(wholes(indices, `indices of ${name}`)) : 0,
-                WAYS.indexOf(way),
-                amount,
-            )
-        )
+        const kinds = [DOMAINS.indexOf(domain), SEMANTICS.indexOf(semantic), KINDS.indexOf(kindOf(values)!)];
+        const sizes = [components, values.length / components];
+        const places = [put(values), indices ? put(wholes(indices, `indices of ${name}`)) : 0];
+        if (!calls.encode_attribute(text(name), ...kinds, ...sizes, ...places, WAYS.indexOf(way), amount))
             refuse("too many attributes");
     }
     for (const [name, value] of Object.entries(metadata)) {
         if (typeof value !== "number" && typeof value !== "string" && kindOf(value) !== "uint8")
             refuse(`the metadata ${name} are neither a number nor a string nor bytes`);
-        const bytes =
-            typeof value === "number"
-                ? new Uint8Array()
-                : typeof value === "string"
-                  ? new TextEncoder().encode(value)
-                  : value;
-        const type =
-            typeof value === "number" ? (Number.isSafeInteger(value) ? 1 : 2) : typeof value === "string" ? 3 : 4;
-        if (!calls.encode_metadata(text(name), type, typeof value === "number" ? value : 0, put(bytes), bytes.length))
+        const isNumber = typeof value === "number";
+        const bytes = typeof value === "object" ? value : new TextEncoder().encode(isNumber ? "" : value);
+        const type = isNumber ? (Number.isSafeInteger(value) ? 1 : 2) : typeof value === "string" ? 3 : 4;
+        if (!calls.encode_metadata(text(name), type, isNumber ? value : 0, put(bytes), bytes.length))
             refuse("too much metadata");
     }
     const { bits = 0, cell = 0, origin = [0, 0, 0], lossless = false, keepOrder = false, quick = false } = options;
     if (!Number.isInteger(bits) || ![cell, ...origin].every(Number.isFinite))
         refuse("bits is a whole number, cell and origin are finite numbers");
-    const status = calls.encode_run(
-        lossless ? 2 : cell > 0 ? 1 : 0,
-        bits,
-        cell,
-        ...origin,
-        Number(keepOrder),
-        Number(quick),
-    );
+    const way = lossless ? 2 : cell > 0 ? 1 : 0;
+    const status = calls.encode_run(way, bits, cell, ...origin, Number(keepOrder), Number(quick));
     if (wrong) throw wrong;
     options.signal?.throwIfAborted();
     if (status !== 0) {

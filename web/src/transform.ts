@@ -15,14 +15,8 @@ import {
     type ReaderContext,
     type WriterContext,
 } from "@gltf-transform/core";
-import {
-    EncodeError,
-    encodeWith,
-    loadEncoder,
-    type AttributeInput,
-    type EncodeOptions,
-    type MeshInput,
-} from "./encode";
+import { EncodeError, encodeWith, loadEncoder } from "./encode";
+import type { AttributeInput, EncodeOptions, MeshInput } from "./encode";
 import { errorLike, openDesk, type Shape } from "./index";
 import { here } from "./pool";
 import { CodedViews, EXTENSION, sizeOf, type Coded } from "./views";
@@ -103,9 +97,8 @@ export class EXTBSMCompression extends Extension {
                 streams.charge(sizeOf(made));
                 return made;
             });
-            bufferViews[index] = new Uint8Array(
-                streams.bytes(shape, views[coded.stream], coded, view.byteLength, index),
-            );
+            const bytes = streams.bytes(shape, views[coded.stream], coded, view.byteLength, index);
+            bufferViews[index] = new Uint8Array(bytes);
         });
         return this;
     }
@@ -130,15 +123,11 @@ export class EXTBSMCompression extends Extension {
 
     override prewrite(context: WriterContext): this {
         const { decoder, encoder, coded } = this;
-        if (!decoder || !encoder)
-            throw new Error(
-                `[${EXTENSION}] needs two dependencies, "bsm.decoder" and "bsm.encoder": await loadSceneEncoder()`,
-            );
+        const needed = '"bsm.decoder" and "bsm.encoder": await loadSceneEncoder()';
+        if (!decoder || !encoder) throw new Error(`[${EXTENSION}] needs two dependencies, ${needed}`);
         coded.clear();
-        for (const primitive of this.document
-            .getRoot()
-            .listMeshes()
-            .flatMap((mesh) => mesh.listPrimitives())) {
+        const meshes = this.document.getRoot().listMeshes();
+        for (const primitive of meshes.flatMap((mesh) => mesh.listPrimitives())) {
             try {
                 if (!coded.has(primitive))
                     coded.set(primitive, this.codePrimitive(primitive, encoder, decoder, context));
@@ -147,14 +136,11 @@ export class EXTBSMCompression extends Extension {
                 context.logger.warn(`[${EXTENSION}] a primitive stays as it is: ${error.message}`);
             }
         }
+        const isCoded = (parent: unknown): boolean =>
+            parent instanceof Root || (parent instanceof Primitive && coded.has(parent));
         for (const [primitive, { accessors }] of coded)
             for (const [name, accessor] of [...arraysOf(primitive), ["indices", primitive.getIndices()] as const])
-                if (
-                    accessor
-                        ?.listParents()
-                        .every((parent) => parent instanceof Root || (parent instanceof Primitive && coded.has(parent)))
-                )
-                    context.accessorIndexMap.set(accessor, accessors[name]);
+                if (accessor?.listParents().every(isCoded)) context.accessorIndexMap.set(accessor, accessors[name]);
         return this;
     }
 
@@ -172,25 +158,16 @@ export class EXTBSMCompression extends Extension {
         const declare = (name: string, accessor: GLTF.IAccessor): void => {
             accessors[name] = json.accessors!.push(accessor) - 1;
         };
+        const { FLOAT, UNSIGNED_INT } = Accessor.ComponentType;
         for (const [name, accessor] of arraysOf(primitive)) {
             const count = shape.positions.length / 3;
             const { componentType, normalized, type } = context.createAccessorDef(accessor);
             const bounds =
                 name === "POSITION" ? { min: shape.low.map(Math.fround), max: shape.high.map(Math.fround) } : {};
-            declare(name, {
-                type,
-                count,
-                ...bounds,
-                ...(isFloat(name, accessor)
-                    ? { componentType: Accessor.ComponentType.FLOAT }
-                    : { componentType, normalized }),
-            });
+            const kind = isFloat(name, accessor) ? { componentType: FLOAT } : { componentType, normalized };
+            declare(name, { type, count, ...bounds, ...kind });
         }
-        declare("indices", {
-            type: "SCALAR",
-            count: shape.index.length,
-            componentType: Accessor.ComponentType.UNSIGNED_INT,
-        });
+        declare("indices", { type: "SCALAR", count: shape.index.length, componentType: UNSIGNED_INT });
         const buffer = primitive.getAttribute("POSITION")!.getBuffer() ?? this.document.getRoot().listBuffers()[0];
         context.otherBufferViews.set(buffer, [...(context.otherBufferViews.get(buffer) ?? []), stream]);
         return { stream, accessors };
@@ -198,34 +175,25 @@ export class EXTBSMCompression extends Extension {
 
     override write({ jsonDoc: { json }, otherBufferViewsIndexMap }: WriterContext): this {
         const views = json.bufferViews!;
+        const buffer = json.buffers!.length;
         let size = 0;
-        this.document
-            .getRoot()
-            .listMeshes()
-            .forEach((mesh, at) =>
-                mesh.listPrimitives().forEach((primitive, index) => {
-                    const coded = this.coded.get(primitive);
-                    if (!coded) return;
-                    const { indices, ...attributes } = coded.accessors;
-                    Object.assign(json.meshes![at].primitives[index], { attributes, indices });
-                    const stream = otherBufferViewsIndexMap.get(coded.stream)!;
-                    for (const [attribute, number] of Object.entries(coded.accessors)) {
-                        const accessor = json.accessors![number];
-                        if (accessor.bufferView !== undefined) continue; // a mesh's that stands in the scene twice
-                        const { componentType, count, type } = accessor;
-                        const byteLength =
-                            count * Accessor.getElementSize(type) * Accessor.getComponentSize(componentType);
-                        accessor.bufferView = views.length;
-                        views.push({
-                            buffer: json.buffers!.length,
-                            byteOffset: size,
-                            byteLength,
-                            extensions: { [EXTENSION]: { stream, attribute, componentType } },
-                        });
-                        size += Math.ceil(byteLength / 4) * 4;
-                    }
-                }),
-            );
+        for (const [at, mesh] of this.document.getRoot().listMeshes().entries())
+            for (const [index, primitive] of mesh.listPrimitives().entries()) {
+                const coded = this.coded.get(primitive);
+                if (!coded) continue;
+                const { indices, ...attributes } = coded.accessors;
+                Object.assign(json.meshes![at].primitives[index], { attributes, indices });
+                const stream = otherBufferViewsIndexMap.get(coded.stream)!;
+                for (const [attribute, number] of Object.entries(coded.accessors)) {
+                    const accessor = json.accessors![number];
+                    if (accessor.bufferView !== undefined) continue; // a mesh's that stands in the scene twice
+                    const { componentType, count, type } = accessor;
+                    const byteLength = count * Accessor.getElementSize(type) * Accessor.getComponentSize(componentType);
+                    const extensions = { [EXTENSION]: { stream, attribute, componentType } };
+                    accessor.bufferView = views.push({ buffer, byteOffset: size, byteLength, extensions }) - 1;
+                    size += Math.ceil(byteLength / 4) * 4;
+                }
+            }
         if (size > 0) json.buffers!.push({ byteLength: size, extensions: { [EXTENSION]: { fallback: true } } });
         return this;
     }
@@ -233,10 +201,8 @@ export class EXTBSMCompression extends Extension {
 
 /** What a primitive has of its vertices. */
 function arraysOf(primitive: Primitive): [string, Accessor][] {
-    return primitive
-        .listSemantics()
-        .sort()
-        .map((name) => [name, primitive.getAttribute(name)!]);
+    const names = primitive.listSemantics().sort();
+    return names.map((name) => [name, primitive.getAttribute(name)!]);
 }
 
 /** Names whose arrays decoders return in single precision. */
@@ -251,11 +217,17 @@ function isFloat(name: string, accessor: Accessor): boolean {
     );
 }
 
-/** Qualities, as `bsm glb` has them. */
+/** Qualities, as `bsm glb` has them, and meanings. */
 const QUALITIES: Record<string, AttributeInput["quality"]> = {
     NORMAL: { bits: 10 },
     TANGENT: { bits: 9 },
     COLOR_0: { bits: 8 },
+};
+const SEMANTICS: Record<string, AttributeInput["semantic"]> = {
+    NORMAL: "normal",
+    COLOR_0: "color",
+    TEXCOORD_0: "texcoord",
+    TEXCOORD_1: "texcoord",
 };
 
 /** A primitive as a mesh; why it is none, is an `EncodeError`. */
@@ -273,14 +245,7 @@ function meshOf(primitive: Primitive): MeshInput {
             name,
             values: isFloat(name, accessor) ? floatsOf(accessor) : (accessor.getArray() as AttributeInput["values"]),
             components: accessor.getElementSize(),
-            semantic:
-                name === "NORMAL"
-                    ? "normal"
-                    : name === "COLOR_0"
-                      ? "color"
-                      : /^TEXCOORD_[01]$/.test(name)
-                        ? "texcoord"
-                        : "generic",
+            semantic: SEMANTICS[name] ?? "generic",
             quality: isFloat(name, accessor) ? QUALITIES[name] : "exact",
         }));
     return {

@@ -80,10 +80,11 @@ export class CodedViews<T> {
                 take(picture, decoding);
                 if (picture.type === "frame" && shape) resolve(shape);
             };
-            const onEnd = (): void => (
-                end(),
-                shape ? resolve(shape) : fail(new Error(`${what} is a stream without a mesh`))
-            );
+            const onEnd = (): void => {
+                end();
+                if (shape) resolve(shape);
+                else fail(new Error(`${what} is a stream without a mesh`));
+            };
             const decoding = pool.open({ onPicture, onEnd, onError }, { drawing: "whole" });
             this.decodings.add(decoding);
             this.charge(0);
@@ -114,16 +115,11 @@ export function placeOf({ buffer, byteOffset = 0, byteLength }: BufferView): str
 }
 
 /** Bytes of the arrays in which a stream or a frame is drawn. */
-export function sizeOf({
-    index,
-    positions,
-    normals,
-    attributes,
-}: Record<"index" | "positions" | "normals", ArrayBufferView> & Pick<Shape, "attributes">): number {
-    return [index, positions, normals, ...attributes.map(({ values }) => values)].reduce(
-        (sum, { byteLength }) => sum + byteLength,
-        0,
-    );
+export function sizeOf(
+    drawn: Record<"index" | "positions" | "normals", ArrayBufferView> & Pick<Shape, "attributes">,
+): number {
+    const arrays = [drawn.index, drawn.positions, drawn.normals, ...drawn.attributes.map(({ values }) => values)];
+    return arrays.reduce((sum, { byteLength }) => sum + byteLength, 0);
 }
 
 /** The bytes of a bufferView, of what is drawn of its stream; it says how many these are. */
@@ -139,10 +135,8 @@ function bytesOf(shape: Shape, { attribute, componentType }: Coded, byteLength: 
 
 /** The numbers that the extension calls so. */
 function valuesOf({ index, positions, normals, attributes }: Shape, name: string): ArrayLike<number> | undefined {
-    const own = new Map<string, ArrayLike<number>>([
-        ["indices", index],
-        ["POSITION", positions],
-        ["NORMAL", normals],
-    ]);
-    return own.get(name) ?? attributes.find((attribute) => attribute.name === (SETS[name] ?? name))?.values;
+    if (name === "indices") return index;
+    if (name === "POSITION") return positions;
+    if (name === "NORMAL") return normals;
+    return attributes.find((attribute) => attribute.name === (SETS[name] ?? name))?.values;
 }
