@@ -1,5 +1,8 @@
 /** WebAssembly from an address. */
 
+/** What a caught error, or whatever was thrown, says. */
+export const messageOf = (error: unknown): string => (error instanceof Error ? error.message : `${error}`);
+
 /** What is said of an answer that is a page where something else was asked for. */
 export const PAGE = "the server sent an HTML page; is the address right?";
 
@@ -12,12 +15,10 @@ async function bytesAt(url: URL): Promise<ArrayBuffer | Uint8Array<ArrayBuffer>>
     const builtin = globalThis.process?.getBuiltinModule?.bind(globalThis.process);
     if (url.protocol === "file:" && builtin)
         return new Uint8Array(await builtin("node:fs/promises").readFile(builtin("node:url").fileURLToPath(url.href)));
-    const without = (error: Error): Promise<never> =>
-        Promise.reject(
-            url.protocol === "file:" && !globalThis.document
-                ? new Error("Node 20.16 or later is needed", { cause: error })
-                : error,
-        );
+    const isOld = url.protocol === "file:" && !globalThis.document;
+    const without = (error: Error): never => {
+        throw isOld ? new Error("Node 20.16 or later is needed", { cause: error }) : error;
+    };
     return (await answered(url).catch(without)).arrayBuffer();
 }
 

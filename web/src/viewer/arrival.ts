@@ -74,19 +74,12 @@ export class Arrival {
     report(geometry: BSMGeometry, missed: number): void {
         const { form, fed, length, first, complete } = this;
         const share = length ? Math.round((100 * fed) / length) : 0;
-        form.say(
-            "bytes",
-            `${counted(fed)} of ${counted(length)} bytes (${share} %)${this.whole ? "" : ", more to come"}`,
-        );
+        const more = this.whole ? "" : ", more to come";
+        form.say("bytes", `${counted(fed)} of ${counted(length)} bytes (${share} %)${more}`);
         form.say("status", statusOf(geometry, missed));
-        const moments = [
-            ["first faces", first],
-            ["complete", complete],
-        ] as const;
-        form.say(
-            "times",
-            moments.flatMap(([name, time]) => (time === undefined ? [] : [`${name} after ${spent(time)}`])).join("; "),
-        );
+        const after = (what: string, time?: number): string[] =>
+            time === undefined ? [] : [`${what} after ${spent(time)}`];
+        form.say("times", [...after("first faces", first), ...after("complete", complete)].join("; "));
         form.root.dataset.blocks = String(geometry.blocks);
     }
 }

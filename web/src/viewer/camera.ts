@@ -76,9 +76,8 @@ export class Camera extends PerspectiveCamera {
         this.position.setFromSpherical(begin);
         this.controls.update();
         const [width, height] = this.part;
-        const towards = matrix
-            .clone()
-            .premultiply(new Matrix4().makeRotationFromQuaternion(this.quaternion.clone().invert()));
+        const turn = new Matrix4().makeRotationFromQuaternion(this.quaternion.clone().invert());
+        const towards = turn.multiply(matrix);
         const pixel = (FILLED * Math.tan(this.fov / 2 / MathUtils.RAD2DEG)) / height;
         const distances = areas.map(() => 0.1);
         points((point) => {

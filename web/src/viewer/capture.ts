@@ -8,14 +8,8 @@ export function pictureOf(stage: Stage, labels: string[]): HTMLCanvasElement {
     const canvas = Object.assign(document.createElement("canvas"), { width, height });
     const { color, borderTopColor } = getComputedStyle(drawn.parentElement!); // of the background
     const pen = canvas.getContext("2d")!;
-    const back = pen.createRadialGradient(
-        width / 2,
-        0.42 * height,
-        0,
-        width / 2,
-        0.42 * height,
-        0.6 * Math.hypot(width, height),
-    );
+    const [x, y] = [width / 2, 0.42 * height];
+    const back = pen.createRadialGradient(x, y, 0, x, y, 0.6 * Math.hypot(width, height));
     back.addColorStop(0, color);
     back.addColorStop(0.85, borderTopColor);
     pen.fillStyle = back;
@@ -25,10 +19,10 @@ export function pictureOf(stage: Stage, labels: string[]): HTMLCanvasElement {
     [pen.fillStyle, pen.textAlign] = [getComputedStyle(drawn.closest(".bsm")!).color, "center"];
     pen.font = `600 ${15 * ratio}px system-ui, sans-serif`;
     if (seam > 0) pen.fillRect(seam - 1, 0, 2, height);
-    const sides = [
-        [0, seam],
-        [seam, width],
-    ];
-    sides.forEach(([from, to], side) => to > from && pen.fillText(labels[side], (from + to) / 2, height - 18 * ratio));
+    const places = [0, seam, width];
+    labels.forEach((label, side) => {
+        const [from, to] = [places[side], places[side + 1]];
+        if (to > from) pen.fillText(label, (from + to) / 2, height - 18 * ratio);
+    });
     return canvas;
 }

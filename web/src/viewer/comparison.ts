@@ -90,8 +90,9 @@ export class Comparison {
         await this.showMaterials(main);
         for (const [i, layer] of layers.entries()) {
             const off = layer.off && new Float32Array((await bytesOf(layer.off)).buffer);
-            const geometry =
-                i === main ? undefined : layer.pictures ? new BSMGeometry() : await wholeOf(pool, await bytesOf(layer));
+            const made = async (): Promise<BSMGeometry> =>
+                layer.pictures ? new BSMGeometry() : wholeOf(pool, await bytesOf(layer));
+            const geometry = i === main ? undefined : await made();
             for (const picture of layer.pictures ?? []) geometry?.accept(picture);
             if (!mine()) return;
             offs[i] = off;
@@ -128,11 +129,9 @@ export class Comparison {
 
     /** Compare a stream with its original, unless Python has measured them. */
     private async measure(mine: () => boolean): Promise<void> {
-        const {
-            content: { facts, main },
-            geometries: { 0: original, [main]: stream },
-            offs,
-        } = this;
+        const { geometries, offs } = this;
+        const { facts, main } = this.content;
+        const [original, stream] = [geometries[0], geometries[main]];
         if (main === 0 || facts.diagonal !== undefined || !original || !stream) return;
         const found = await distancesOf(stream, original, mine);
         if (!found) return;
@@ -219,21 +218,16 @@ export class Comparison {
         geometries.forEach((geometry, i) => {
             if (!geometry || (i === content.main && !this.shown)) return;
             const vertices = geometry.header?.vertices ?? 0; // of each frame
-            const off = offs[i]?.subarray(
-                ...(geometry.frames.length > 1 ? [geometry.shown * vertices, (geometry.shown + 1) * vertices] : []),
-            );
+            const first = geometry.frames.length > 1 ? geometry.shown * vertices : 0;
+            const off = geometry.frames.length > 1 ? offs[i]?.subarray(first, first + vertices) : offs[i];
             const colors = colorsOf(geometry, scheme, off, top, field);
-            stage.color(
-                i,
-                own ? geometry.color : colors && new BufferAttribute(colors, 3),
-                own && this.withMaterials.has(i),
-            );
+            const drawn = own ? geometry.color : colors && new BufferAttribute(colors, 3);
+            stage.color(i, drawn, own && this.withMaterials.has(i));
         });
-        form.part("scale").hidden = !LEGENDS[scheme] && !field;
-        form.say(
-            "legend",
-            `${LEGENDS[scheme] ?? scheme.slice(3)}${scheme === "error" && content.facts.apart !== undefined ? "'s surface" : ""}`,
-        );
+        const scale = form.part("scale");
+        scale.hidden = !LEGENDS[scheme] && !field;
+        const surface = scheme === "error" && content.facts.apart !== undefined ? "'s surface" : "";
+        form.say("legend", `${LEGENDS[scheme] ?? scheme.slice(3)}${surface}`);
         const unit = geometries[content.main]?.metadata.get("unit");
         const tick = (share: number): HTMLElement => {
             const far = `${Number((share * top).toPrecision(2))} ${typeof unit === "string" ? unit : ""}`;
@@ -243,9 +237,7 @@ export class Comparison {
             ? [field.low, (field.low + field.high) / 2, field.high].map((value) => `${Number(value.toPrecision(3))}`)
             : ["first", "last"];
         const ticks = scheme === "error" ? [0, 0.5, 1].map(tick) : words.map((text) => element("li", text));
-        form.part("scale")
-            .querySelector("ol")!
-            .replaceChildren(...ticks);
+        scale.querySelector("ol")!.replaceChildren(...ticks);
     }
 
     /** Show the chosen mesh, or the original on the left and the chosen mesh on the right. */

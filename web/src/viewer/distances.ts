@@ -64,10 +64,8 @@ class Tree {
         const [whole, count] = [new Box3().setFromArray(points), faces.length / 3];
         const size = whole.getSize(new Vector3()).clampScalar(Number.MIN_VALUE, Infinity);
         const along = Float64Array.from({ length: count }, (_, face) => {
-            const cell = this.at(face)
-                .getMidpoint(this.place)
-                .sub(whole.min)
-                .divide(size)
+            const share = this.at(face).getMidpoint(this.place).sub(whole.min).divide(size);
+            const cell = share
                 .multiplyScalar(CELLS)
                 .floor()
                 .clampScalar(0, CELLS - 1);
@@ -97,25 +95,18 @@ class Tree {
             const node = nodes.pop()!;
             const [left, leaf] = [2 * node + 1, node - (boxes.length - 1) / 2];
             if (boxes[node].distanceToPoint(point) >= best) continue;
+            const [near, far] = [left, left + 1].map((below) => boxes[below]?.distanceToPoint(point));
             if (leaf >= 0) order.subarray(LEAF * leaf, LEAF * (leaf + 1)).forEach(measure);
-            else
-                nodes.push(
-                    ...(boxes[left].distanceToPoint(point) < boxes[left + 1].distanceToPoint(point)
-                        ? [left + 1, left]
-                        : [left, left + 1]),
-                );
+            else nodes.push(...(near < far ? [left + 1, left] : [left, left + 1]));
         }
         return best;
     }
 
     private at(face: number): Triangle {
-        const {
-            triangle: { a, b, c },
-            points,
-            faces,
-        } = this;
+        const { triangle, points, faces } = this;
+        const { a, b, c } = triangle;
         [a, b, c].forEach((corner, i) => corner.fromArray(points, 3 * faces[3 * face + i]));
-        return this.triangle;
+        return triangle;
     }
 }
 
@@ -148,12 +139,8 @@ function* matched(now: Body, then: Body): Generator<void, ArrayLike<number> | un
 
 function* measured(stream: BSMGeometry, original: BSMGeometry): Generator<void, Distances> {
     const [{ length: count }, { length: before }, vertices] = [stream.frames, original.frames, stream.header!.vertices];
-    if (count !== before)
-        throw new Error(
-            count * before > 0
-                ? `It has ${count} frames, and its original has ${before}.`
-                : "One is a sequence, the other one is not.",
-        );
+    if (count !== before && count * before === 0) throw new Error("One is a sequence, the other one is not.");
+    if (count !== before) throw new Error(`It has ${count} frames, and its original has ${before}.`);
     const isOne = vertices * count <= MOST && stream.frames.every(({ shape }) => shape === stream.frames[0].shape);
     const off = new Float32Array(isOne ? vertices * Math.max(count, 1) : 0).fill(NaN);
     const [errors, point, other] = [[] as number[], new Vector3(), new Vector3()];
@@ -162,13 +149,9 @@ function* measured(stream: BSMGeometry, original: BSMGeometry): Generator<void, 
     for (let frame = 0; frame < Math.max(count, 1); frame++) {
         const last = [now?.faces, then?.faces];
         [now, then] = [bodyOf(stream, frame), bodyOf(original, frame)];
-        if (
-            ![now, then].every(
-                ({ faces }, i) =>
-                    last[i]?.length === faces.length && faces.every((vertex, k) => vertex === last[i]![k]),
-            )
-        )
-            same = yield* matched(now, then);
+        const isLast = ({ faces }: Body, i: number): boolean =>
+            last[i]?.length === faces.length && faces.every((vertex, k) => vertex === last[i]![k]);
+        if (![now, then].every(isLast)) same = yield* matched(now, then);
         const [tree, back] = same ? [] : [new Tree(then.points, then.faces), new Tree(now.points, now.faces)];
         let most = 0;
         for (const vertex of now.used) {

@@ -2,6 +2,7 @@
 import { Drawing, type Picture } from "../drawing";
 import { EncodeError, kindOf, type EncodeOptions } from "../encoding";
 import { firstsOf } from "../files/polygons";
+import { messageOf } from "../fetched";
 import type { Header } from "../header";
 import { Engine } from "../engine";
 import { Kernels, openDesk } from "../index";
@@ -28,48 +29,29 @@ function drawn(
 ): { pictures: Picture[]; moved: Transferable[] } {
     const [pictures, moved]: [Picture[], Transferable[]] = [[], []];
     const engine = new Engine(new Kernels(kernels), {}, false);
-    const drawing = new Drawing(
-        false,
-        {},
-        engine,
-        (picture, buffers = []) => (pictures.push(picture), moved.push(...buffers)),
-    );
+    const drawing = new Drawing(false, {}, engine, (picture, buffers = []) => {
+        pictures.push(picture);
+        moved.push(...buffers);
+    });
     const size = positions.length / Math.max(frames, 1);
     const [firsts, none] = [firstsOf(positions, size), new Int32Array(0)];
     drawing.accept({ type: "header", header: { vertices: new Set(firsts).size, faces: faces.length / 3 } as Header });
     drawing.accept({ type: "metadata", entries: new Map(Object.entries(metadata)) });
-    drawing.accept({
-        type: "connectivity",
-        faces: Int32Array.from(faces, (vertex) => firsts[vertex]),
-        vertices: size / 3,
-        loose: { vertices: none, positions: new Float64Array(0) },
-    });
+    const loose = { vertices: none, positions: new Float64Array(0) };
+    const corners = Int32Array.from(faces, (vertex) => firsts[vertex]);
+    drawing.accept({ type: "connectivity", faces: corners, vertices: size / 3, loose });
     for (const { name, values, components, domain = "vertex", semantic = "generic" } of attributes) {
         const [ofVertex, kind] = [domain === "vertex", kindOf(values) ?? "float32"];
-        drawing.accept({
-            type: "attribute",
-            name,
-            semantic,
-            components,
-            kind,
-            domain: ofVertex ? "corner" : domain,
-            values: Float64Array.from(values),
-            indices: ofVertex ? Int32Array.from(faces) : undefined,
-        });
+        const where = ofVertex ? { domain: "corner" as const, indices: Int32Array.from(faces) } : { domain };
+        const numbers = Float64Array.from(values);
+        drawing.accept({ type: "attribute", name, semantic, components, kind, values: numbers, ...where });
     }
-    for (let index = 0; index < frames; index++)
-        drawing.accept({
-            type: "frame",
-            index,
-            positions: Float64Array.from(positions.subarray(index * size, (index + 1) * size)),
-            attributes: [],
-        });
-    drawing.accept({
-        type: "end",
-        missing: none,
-        degraded: none,
-        positions: frames > 0 ? undefined : Float64Array.from(positions),
-    });
+    for (let index = 0; index < frames; index++) {
+        const own = Float64Array.from(positions.subarray(index * size, (index + 1) * size));
+        drawing.accept({ type: "frame", index, positions: own, attributes: [] });
+    }
+    const still = frames > 0 ? undefined : Float64Array.from(positions);
+    drawing.accept({ type: "end", missing: none, degraded: none, positions: still });
     engine.release();
     return { pictures, moved };
 }
@@ -101,63 +83,42 @@ async function work(
         const name = all.length > 2 ? own.replace(/[\W_]*\d*\.\w+$/, "") || "sequence" : own;
         const kind = { title: suffixOf(file).toUpperCase(), detail: isPair ? name : preset };
         used.add(file.name);
-        if (kind.title === "BSM")
-            return {
-                name,
-                less: false,
-                layers: [{ ...kind, size: file.size, bytes: new Uint8Array(await file.arrayBuffer()) }],
-            };
+        if (kind.title === "BSM") {
+            const bytes = new Uint8Array(await file.arrayBuffer());
+            return { name, less: false, layers: [{ ...kind, size: file.size, bytes }] };
+        }
         report({ stage: "reading", share: 0 });
         const { mesh, ...rest } = await (all.length > 2
             ? readFrames(all, undefined, (share) => report({ stage: "reading", share }), decoding)
             : readOne(file, files, decoding));
         const encode = (options: EncodeOptions, own = mesh): Promise<Uint8Array> =>
             encodeHere(own, { ...options, onProgress: (share) => report({ stage: "encoding", share }) });
-        const bytes =
-            isPair && file === all[0]
-                ? undefined
-                : await (isPair || preset === "lossless"
-                      ? exact(mesh, encode, isPair)
-                      : encode({ bits: parseInt(preset) }));
+        const isExact = isPair || preset === "lossless";
+        const encoded = (): Promise<Uint8Array> =>
+            isExact ? exact(mesh, encode, isPair) : encode({ bits: parseInt(preset) });
+        const bytes = isPair && file === all[0] ? undefined : await encoded();
         const { pictures, moved } = drawn(mesh, kernels);
         transfer.push(...moved);
         rest.used.forEach((each) => used.add(each));
         notes.push(...rest.notes.map((note) => (isPair ? `${name}: ${note}` : note)));
         const size = files.reduce((sum, each) => sum + (rest.used.includes(each.name) ? each.size : 0), 0);
+        if (isPair) return { name, less: rest.less, layers: [{ ...kind, size, bytes, pictures }] };
         const original = { title: "Original", detail: "", size, pictures };
-        return {
-            name,
-            less: rest.less,
-            layers: isPair
-                ? [{ ...kind, size, bytes, pictures }]
-                : [original, { title: "BSM", detail: preset, size: bytes!.length, bytes }],
-        };
+        const stream = { title: "BSM", detail: preset, size: bytes!.length, bytes };
+        return { name, less: rest.less, layers: [original, stream] };
     };
     const shown = [];
     for (const file of all.slice(0, isPair ? 2 : 1)) shown.push(await layerOf(file));
     const layers = shown.flatMap((each) => each.layers);
     if (isPair) layers[0].title = "Original";
     const seconds = isPair ? undefined : (performance.now() - begin) / 1000;
-    const [less, unused] = [
-        shown.some((each) => each.less),
-        files.filter(({ name }) => !used.has(name)).map(({ name }) => name),
-    ];
-    report(
-        {
-            content: {
-                name: shown.at(-1)!.name,
-                main: layers.length - 1,
-                layers,
-                facts: { notes, less, seconds, used: [...used], unused },
-            },
-        },
-        transfer,
-    );
+    const less = shown.some((each) => each.less);
+    const unused = files.flatMap((file) => (used.has(file.name) ? [] : file.name));
+    const facts = { notes, less, seconds, used: [...used], unused };
+    report({ content: { name: shown.at(-1)!.name, main: layers.length - 1, layers, facts } }, transfer);
 }
 
 self.onmessage = ({ data }: MessageEvent<Job>): void => {
     const report = (report: Status, moved: Transferable[] = []): void => self.postMessage(report, { transfer: moved });
-    work(data, report).catch((error: unknown) =>
-        report({ error: error instanceof Error ? error.message : String(error) }),
-    );
+    work(data, report).catch((error: unknown) => report({ error: messageOf(error) }));
 };

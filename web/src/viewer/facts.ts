@@ -20,6 +20,9 @@ export interface Layer extends Inlined {
     pictures?: Picture[];
 }
 
+type Figure = "max_error" | "mean_error" | "range" | "max_angle_deg" | "mean_angle_deg";
+type AttributeErrors = Partial<Record<Figure, number | null>>;
+
 /** What is shown, as `bsm.viewer.page` lists it; `main` is the stream that arrives, the others are there at once. */
 export interface Content {
     name: string;
@@ -43,12 +46,7 @@ export interface Content {
         errors?: number[];
         angle?: number;
         /** Errors of attributes by name; null: one is missing. */
-        attributes?: Record<
-            string,
-            Partial<
-                Record<"max_error" | "mean_error" | "range" | "max_angle_deg" | "mean_angle_deg", number | null>
-            > | null
-        >;
+        attributes?: Record<string, AttributeErrors | null>;
         seconds?: number;
         diagonal?: number;
         draco?: { bytes: number; bits: number } | null;
@@ -114,17 +112,14 @@ function verdictOf(
     { look, farthest, diagonal = 1, unshown }: Content["facts"],
     unit: unknown,
 ): [words: string, tone: Tone] {
-    if (look !== undefined)
-        return look <= 1
-            ? [unshown ? "The rest looks the same" : "Looks the same", "good"]
-            : look <= CLOSE
-              ? ["Close: differences show side by side", "fair"]
-              : ["A preview: differences show at a glance", "poor"];
+    if (look !== undefined) {
+        if (look <= 1) return [unshown ? "The rest looks the same" : "Looks the same", "good"];
+        if (look <= CLOSE) return ["Close: differences show side by side", "fair"];
+        return ["A preview: differences show at a glance", "poor"];
+    }
     if (!farthest) return farthest === 0 ? ["No difference was measured", "good"] : ["", ""];
-    const far =
-        typeof unit === "string"
-            ? `${Number((farthest * diagonal).toPrecision(2))}\u00a0${unit}`
-            : `${percent(farthest)} of the diagonal`;
+    const length = Number((farthest * diagonal).toPrecision(2));
+    const far = typeof unit === "string" ? `${length}\u00a0${unit}` : `${percent(farthest)} of the diagonal`;
     return farthest <= PIXEL ? [`Close: differences up to ${far}`, "good"] : [`Differences up to ${far}`, "poor"];
 }
 
@@ -163,28 +158,22 @@ export function factsOf(
         ...filesOf("Files not used", unused),
         ...notes.map((note): Row => ["Note", note]),
     ];
-    if (look !== undefined)
-        rows.push([
-            "Look distance",
-            look.toFixed(2),
-            (promised.look ? `promised ${promised.look}; ` : "") +
-                (drawn ? `worst of ${drawn} frames drawn; ` : "") +
-                "at 1, both look the same",
-        ]);
-    if (farthest !== undefined)
-        rows.push([
-            apart === undefined ? "Largest vertex error" : "Largest surface distance",
-            percent(farthest),
-            `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`,
-        ]);
+    if (look !== undefined) {
+        const target = promised.look ? `promised ${promised.look}; ` : "";
+        const worst = drawn ? `worst of ${drawn} frames drawn; ` : "";
+        rows.push(["Look distance", look.toFixed(2), `${target}${worst}at 1, both look the same`]);
+    }
+    if (farthest !== undefined) {
+        const bound = promised.farthest ? `; promised ${percent(promised.farthest)}` : "";
+        const what = apart === undefined ? "Largest vertex error" : "Largest surface distance";
+        rows.push([what, percent(farthest), `of the diagonal${bound}`]);
+    }
     if (apart !== undefined) rows.push(["Mean surface distance", percent(apart), "the faces differ"]);
     if (angle !== undefined) rows.push(["Mean normal error", `${angle.toFixed(2)}°`]);
-    if (draco)
-        rows.push([
-            "Draco at the same look",
-            sized(draco.bytes),
-            `${draco.bits} bits, ${times(draco.bytes / size)} times as much`,
-        ]);
+    if (draco) {
+        const more = `${draco.bits} bits, ${times(draco.bytes / size)} times as much`;
+        rows.push(["Draco at the same look", sized(draco.bytes), more]);
+    }
     if (seconds !== undefined) rows.push(["Encoded in", spent(SECOND * seconds)]);
     if (took !== undefined) rows.push(["Decoded and drawn in", spent(took)]);
     if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
@@ -192,11 +181,10 @@ export function factsOf(
         rows.push(["Original", `${counted(before[0])} vertices`, `${counted(before[1])} triangles`]);
     for (const [name, errors] of Object.entries(facts.attributes ?? {})) {
         const { max_angle_deg: turned, mean_angle_deg: mean = 0, max_error: most = 0, range = 0 } = errors ?? {};
-        const far: [string, string] =
-            turned != null
-                ? [`up to ${short(turned)}°`, `${short(mean!)}° on average`]
-                : [`up to ${short(most!)}`, `of ${short(range!)}`];
-        rows.push(errors ? [`Error of ${name}`, ...far] : [`Error of ${name}`, "missing"]);
+        const label = `Error of ${name}`;
+        if (!errors) rows.push([label, "missing"]);
+        else if (turned == null) rows.push([label, `up to ${short(most!)}`, `of ${short(range!)}`]);
+        else rows.push([label, `up to ${short(turned)}°`, `${short(mean!)}° on average`]);
     }
     const others = carried.filter(({ name }) => !facts.attributes?.[name]);
     if (others.length > 0) rows.push(["Attributes", others.map(({ name }) => name).join(", ")]);

@@ -27,11 +27,8 @@ export function studio(): { texture: DataTexture; probe: LightProbe } {
     const data = new Uint16Array(4 * WIDE * TALL);
     const [from, probe, basis] = [new Vector3(), new LightProbe(), new Array<number>(9)];
     for (let i = 0; i < WIDE * TALL; i++) {
-        from.setFromSphericalCoords(
-            1,
-            Math.PI * (1 - (Math.floor(i / WIDE) + 0.5) / TALL),
-            (2 * Math.PI * ((i % WIDE) + 0.5)) / WIDE,
-        );
+        const [row, column] = [Math.floor(i / WIDE), i % WIDE];
+        from.setFromSphericalCoords(1, Math.PI * (1 - (row + 0.5) / TALL), (2 * Math.PI * (column + 0.5)) / WIDE);
         const even = HORIZON + (from.y > 0 ? SKY - HORIZON : HORIZON - FLOOR) * from.y;
         const light = BOXES.reduce(
             (sum, [x, y, z, bright, narrow]) =>
@@ -76,19 +73,14 @@ export function shadowOf(
             [a, b, c].forEach((corner, k) =>
                 corner.fromBufferAttribute(place, index.getX(at + k)).applyMatrix4(matrix),
             );
-            const parts =
-                Math.min(
-                    Math.ceil((Math.max(a.distanceTo(b), b.distanceTo(c), c.distanceTo(a)) / GROUND) * SIDE),
-                    SIDE,
-                ) || 1;
+            const longest = Math.max(a.distanceTo(b), b.distanceTo(c), c.distanceTo(a));
+            const parts = Math.min(Math.ceil((longest / GROUND) * SIDE), SIDE) || 1;
             for (let i = 0; i <= parts; i++) {
                 for (let j = 0; i + j <= parts; j++) {
                     const [u, v] = [i / parts, j / parts];
-                    const [x, y, z] = [
-                        a.x + u * (b.x - a.x) + v * (c.x - a.x),
-                        a.y + u * (b.y - a.y) + v * (c.y - a.y),
-                        a.z + u * (b.z - a.z) + v * (c.z - a.z),
-                    ];
+                    const x = a.x + u * (b.x - a.x) + v * (c.x - a.x);
+                    const y = a.y + u * (b.y - a.y) + v * (c.y - a.y);
+                    const z = a.z + u * (b.z - a.z) + v * (c.z - a.z);
                     const cell = SIDE * Math.floor((0.5 - z / GROUND) * SIDE) + Math.floor((0.5 + x / GROUND) * SIDE);
                     const value = DARKEST * Math.exp(FADE * (ground - y));
                     if (dark[cell] < value) dark[cell] = value;
@@ -97,10 +89,8 @@ export function shadowOf(
         }
     }
     for (const stride of [1, SIDE, 1, SIDE, 1, SIDE]) {
-        dark = dark.map(
-            (_, i) =>
-                (dark[i - 2 * stride] + dark[i - stride] + dark[i] + dark[i + stride] + dark[i + 2 * stride]) / 5 || 0,
-        );
+        const five = [-2, -1, 0, 1, 2].map((step) => step * stride);
+        dark = dark.map((_, i) => five.reduce((sum, step) => sum + dark[i + step], 0) / 5 || 0);
     }
     const pixels = texture.image.data as Uint8Array;
     dark.forEach((value, i) => (pixels[4 * i + 1] = 255 * value));

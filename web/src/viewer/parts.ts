@@ -23,21 +23,15 @@ export function listParts(
             for (const row of rows) row.box.checked = isAlone || row.box === box;
             show();
         };
-        const label = element(
-            "label",
-            "",
-            box,
-            new Text(nameOf(metadata, kind, number)),
-            element("small", `${counted(count)} triangles`),
-        );
+        const size = element("small", `${counted(count)} triangles`);
+        const label = element("label", "", box, new Text(nameOf(metadata, kind, number)), size);
         return { number, box, line: element("li", "", label, only) };
     });
     const show = (): void => {
         const hidden = new Set(rows.flatMap(({ box, number }) => (box.checked ? [] : number)));
         hide((piece) => hidden.has(piece[kind]));
     };
-    form.part("parts").hidden = rows.length < 2;
-    form.part("parts")
-        .querySelector("ul")!
-        .replaceChildren(...rows.map(({ line }) => line));
+    const part = form.part("parts");
+    part.hidden = rows.length < 2;
+    part.querySelector("ul")!.replaceChildren(...rows.map(({ line }) => line));
 }

@@ -13,17 +13,10 @@ export class SequenceBar {
 
     constructor(private readonly form: Form) {
         this.frame = form.control("frame");
-        form.on(
-            "play",
-            "click",
-            () => this.sequence && (this.sequence.playing ? this.sequence.pause() : this.sequence.play()),
-        );
+        form.on("play", "click", () => (this.sequence?.playing ? this.sequence.pause() : this.sequence?.play()));
         form.on("frame", "input", ({ value }) => this.sequence?.seek(Number(value)));
-        for (const [name, step] of [
-            ["earlier", -1],
-            ["later", 1],
-        ] as const)
-            form.on(name, "click", () => this.go(step));
+        form.on("earlier", "click", () => this.go(-1));
+        form.on("later", "click", () => this.go(1));
         form.on("loop", "change", ({ checked }) => this.sequence && (this.sequence.loop = checked));
     }
 
@@ -37,11 +30,9 @@ export class SequenceBar {
     plot({ errors = [], farthest }: Content["facts"]): void {
         this.errors = errors;
         const points = errors.map((error, i) => `L${i / (errors.length - 1)},${1 - error / (farthest || 1)}`);
-        this.form.part("errors").toggleAttribute("hidden", points.length < 2);
-        this.form
-            .part("errors")
-            .querySelector("path")!
-            .setAttribute("d", `M0,1${points.join("")}L1,1z`);
+        const plot = this.form.part("errors");
+        plot.toggleAttribute("hidden", points.length < 2);
+        plot.querySelector("path")!.setAttribute("d", `M0,1${points.join("")}L1,1z`);
     }
 
     /** Play the frames of a geometry, unless the reader prefers reduced motion. */

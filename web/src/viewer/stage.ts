@@ -24,6 +24,7 @@ import { freeAreas } from "./room";
 
 const CLAY = 0xcdc6ba;
 const WHITE = 0xffffff;
+const WIRES = { wireframe: true, color: 0x101418, transparent: true, opacity: 0.35 };
 const THUMB = 44; // pixels of the handle of the wipe
 const [QUIET, SMOOTH] = [400, 2]; // milliseconds, and by how much pixels are finer then
 const [AIMED, BOUNDED] = [50_000, 5_000_000]; // points that the camera makes room for, and that boxes hold
@@ -88,12 +89,7 @@ export class Stage {
         new PlaneGeometry(GROUND, GROUND),
         new MeshBasicMaterial({ color: 0, transparent: true, depthWrite: false, toneMapped: false }),
     );
-    private readonly wires = new MeshBasicMaterial({
-        wireframe: true,
-        color: 0x101418,
-        transparent: true,
-        opacity: 0.35,
-    });
+    private readonly wires = new MeshBasicMaterial(WIRES);
     /** What turns the axis that a mesh calls up to the top. */
     private readonly turned = new Group();
     private readonly drawn = [new Figure(), new Figure(), new Figure()];
@@ -132,10 +128,8 @@ export class Stage {
     show(index: number, ...geometries: BufferGeometry[]): void {
         const shown = this.drawn[index];
         shown.put(geometries);
-        this.whiten(
-            shown.clay,
-            geometries.some((geometry) => geometry.hasAttribute("color")),
-        );
+        const isColored = geometries.some((geometry) => geometry.hasAttribute("color"));
+        this.whiten(shown.clay, isColored);
         this.shade(this.shading);
     }
 
@@ -168,13 +162,11 @@ export class Stage {
         over(() => (depth = Math.min(depth, point.applyMatrix4(turned.matrixWorld).y)), BOUNDED);
         [this.depth, this.ground.position.y] = [depth, depth];
         const [matrix, front] = [turned.matrixWorld.clone(), frontOf(normals).applyEuler(turned.rotation)];
-        this.aim = () =>
-            camera.aim(
-                (act) => over(act, AIMED),
-                matrix,
-                front,
-                freeAreas(this.canvas.closest<HTMLElement>(".bsm")!, this.mode === "split" ? 2 : 1),
-            );
+        const root = this.canvas.closest<HTMLElement>(".bsm")!;
+        this.aim = () => {
+            const areas = freeAreas(root, this.mode === "split" ? 2 : 1);
+            camera.aim((act) => over(act, AIMED), matrix, front, areas);
+        };
         if (!camera.touched) this.aim();
     }
 
@@ -187,12 +179,8 @@ export class Stage {
     shadow(...geometries: BufferGeometry[]): void {
         const { ground, turned } = this;
         if (this.depth === Infinity) return;
-        ground.material.alphaMap = shadowOf(
-            geometries,
-            turned.matrixWorld,
-            ground.position.y,
-            (ground.material.alphaMap as DataTexture | null) ?? undefined,
-        );
+        const before = (ground.material.alphaMap as DataTexture | null) ?? undefined;
+        ground.material.alphaMap = shadowOf(geometries, turned.matrixWorld, ground.position.y, before);
         ground.material.needsUpdate ||= !ground.visible;
         ground.visible = true;
         this.redraw();
@@ -241,9 +229,9 @@ export class Stage {
     /** Color the drawn vertices of a mesh; or none of them; or draw the materials that it has. */
     color(index: number, colors?: BufferAttribute, withOwn = false): void {
         const { meshes, clay, own } = this.drawn[index];
+        const material = withOwn && own.length > 0 ? (own.length > 1 ? own : own[0]) : clay;
         for (const mesh of meshes) {
-            mesh.material =
-                mesh.geometry.userData.material ?? (withOwn && own.length > 0 ? (own.length > 1 ? own : own[0]) : clay);
+            mesh.material = mesh.geometry.userData.material ?? material;
             if (colors) mesh.geometry.setAttribute("color", colors);
         }
         this.whiten(clay, colors !== undefined);
@@ -301,12 +289,10 @@ export class Stage {
         renderer.setViewport(0, 0, width, height);
         renderer.clear();
         if (this.mode === "one") return this.render(sides[1]);
-        const { seam } = this;
+        const places = [0, this.seam, width];
         renderer.setScissorTest(true);
-        for (const [side, from, to] of [
-            [0, 0, seam],
-            [1, seam, width],
-        ]) {
+        for (const side of [0, 1]) {
+            const [from, to] = [places[side], places[side + 1]];
             renderer.setScissor(from, 0, to - from, height);
             if (this.mode === "split") renderer.setViewport(from, 0, to - from, height);
             this.render(sides[side]);

@@ -3,6 +3,7 @@
  * a bound.
  */
 import { Vector3 } from "three";
+import { messageOf } from "../fetched";
 import { BSMGeometry } from "../geometry";
 import { materialsOf } from "../materials";
 import type { Pool } from "../pool";
@@ -46,9 +47,8 @@ class Tile {
         readonly url: string,
         { cell, origin }: Manifest,
     ) {
-        const [low, high] = [entry.low, entry.high].map(
-            (place) => new Vector3(...place.map((at, d) => at * cell + origin[d])),
-        );
+        const placeOf = (place: Triple): Vector3 => new Vector3(...place.map((at, d) => at * cell + origin[d]));
+        const [low, high] = [placeOf(entry.low), placeOf(entry.high)];
         this.center = low.clone().add(high).divideScalar(2);
         this.radius = low.distanceTo(high) / 2;
     }
@@ -62,9 +62,8 @@ class Tile {
 
     /** The error in pixels, seen from a place, if a unit at distance 1 has `pixels` pixels. */
     off(eye: Vector3, pixels: number): number {
-        return this.below.length === 0
-            ? 0
-            : (pixels * this.entry.error) / Math.max(eye.distanceTo(this.center) - this.radius, 1e-3 * this.radius);
+        const far = Math.max(eye.distanceTo(this.center) - this.radius, 1e-3 * this.radius);
+        return this.below.length === 0 ? 0 : (pixels * this.entry.error) / far;
     }
 }
 
@@ -73,10 +72,9 @@ async function ranged(url: string, offset: number, size: number, sum: string): P
     const response = await fetch(url, { headers: { Range: `bytes=${offset}-${offset + size - 1}` } });
     if (response.status !== 206) throw new Error(`${url}: ${response.status} ${response.statusText}`);
     const bytes = new Uint8Array(await response.arrayBuffer());
-    const found = Array.from(new Uint8Array(await crypto.subtle.digest("SHA-256", bytes)), (byte) =>
-        byte.toString(16).padStart(2, "0"),
-    );
-    if (found.join("") !== sum) throw new Error(`${url}: bytes from ${offset} on are not what was written`);
+    const digest = new Uint8Array(await crypto.subtle.digest("SHA-256", bytes));
+    const found = Array.from(digest, (byte) => byte.toString(16).padStart(2, "0")).join("");
+    if (found !== sum) throw new Error(`${url}: bytes from ${offset} on are not what was written`);
     return bytes;
 }
 
@@ -121,22 +119,15 @@ export class TileSet {
             for (const entry of JSON.parse(text) as TileEntry[]) nodes.set(entry.name, new Tile(entry, at, manifest));
         }
         for (const [name, tile] of nodes) nodes.get(name.slice(0, -1))?.below.push(tile);
-        return new TileSet(
-            manifest,
-            [...nodes].flatMap(([name, tile]) => (nodes.has(name.slice(0, -1)) ? [] : [tile])),
-            pool,
-            changed,
-        );
+        const tops = [...nodes].flatMap(([name, tile]) => (nodes.has(name.slice(0, -1)) ? [] : [tile]));
+        return new TileSet(manifest, tops, pool, changed);
     }
 
     get extent(): { center: number[]; diagonal: number } {
-        const center = this.tops
-            .reduce((sum, { center }) => sum.add(center), new Vector3())
-            .divideScalar(this.tops.length);
-        return {
-            center: center.toArray(),
-            diagonal: 2 * Math.max(...this.tops.map((top) => top.center.distanceTo(center) + top.radius)),
-        };
+        const sum = this.tops.reduce((sum, { center }) => sum.add(center), new Vector3());
+        const center = sum.divideScalar(this.tops.length);
+        const reaches = this.tops.map((top) => top.center.distanceTo(center) + top.radius);
+        return { center: center.toArray(), diagonal: 2 * Math.max(...reaches) };
     }
 
     /** Choose what is to be seen from a place: what is most pixels off gives way to what it is made of. */
@@ -145,10 +136,11 @@ export class TileSet {
         let faces = this.tops.reduce((sum, { entry }) => sum + entry.faces, 0);
         const order: Tile[] = [...this.tops];
         for (;;) {
-            const worst = [...chosen].reduce<[number, Tile?]>(
-                (most, tile) => (tile.off(eye, pixels) > most[0] ? [tile.off(eye, pixels), tile] : most),
-                [FINE, undefined],
-            )[1];
+            let [worst, most]: [Tile | undefined, number] = [undefined, FINE];
+            for (const tile of chosen) {
+                const off = tile.off(eye, pixels);
+                if (off > most) [worst, most] = [tile, off];
+            }
             if (!worst) break;
             const more = worst.below.reduce((sum, { entry }) => sum + entry.faces, -worst.entry.faces);
             if (faces + more > BUDGET) break;
@@ -220,7 +212,7 @@ export class TileSet {
             }
             tile.geometry = geometry;
         } catch (error) {
-            this.problem = `Tile ${name} cannot be shown; showing a coarser tile: ${error instanceof Error ? error.message : error}`;
+            this.problem = `Tile ${name} cannot be shown; showing a coarser tile: ${messageOf(error)}`;
         }
     }
 }

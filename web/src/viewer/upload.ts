@@ -1,4 +1,5 @@
 /** Show a file that is opened or dropped on the page, or compare two of them: its server or a thread encodes meshes. */
+import { messageOf } from "../fetched";
 import type { Content } from "./facts";
 import type { Form } from "./form";
 import { bytesOf, served } from "./inlined";
@@ -17,18 +18,11 @@ export const bytesIn = async (file: File): Promise<Uint8Array> => new Uint8Array
 /** A file, or one beside its original, as the streams that they are. */
 export function contentOf(files: File[], streams: Uint8Array[], facts: Content["facts"]): Content {
     const main = files.length - 1;
-    const title = (name: string, i: number): string => (i < main ? "Original" : /[^.]*$/.exec(name)![0].toUpperCase());
-    return {
-        name: files[main].name,
-        main,
-        facts,
-        layers: files.map(({ name, size }, i) => ({
-            title: title(name, i),
-            detail: main > 0 ? name : "",
-            size,
-            bytes: streams[i],
-        })),
-    };
+    const layers = files.map(({ name, size }, i) => {
+        const title = i < main ? "Original" : /[^.]*$/.exec(name)![0].toUpperCase();
+        return { title, detail: main > 0 ? name : "", size, bytes: streams[i] };
+    });
+    return { name: files[main].name, main, facts, layers };
 }
 
 const paths = new WeakMap<File, string>();
@@ -46,12 +40,9 @@ async function filesIn(entries: FileSystemEntry[]): Promise<File[]> {
             return [file];
         }
         const reader = (entry as FileSystemDirectoryEntry).createReader();
+        const next = (): Promise<FileSystemEntry[]> => new Promise((keep, fail) => reader.readEntries(keep, fail));
         const inside: FileSystemEntry[] = [];
-        for (
-            let some;
-            (some = await new Promise<FileSystemEntry[]>((keep, fail) => reader.readEntries(keep, fail))).length > 0;
-        )
-            inside.push(...some);
+        for (let some; (some = await next()).length > 0;) inside.push(...some);
         return filesIn(inside);
     });
     return (await Promise.all(found)).flat();
@@ -77,18 +68,16 @@ export class Upload {
             event.preventDefault();
             drop.hidden = false;
         });
-        root.addEventListener(
-            "dragleave",
-            (event) => (drop.hidden = !event.relatedTarget || !root.contains(event.relatedTarget as Node)),
-        );
+        root.addEventListener("dragleave", ({ relatedTarget }) => {
+            drop.hidden = !root.contains(relatedTarget as Node | null);
+        });
         root.addEventListener("drop", (event) => {
             event.preventDefault();
             drop.hidden = true;
             const entries = [...(event.dataTransfer?.items ?? [])].flatMap((item) => item.webkitGetAsEntry() ?? []);
             const given = [...(event.dataTransfer?.files ?? [])];
-            void (entries.some(({ isDirectory }) => isDirectory) ? filesIn(entries) : Promise.resolve(given)).then(
-                (files) => (files.length > 0 ? this.take(files) : undefined),
-            );
+            const all = entries.some(({ isDirectory }) => isDirectory) ? filesIn(entries) : Promise.resolve(given);
+            void all.then((files) => (files.length > 0 ? this.take(files) : undefined));
         });
     }
 
@@ -113,8 +102,7 @@ export class Upload {
             const bytes = await bytesOf(content.layers[content.main]);
             if (!signal.aborted) this.show(content, bytes);
         } catch (error) {
-            if (!signal.aborted)
-                form.say("problem", `${names} cannot be shown. ${error instanceof Error ? error.message : error}`);
+            if (!signal.aborted) form.say("problem", `${names} cannot be shown. ${messageOf(error)}`);
         } finally {
             if (this.working.signal === signal) {
                 form.part("work").hidden = true;
@@ -125,11 +113,9 @@ export class Upload {
 
     private encoded(files: File[], signal: AbortSignal): Promise<Content> {
         const { form } = this;
-        if (!this.encode)
-            throw new Error(
-                `This page opens only .bsm files. To view this mesh, run: bsm view ${files[1]?.name ?? files[0].name}` +
-                    (files[1] ? ` --original ${files[0].name}` : ""),
-            );
+        const [first, second] = files.map(({ name }) => name);
+        const command = second ? `bsm view ${second} --original ${first}` : `bsm view ${first}`;
+        if (!this.encode) throw new Error(`This page opens only .bsm files. To view this mesh, run: ${command}`);
         [form.part("invite").hidden, form.part("work").hidden] = [true, false];
         const bar = form.root.querySelector("progress")!;
         const report = (stage: string, share: number): void => {

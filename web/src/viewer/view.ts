@@ -11,6 +11,7 @@
  */
 import type { BufferAttribute } from "three";
 import { errorLike, type Header, type EventOf } from "../index";
+import { messageOf } from "../fetched";
 import { BSMGeometry } from "../geometry";
 import { turnOf } from "../materials";
 import type { Pool, StreamDecoding } from "../pool";
@@ -30,6 +31,8 @@ import template from "./view.html";
 const RULER = 120; // pixels of the longest bar
 const LOST = "The graphics card has dropped the picture (WebGL context lost). Load the page again.";
 const NARROW = 480; // pixels of a page that has no room for it
+
+const stemOf = (name: string): string => name.replace(/\.\w+$/, "");
 
 /** Middle and diagonal of the box that a mesh fills, about, in its own unit. */
 function extentOf(header?: Header): [center: number[], diagonal: number] {
@@ -80,7 +83,7 @@ export class View {
         try {
             this.stage = new Stage(root.querySelector("canvas")!);
         } catch (error) {
-            this.fail(`WebGL is not available. ${error instanceof Error ? error.message : error}`);
+            this.fail(`WebGL is not available. ${messageOf(error)}`);
             throw error;
         }
         this.arrival = new Arrival(this.form);
@@ -127,11 +130,8 @@ export class View {
         streams.selectedIndex = index;
         form.part("name").hidden = index >= 0 && streams.length > 1;
         form.say("name", content.name);
-        form.say(
-            "embed",
-            `<script type="module">import "bsm-decoder/player";</script>\n` +
-                `<bsm-player src="${encodeURI(content.name.replace(/\.\w+$/, ""))}.bsm" autoplay loop></bsm-player>`,
-        );
+        const player = `<bsm-player src="${encodeURI(stemOf(content.name))}.bsm" autoplay loop></bsm-player>`;
+        form.say("embed", `<script type="module">import "bsm-decoder/player";</script>\n${player}`);
         form.part("invite").hidden = true;
         form.part("arrival").hidden = form.part("colors").hidden = content.tiles !== undefined;
         form.control("keep").hidden = content.facts.seconds === undefined; // there is a file of it already
@@ -182,20 +182,14 @@ export class View {
         form.on("again", "click", () => this.restart());
         form.on("embed", "click", () => void navigator.clipboard?.writeText(form.part("embed").textContent!));
         form.on("theme", "click", () => {
-            const isDark = root.dataset.theme
-                ? root.dataset.theme === "dark"
-                : matchMedia("(prefers-color-scheme: dark)").matches;
-            root.dataset.theme = isDark ? "light" : "dark";
+            const system = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+            root.dataset.theme = (root.dataset.theme ?? system) === "dark" ? "light" : "dark";
         });
         for (const part of ["panel", "keys"]) form.on(part, "click", () => form.unfold(part));
-        form.on(
-            "full",
-            "click",
-            () => void (document.fullscreenElement ? document.exitFullscreen() : root.requestFullscreen()),
-        );
-        form.on("picture", "click", () =>
-            pictureOf(stage, meshes.captions).toBlob((blob) => blob && this.save(blob, "png")),
-        );
+        const full = (): unknown => (document.fullscreenElement ? document.exitFullscreen() : root.requestFullscreen());
+        form.on("full", "click", full);
+        const picture = (): HTMLCanvasElement => pictureOf(stage, meshes.captions);
+        form.on("picture", "click", () => picture().toBlob((blob) => blob && this.save(blob, "png")));
         form.on("keep", "click", () => this.save(new Blob([this.arrival.bytes as BlobPart]), "bsm"));
         root.querySelector("form")!.addEventListener("submit", (event) => event.preventDefault());
         // Most lost contexts come back at once: only one that stays away is worth a sentence.
@@ -213,7 +207,7 @@ export class View {
     }
 
     private save(blob: Blob, suffix: string): void {
-        const download = `${this.content.name.replace(/\.\w+$/, "") || "mesh"}.${suffix}`;
+        const download = `${stemOf(this.content.name) || "mesh"}.${suffix}`;
         const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download });
         link.click();
         setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
@@ -222,10 +216,7 @@ export class View {
     /** Look for the tiles that are to be seen, when the camera has moved or some have come. */
     private walk(tiles: TileSet): void {
         const { form, root, stage } = this;
-        const {
-            eye,
-            camera: { pixels },
-        } = stage;
+        const [eye, { pixels }] = [stage.eye, stage.camera];
         const looked = [...eye, pixels].join();
         if (looked === this.looked) return;
         const first = this.looked === undefined;
@@ -239,11 +230,9 @@ export class View {
         const { shards, levels } = tiles.manifest;
         form.say("figures", `${sized(shards.reduce((sum, { size }) => sum + size, 0))} in ${levels.length} levels`);
         form.say("claim", `${sized(tiles.got)} fetched for this view`);
+        const fetched: Row = ["Fetched", `${counted(tiles.there)} tiles`];
         const tilesShown = `${counted(faces)} triangles in ${shown.length} tile${shown.length === 1 ? "" : "s"}`;
-        this.listRows([
-            ["Shown", tilesShown],
-            ["Fetched", `${counted(tiles.there)} tiles`],
-        ]);
+        this.listRows([["Shown", tilesShown], fetched]);
         form.say("problem", tiles.problem);
         root.dataset.tiles = String(shown.length);
         root.dataset.faces = String(faces);
@@ -271,10 +260,7 @@ export class View {
         meshes.begin(geometry);
         this.sequence.open(this.content.facts);
         this.arrival.restart();
-        this.losses = [];
-        this.missed = 0;
-        this.fitted = 1;
-        this.over = false;
+        [this.losses, this.missed, this.fitted, this.over] = [[], 0, 1, false];
         this.form.say("problem", "");
         root.dataset.state = "loading";
         this.decoding = this.pool.open(
@@ -317,10 +303,7 @@ export class View {
     }
 
     private lose(loss: EventOf<"loss">): void {
-        if (this.content.live && loss.frames?.first === 0) {
-            this.missed = loss.frames.count;
-            return;
-        }
+        if (this.content.live && loss.frames?.first === 0) return void (this.missed = loss.frames.count);
         this.losses.push(loss);
         const blocks = this.losses.flatMap(({ block }) => (block === undefined ? [] : [block]));
         const frames = this.losses.reduce((sum, { frames }) => sum + (frames?.count ?? 0), 0);
@@ -330,10 +313,8 @@ export class View {
         ];
         const { name, message } = errorLike(this.losses[0].error);
         const what = lost.filter(Boolean).join(" and ") || "some bytes";
-        this.form.say(
-            "problem",
-            `This stream is damaged: ${what} cannot be decoded, the rest is shown. First, ${name}: ${message}`,
-        );
+        const rest = `the rest is shown. First, ${name}: ${message}`;
+        this.form.say("problem", `This stream is damaged: ${what} cannot be decoded, ${rest}`);
     }
 
     private drawn(): void {
@@ -350,10 +331,7 @@ export class View {
         if (geometry.getIndex()) stage.shadow(geometry);
         this.headline();
         const complain = (error: unknown): void =>
-            this.form.say(
-                "problem",
-                `The original cannot be compared. ${error instanceof Error ? error.message : error}`,
-            );
+            this.form.say("problem", `The original cannot be compared. ${messageOf(error)}`);
         const rest = meshes.accompanied ? meshes.showMaterials().then(() => this.headline()) : this.accompany();
         void rest.catch(complain);
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
@@ -364,10 +342,8 @@ export class View {
         const { geometry, stage } = this;
         const { frames } = geometry;
         this.fitted = Math.max(frames.length, 1);
-        const samples =
-            frames.length > 0
-                ? frames.map(({ positions }) => positions)
-                : [geometry.getAttribute("position")?.array ?? []];
+        const still = geometry.getAttribute("position")?.array ?? [];
+        const samples = frames.length > 0 ? frames.map(({ positions }) => positions) : [still];
         stage.fill(samples, turnOf(geometry.metadata), geometry.getAttribute("normal") as BufferAttribute);
     }
 
@@ -408,12 +384,11 @@ export class View {
     }
 
     private listRows(rows: Row[]): void {
-        const small = (more?: string): HTMLElement[] => (more ? [element("small", ` ${more}`)] : []);
+        const listed = rows.flatMap(([name, value, more]) => {
+            const small = more ? [element("small", ` ${more}`)] : [];
+            return [element("dt", name), element("dd", value, ...small)];
+        });
         this.form.part("more").hidden = rows.length === 0;
-        this.form
-            .part("facts")
-            .replaceChildren(
-                ...rows.flatMap(([name, value, more]) => [element("dt", name), element("dd", value, ...small(more))]),
-            );
+        this.form.part("facts").replaceChildren(...listed);
     }
 }

@@ -1,4 +1,5 @@
 /** The page of `bsm view`, and the widget of notebooks: one module that is either, by where it finds itself. */
+import { messageOf } from "../fetched";
 import { Pool } from "../pool";
 import type { Job, Status } from "./encoder";
 import type { Content } from "./facts";
@@ -27,29 +28,25 @@ async function* piecesOf({ body }: Response): AsyncGenerator<Uint8Array> {
     }
 }
 
+/** What the server says while it encodes. */
+type Message = { stage: string; share: number; error?: string; entry?: Content };
+
 /** Have the server encode a file; it stops when its reader cancels. */
 const encode: Encode = async (files, preset, report, signal) => {
     const body = new Blob(files);
     if (body.size > MOST_BYTES)
         throw new Error(`More than ${MOST_BYTES >> 20} MiB; use bsm encode, bsm tile, or bsm view --original.`);
-    const query = new URLSearchParams([
-        ["preset", preset],
-        ...files.flatMap((file) => [
-            ["name", pathOf(file)],
-            ["size", `${file.size}`],
-        ]),
-    ]);
+    const query = new URLSearchParams({ preset });
+    for (const file of files) {
+        query.append("name", pathOf(file));
+        query.append("size", `${file.size}`);
+    }
     const decoder = new TextDecoder();
     let text = "";
     for await (const piece of piecesOf(await fetched(`upload?${query}`, { method: "POST", body, signal }))) {
         text += decoder.decode(piece, { stream: true });
         for (let end; (end = text.indexOf("\n")) >= 0; text = text.slice(end + 1)) {
-            const { stage, share, error, entry } = JSON.parse(text.slice(0, end)) as {
-                stage: string;
-                share: number;
-                error?: string;
-                entry?: Content;
-            };
+            const { stage, share, error, entry } = JSON.parse(text.slice(0, end)) as Message;
             if (error) throw new Error(error);
             if (entry) return entry;
             report(stage, share);
@@ -64,12 +61,11 @@ function inThread(job: Job, report: (stage: string, share: number) => void, sign
     return new Promise<Content>((resolve, fail) => {
         signal.addEventListener("abort", () => fail(signal.reason), { once: true });
         worker.onerror = ({ message }) => fail(new Error(message || "The encoder cannot be loaded."));
-        worker.onmessage = ({ data }: MessageEvent<Status>) =>
-            "error" in data
-                ? fail(new Error(data.error))
-                : "stage" in data
-                  ? report(data.stage, data.share)
-                  : resolve(data.content);
+        worker.onmessage = ({ data }: MessageEvent<Status>) => {
+            if ("error" in data) fail(new Error(data.error));
+            else if ("stage" in data) report(data.stage, data.share);
+            else resolve(data.content);
+        };
         worker.postMessage(job);
     }).finally(() => worker.terminate());
 }
@@ -84,13 +80,8 @@ const encodeHere: Encode = async (files, preset, report, signal) => {
 async function fillPage(list: HTMLElement): Promise<void> {
     const contents = JSON.parse(list.textContent!) as Content[];
     const pool = new Pool(inlined);
-    const view = new View(
-        document.body,
-        pool,
-        LICENSES,
-        encoder ? encodeHere : served ? encode : undefined,
-        encoder ? BITS : undefined,
-    );
+    const [own, presets] = encoder ? [encodeHere, BITS] : served ? [encode] : [];
+    const view = new View(document.body, pool, LICENSES, own, presets);
     const open = async (index: number): Promise<void> => {
         const mine = view.begin();
         const content = contents[index];
@@ -98,9 +89,8 @@ async function fillPage(list: HTMLElement): Promise<void> {
             await pool.preload().catch(() => {}); // so that only decoding is timed; errors come from the decoder
             if (!mine()) return;
             if (content.tiles !== undefined) return await view.openTiles(content, index);
-            const { url } = content.layers[content.main];
-            const pieces =
-                url === undefined ? [await bytesOf(content.layers[content.main])] : piecesOf(await fetched(url));
+            const layer = content.layers[content.main];
+            const pieces = layer.url === undefined ? [await bytesOf(layer)] : piecesOf(await fetched(layer.url));
             if (mine()) view.open(content, index);
             for await (const piece of pieces) {
                 if (!mine()) return;
@@ -108,14 +98,11 @@ async function fillPage(list: HTMLElement): Promise<void> {
             }
             if (mine()) view.finish();
         } catch (error) {
-            if (mine())
-                view.fail(`${content.name} could not be fetched. ${error instanceof Error ? error.message : error}`);
+            if (mine()) view.fail(`${content.name} could not be fetched. ${messageOf(error)}`);
         }
     };
-    view.offer(
-        contents.map(({ name }) => name),
-        open,
-    );
+    const names = contents.map(({ name }) => name);
+    view.offer(names, open);
     if (contents.length > 0) await open(0);
 }
 
