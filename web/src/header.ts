@@ -1,8 +1,9 @@
 /** The header: what a decoder must know before anything else (specification, F 4). */
 import { GRID_FIELDS } from "./constants.json";
-import { CorruptError, UnsupportedError } from "./errors";
+import { UnsupportedError } from "./errors";
 import { checkLimit, type Limits } from "./limits";
 import { parseMap, type Value } from "./maps";
+import { demand } from "./varint";
 
 type Numbers = Record<
     | "vertices"
@@ -67,61 +68,37 @@ const OTHERS = {
 
 /** The header of a light grid in a payload; its counts are checked against `limits`. */
 export function parseHeader(payload: Uint8Array, limits: Limits): Header {
-    if (payload.length > MOST_HEADER)
-        throw new CorruptError(`a header of ${payload.length} bytes, where ${MOST_HEADER} are legal`);
+    demand(payload.length <= MOST_HEADER);
     const entries = new Map(parseMap(payload).map(([key, value]) => [key.value, value]));
     const { light, grid } = GRID_FIELDS;
     const isOther = [...entries.keys()].some((key) => !FIELDS.some(([, field]) => field.key === key));
-    if (isOther || entries.get(light.key)?.value !== LIGHT || !entries.has(grid.key))
-        throw new UnsupportedError(
-            "this build decodes light grids alone, which this is not; small.js and bsm.js decode more",
-        );
-    const header = {
-        ...OTHERS,
-        ...(Object.fromEntries(
-            FIELDS.map(([name, field]) => [name, contentOf(name, field, entries.get(field.key))]),
-        ) as unknown as Fields),
-    };
+    if (isOther || entries.get(light.key)?.value !== LIGHT || !entries.has(grid.key)) throw new UnsupportedError("");
+    const contents = FIELDS.map(([name, field]) => [name, contentOf(field, entries.get(field.key))]);
+    const header = { ...OTHERS, ...(Object.fromEntries(contents) as Fields) };
     check(header);
     checkLimit(limits, "vertices", header.vertices);
     checkLimit(limits, "faces", header.faces);
     return header;
 }
 
-function contentOf(name: string, field: Field, value?: Value): Field["default"] {
-    const { type, low, high, lengths = [1, 1] } = field;
-    if (!value) {
-        if (field.default === undefined) throw new CorruptError(`the header lacks ${name}`);
-        return field.default;
-    }
-    const items = field.lengths && value.type === "array" ? value.value : [value];
+function contentOf(field: Field, value?: Value): Field["default"] {
+    const { type, low, high, lengths } = field;
+    demand(value !== undefined || field.default !== undefined);
+    if (!value) return field.default;
+    demand(!lengths || value.type === "array");
+    const items = value.type === "array" && lengths ? value.value : [value];
     const list = items.map((item) => (item.type === type ? Number(item.value) : NaN));
-    if (
-        list.length < lengths[0] ||
-        list.length > lengths[1] ||
-        !list.every((number) => number >= low && number <= high) ||
-        (field.lengths && value.type !== "array")
-    ) {
-        throw new CorruptError(`header field ${name} has another type, or is outside its legal range`);
-    }
-    if (`${list}` === `${field.default}`)
-        throw new CorruptError(`header field ${name} is stored with its default value`);
-    return field.lengths ? list : list[0];
+    demand(!lengths || (list.length >= lengths[0] && list.length <= lengths[1]));
+    demand(list.every((number) => number >= low && number <= high));
+    demand(`${list}` !== `${field.default}`);
+    return lengths ? list : list[0];
 }
 
 /** F 4.6. */
 function check({ vertices, faces, center, corner, grid, lattice }: Header): void {
     const [cells, points] = lattice.length === 2 ? lattice : [0, 0];
-    refuse("more vertices than the corners of its faces", vertices > 3 * faces);
-    refuse("a grid of other than three axes", grid.length !== 3);
-    refuse("a lattice that is not cells and points", lattice.length === 1);
-    refuse("a lattice with fewer points than the grid has values", points > 0 && points < Math.max(...grid));
-    refuse("a lattice of more points than cells", points > cells);
-    refuse("a corner of other than three axes", corner.length % 3 !== 0);
-    refuse("a corner and a center", corner.length > 0 && center.some((place) => place !== 0));
-}
-
-/** Throw an error with this message if the condition holds. */
-function refuse(what: string, isSo: boolean): void {
-    if (isSo) throw new CorruptError(`the header contradicts itself: ${what}`);
+    demand(vertices <= 3 * faces);
+    demand(grid.length === 3);
+    demand(lattice.length !== 1 && (points === 0 || points >= Math.max(...grid)) && points <= cells);
+    demand(corner.length % 3 === 0 && !(corner.length > 0 && center.some((place) => place !== 0)));
 }

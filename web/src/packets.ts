@@ -1,10 +1,9 @@
 /** Packets, and how payloads become those that every decoder knows (specification, F 5). */
-import { CorruptError } from "./errors";
 import type { Metadata } from "./events";
 import { parseHeader, type Header } from "./header";
 import { checkLimit, type Limits } from "./limits";
 import { parseMap } from "./maps";
-import { parseVarint } from "./varint";
+import { demand, parseVarint } from "./varint";
 
 export type Packet =
     | { type: "header"; header: Header }
@@ -23,13 +22,13 @@ export class Cursor {
 
     varint(): number {
         const parsed = parseVarint(this.payload, this.at, this.payload.length);
-        if (!parsed) throw new CorruptError("a payload ends inside a varint");
+        demand(parsed !== undefined);
         this.at = parsed.end;
         return parsed.value;
     }
 
     take(count: number): Uint8Array {
-        if (count > this.payload.length - this.at) throw new CorruptError(`a payload lacks ${count} bytes`);
+        demand(count <= this.payload.length - this.at);
         this.at += count;
         return this.payload.subarray(this.at - count, this.at);
     }
@@ -40,16 +39,14 @@ export class Cursor {
 }
 
 /** What becomes of a payload of each kind. */
-export type Parsers = Partial<Record<Kind, (payload: Cursor, limits: Limits) => Packet>>;
-
-export const PARSERS: Parsers = {
+export const PARSERS: Record<Kind, (payload: Cursor, limits: Limits) => Packet> = {
     header: (payload, limits) => ({ type: "header", header: parseHeader(payload.rest(), limits) }),
     metadata: (payload, limits) => {
         const data = payload.rest();
         checkLimit(limits, "metadataBytes", data.length);
         const entries: Metadata = new Map();
         for (const [key, value] of parseMap(data)) {
-            if (key.type !== "string" || value.type === "array") throw new CorruptError("metadata of a wrong type");
+            demand(key.type === "string" && value.type !== "array");
             entries.set(key.value, value.value);
         }
         return { type: "metadata", entries };
@@ -57,17 +54,9 @@ export const PARSERS: Parsers = {
     connectivity: (payload) => ({ type: "connectivity", data: payload.rest() }),
     grid: (payload) => ({ type: "grid", first: payload.varint(), count: payload.varint(), data: payload.rest() }),
     end: (payload) => {
-        const frames = payload.varint();
-        const crc = payload.take(4);
-        const rest = payload.rest();
-        if (rest.length !== 0 && rest.length !== 4)
-            throw new CorruptError("a payload has bytes too many, or lacks some");
-        return {
-            type: "end",
-            frames,
-            crc: littleEndian(crc),
-            positions: rest.length > 0 ? littleEndian(rest) : undefined,
-        };
+        const [frames, crc, rest] = [payload.varint(), littleEndian(payload.take(4)), payload.rest()];
+        demand(rest.length === 0 || rest.length === 4);
+        return { type: "end", frames, crc, positions: rest.length > 0 ? littleEndian(rest) : undefined };
     },
 };
 

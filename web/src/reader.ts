@@ -1,11 +1,14 @@
-/** Bytes to packets, without input or output of its own (specification, F 2, F 3, F 5). */
+/**
+ * Bytes to packets of meshes on light grids, without input or output of its own (specification, F 2, F 3, F 5). Errors
+ * have no texts: see `demand`.
+ */
 import { KINDS, PREAMBLE, SHORT } from "./constants.json";
-import { BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError } from "./errors";
-import { Grammar } from "./grammar";
+import { BsmError, FormatError, TruncatedError, UnsupportedError } from "./errors";
+import type { Header } from "./header";
 import { checkLimit, type Limits } from "./limits";
 import { Cursor, littleEndian, PARSERS, type Kind, type Packet } from "./packets";
 import { END_OF_STREAM, NEED_DATA, type Signal } from "./signals";
-import { parseVarint } from "./varint";
+import { demand, parseVarint } from "./varint";
 
 /** Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes (M 14.3). */
 const [FRAME, BYTE, METADATA, ENTRY] = [8e3, 8, 2e4, 8e3];
@@ -24,13 +27,16 @@ const BLOCK_TAG = 6;
 
 const kinds: Record<number, string> = KINDS;
 
+/** What may follow a packet of each kind, metadata aside. */
+const FOLLOWERS: Partial<Record<Kind | "start", readonly Kind[]>> = {
+    start: ["header"],
+    header: ["connectivity"],
+    connectivity: ["grid", "end"],
+    grid: ["grid", "end"],
+};
+
 /** What a tag says, and where the frame's payload and the frame end. */
-export function frameOf(tag: { value: number; end: number }): {
-    type: number;
-    length: number;
-    sum: number;
-    end: number;
-} {
+export function frameOf(tag: { value: number; end: number }): Record<"type" | "length" | "sum" | "end", number> {
     const type = tag.value % 16;
     const length = Math.floor(tag.value / 16);
     const sum = tag.end + length;
@@ -42,14 +48,18 @@ export class Reader {
     private begin = 0;
     private end = 0;
     private eof = false;
-    private readonly grammar = new Grammar();
     private buffer = new Uint8Array(0);
     private offset = 0;
     private frames = 0;
     private crc = 0;
-    /** Bytes of metadata. */
-    private metadataRead = 0;
     private started = false;
+    /** The kind of the packet before, metadata aside. */
+    private last: Kind | "start" = "start";
+    private header?: Header;
+    private nextVertex = 0;
+    /** Names and bytes of metadata. */
+    private readonly entryNames = new Set<string>();
+    private metadataRead = 0;
 
     constructor(
         private readonly limits: Limits,
@@ -80,9 +90,8 @@ export class Reader {
         try {
             return this.next();
         } catch (error) {
-            throw error instanceof BsmError
-                ? error.located({ offset: this.offset, frame: this.started ? this.frames : undefined })
-                : error;
+            const place = { offset: this.offset, frame: this.started ? this.frames : undefined };
+            throw error instanceof BsmError ? error.located(place) : error;
         }
     }
 
@@ -90,14 +99,12 @@ export class Reader {
         const size = this.end - this.begin;
         const grown = size + count > this.buffer.length / 2 ? new Uint8Array(2 * (size + count) + 1024) : this.buffer;
         grown.set(this.buffer.subarray(this.begin, this.end));
-        this.buffer = grown;
-        this.begin = 0;
-        this.end = size;
+        [this.buffer, this.begin, this.end] = [grown, 0, size];
     }
 
     private next(): Packet | Signal {
         if (!this.started && !this.start()) return NEED_DATA;
-        while (!this.grammar.ended) {
+        while (this.last !== "end") {
             const frame = this.frame();
             if (!frame) return this.incomplete();
             this.clerk.charge(FRAME + BYTE * frame.size, frame.size);
@@ -108,7 +115,7 @@ export class Reader {
             this.drop(frame.size);
             if (packet) return packet;
         }
-        if (this.end > this.begin) throw new CorruptError("data after END");
+        demand(this.end === this.begin);
         return this.eof ? END_OF_STREAM : NEED_DATA;
     }
 
@@ -116,28 +123,20 @@ export class Reader {
         const present = this.buffer.subarray(this.begin, Math.min(this.end, this.begin + PREAMBLE.length));
         for (let i = 0; i < present.length; i++) {
             if ((present[i] ^ PREAMBLE[i]) <= (i < MAGIC_SIZE ? 0 : MINORS)) continue;
-            if (i < MAGIC_SIZE)
-                throw new FormatError("not a BSM stream: it does not begin with 89 42 53 4D", { offset: 0 });
-            throw new UnsupportedError(
-                `written by version ${present[i] >> 4}, and this reads ${PREAMBLE[i] >> 4}; if that is later, encode the source again`,
-                { offset: i },
-            );
+            throw i < MAGIC_SIZE ? new FormatError("", { offset: 0 }) : new UnsupportedError("", { offset: i });
         }
-        if (present.length < PREAMBLE.length) {
-            this.incomplete();
-            return false;
+        this.started = present.length === PREAMBLE.length;
+        if (!this.started) this.incomplete();
+        else {
+            this.crc = this.clerk.crc32(present);
+            this.drop(PREAMBLE.length);
         }
-        this.crc = this.clerk.crc32(present);
-        this.drop(PREAMBLE.length);
-        this.started = true;
-        return true;
+        return this.started;
     }
 
     private incomplete(): Signal {
         if (!this.eof) return NEED_DATA;
-        throw new TruncatedError("the stream ends before its END frame; get the rest of it", {
-            offset: this.offset + this.end - this.begin,
-        });
+        throw new TruncatedError("", { offset: this.offset + this.end - this.begin });
     }
 
     /** The frame that is next; undefined if it is not complete. */
@@ -150,29 +149,47 @@ export class Reader {
         if (end > this.end) return undefined;
         const body = this.buffer.subarray(start, sum);
         const expected = end - sum === 2 ? this.clerk.crc16(body) : this.clerk.crc32(body);
-        if (littleEndian(this.buffer.subarray(sum, end)) !== expected) {
-            throw new CorruptError(`the checksum of a frame of type ${type} and ${length} bytes is wrong`);
-        }
+        demand(littleEndian(this.buffer.subarray(sum, end)) === expected);
         return { type, payload: this.buffer.slice(tag.end, sum), size: end - start };
     }
 
     /** The packet in a frame, checked against everything before it; undefined for one to be skipped. */
     private parse(type: number, payload: Uint8Array): Packet | undefined {
         if (type >= 8 && type <= 11) {
-            if (!this.grammar.header) throw new CorruptError("the first frame must be HEADER");
+            demand(this.header !== undefined);
             return undefined;
         }
-        const kind = kinds[type] as Kind;
-        const parse = PARSERS[kind];
-        if (!parse) throw new UnsupportedError(`frame type ${type} is unknown to this decoder`);
+        const parse = PARSERS[kinds[type] as Kind];
+        if (!parse) throw new UnsupportedError("");
         const packet = parse(new Cursor(payload), this.limits);
-        this.grammar.accept(packet);
-        if (kind === "metadata") checkLimit(this.limits, "metadataBytes", (this.metadataRead += payload.length));
-        if (packet.type === "end") {
-            if (packet.frames !== this.frames) throw new CorruptError(`END counts ${packet.frames} frames before it`);
-            if (packet.crc !== this.crc) throw new CorruptError("the CRC-32 of the whole stream is wrong");
-        }
+        if (packet.type === "metadata") this.acceptMetadata(packet, payload.length);
+        else this.accept(packet);
         return packet;
+    }
+
+    private acceptMetadata({ entries }: Extract<Packet, { type: "metadata" }>, size: number): void {
+        demand(this.header !== undefined);
+        for (const name of entries.keys()) {
+            demand(!this.entryNames.has(name));
+            this.entryNames.add(name);
+        }
+        checkLimit(this.limits, "metadataBytes", (this.metadataRead += size));
+    }
+
+    /** Take note of a packet that may come here, and agrees with the header. */
+    private accept(packet: Packet): void {
+        const isNext = FOLLOWERS[this.last]?.includes(packet.type) === true;
+        demand(isNext);
+        this.last = packet.type;
+        if (packet.type === "header") this.header = packet.header;
+        const { vertices } = this.header!;
+        if (packet.type === "grid") {
+            const { first, count } = packet;
+            demand(first === this.nextVertex && count > 0 && count <= vertices - first);
+            this.nextVertex = first + count;
+        }
+        if (packet.type === "end")
+            demand(this.nextVertex >= vertices && packet.frames === this.frames && packet.crc === this.crc);
     }
 
     private drop(count: number): void {

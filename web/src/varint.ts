@@ -2,17 +2,21 @@
 import { MAX_VARINT_BYTES } from "./constants.json";
 import { CorruptError } from "./errors";
 
+/** Throw an error where something does not hold. It has no text: what is wrong, the decoder of everything says. */
+export function demand(isSo: boolean): asserts isSo {
+    if (!isSo) throw new CorruptError("");
+}
+
 /** The varint at `start`, undefined if the data ends inside it (F 1.2). */
 export function parseVarint(data: Uint8Array, start: number, end: number): { value: number; end: number } | undefined {
     let value = 0;
     for (let k = 0; k < MAX_VARINT_BYTES && start + k < end; k++) {
         const byte = data[start + k];
         value += (byte & 127) * 2 ** (7 * k);
-        if (byte < 128) {
-            if (byte === 0 && k > 0) throw new CorruptError("a varint is not in its shortest form");
-            return { value, end: start + k + 1 };
-        }
+        if (byte >= 128) continue;
+        demand(byte > 0 || k === 0); // in its shortest form
+        return { value, end: start + k + 1 };
     }
-    if (end - start < MAX_VARINT_BYTES) return undefined;
-    throw new CorruptError("a varint is longer than five bytes");
+    demand(end - start < MAX_VARINT_BYTES);
+    return undefined;
 }
