@@ -28,10 +28,9 @@ export function hang(picture: Pictured): void {
     if (!renderer) {
         renderer = new WebGLRenderer({ antialias: true, alpha: true });
         renderer.setScissorTest(true);
-        renderer.domElement.addEventListener("webglcontextlost", () => pictured.forEach((each) => each.lose(true)));
-        renderer.domElement.addEventListener("webglcontextrestored", () =>
-            pictured.forEach((each) => each.lose(false)),
-        );
+        const { domElement } = renderer;
+        domElement.addEventListener("webglcontextlost", () => pictured.forEach((each) => each.lose(true)));
+        domElement.addEventListener("webglcontextrestored", () => pictured.forEach((each) => each.lose(false)));
         before = performance.now();
         renderer.setAnimationLoop(drawAll);
     }

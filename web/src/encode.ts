@@ -4,18 +4,13 @@ import { EncodeError, encodeWith, type Answer, type EncodeOptions, type MeshInpu
 import { compiled, once } from "./fetched";
 import { sayAlone, started } from "./threads";
 
-export {
-    EncodeError,
-    encodeWith,
-    type AttributeInput,
-    type EncodeOptions,
-    type MeshInput,
-    type Quality,
-} from "./encoding";
+export { EncodeError, encodeWith } from "./encoding";
+export type { AttributeInput, EncodeOptions, MeshInput, Quality } from "./encoding";
 
 /** A `BufferGeometry` or an `Object3D` of three.js. */
 export type Drawn = { readonly isBufferGeometry: true } | { readonly isObject3D: true };
 
+type Bytes = Uint8Array<ArrayBuffer>;
 const [THREAD, HERE] = ["encode-worker.js", import.meta.url];
 
 const load = once((url: string) => compiled(new URL(url)));
@@ -37,10 +32,7 @@ async function wholeOf(input: MeshInput | Drawn, { onNote }: EncodeOptions): Pro
 }
 
 /** Encode in this thread, which waits for that. */
-export async function encodeHere(
-    input: MeshInput | Drawn,
-    options: EncodeOptions = {},
-): Promise<Uint8Array<ArrayBuffer>> {
+export async function encodeHere(input: MeshInput | Drawn, options: EncodeOptions = {}): Promise<Bytes> {
     const mesh = await wholeOf(input, options);
     return encodeWith(await loadEncoder(options.wasm, Boolean(mesh.frames)), mesh, options);
 }
@@ -65,10 +57,10 @@ export async function encode(input: MeshInput | Drawn, options: EncodeOptions = 
         const bytes = await new Promise<Uint8Array<ArrayBuffer> | undefined>((resolve, reject) => {
             signal?.addEventListener("abort", () => reject(signal.reason as Error), { once: true });
             let begun = false;
-            worker.onerror = (event) =>
-                begun
-                    ? reject(new Error(event.message || "the worker of the encoder was stopped"))
-                    : resolve(undefined);
+            worker.onerror = ({ message }) => {
+                if (begun) reject(new Error(message || "the worker of the encoder was stopped"));
+                else resolve(undefined);
+            };
             worker.onmessage = ({ data }: MessageEvent<Answer>) => {
                 begun = true;
                 if ("part" in data) onProgress?.(data.part);

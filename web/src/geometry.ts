@@ -98,15 +98,11 @@ export class BSMGeometry extends BufferGeometry {
         if (!(this.getAttribute("normal").array instanceof Int16Array))
             this.setAttribute("normal", new BufferAttribute(normals, 3, true));
         // Arrays change hands; nothing is copied but to the graphics.
-        for (const { name, values } of [
-            { name: "position", values: positions },
-            { name: "normal", values: normals },
-            ...attributes,
-        ]) {
-            const attribute = this.getAttribute(name) as BufferAttribute;
-            attribute.array = values;
-            attribute.needsUpdate = true;
-        }
+        const renew = (name: string, array: BufferAttribute["array"]): unknown =>
+            Object.assign(this.getAttribute(name), { array, needsUpdate: true });
+        renew("position", positions);
+        renew("normal", normals);
+        for (const { name, values } of attributes) renew(name, values);
     }
 
     /** Draw some pieces no longer, in all frames. */
@@ -141,14 +137,11 @@ export class BSMGeometry extends BufferGeometry {
         this.refuseIfWhole();
         const { points: p, normals: n } = this;
         for (let row = 0; row < vertices.length; row++) {
-            const [to, from] = [3 * vertices[row], 3 * row];
             // One by one: lists take several times as long before this is compiled.
-            p[to] = positions[from];
-            p[to + 1] = positions[from + 1];
-            p[to + 2] = positions[from + 2];
-            n[to] = normals[from];
-            n[to + 1] = normals[from + 1];
-            n[to + 2] = normals[from + 2];
+            for (let d = 0, to = 3 * vertices[row], from = 3 * row; d < 3; d++, to++, from++) {
+                p[to] = positions[from];
+                n[to] = normals[from];
+            }
             this.origin[vertices[row]] = origin[row];
         }
         const corners = this.getIndex();

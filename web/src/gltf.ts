@@ -27,21 +27,17 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
     loadBufferView(index: number): Promise<ArrayBuffer> | null {
         const { extensions, byteLength } = this.parser.json.bufferViews[index];
         const coded = extensions?.[EXTENSION] as Coded | undefined;
-        return coded
-            ? this.streams.made(this.parser.json.bufferViews[coded.stream], coded, byteLength, index, () =>
-                  this.decode(coded.stream),
-              )
-            : null;
+        if (!coded) return null;
+        const from = this.parser.json.bufferViews[coded.stream];
+        return this.streams.made(from, coded, byteLength, index, () => this.decode(coded.stream));
     }
 
     /** Meshes that say so show the frames of their stream. */
     afterRoot(gltf: GLTF): null {
         for (const [object, place] of this.parser.associations) {
             const meshes = (place as typeof place | undefined)?.meshes; // of a texture that was not found there is none
-            const moving =
-                meshes === undefined
-                    ? undefined
-                    : (this.parser.json.meshes[meshes].extensions?.[EXTENSION] as { stream: number } | undefined);
+            const extensions = meshes === undefined ? {} : this.parser.json.meshes[meshes].extensions;
+            const moving = extensions?.[EXTENSION] as { stream: number } | undefined;
             const sequence = moving && this.sequences.get(placeOf(this.parser.json.bufferViews[moving.stream]));
             if (!sequence || !(object instanceof Mesh)) continue;
             object.geometry = sequence.geometry;
@@ -61,8 +57,8 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
             this.sequences.set(placeOf(this.parser.json.bufferViews[stream]), (sequence = new BSMSequence(geometry)));
             sequence.addEventListener("dispose", () => decoding.close());
         };
-        return this.streams.decode(this.pool, data, `bufferView ${stream}`, take, (error) =>
-            error ? sequence?.fail(error) : sequence && (sequence.complete = true),
-        );
+        const end = (error?: unknown): unknown =>
+            error ? sequence?.fail(error) : sequence && (sequence.complete = true);
+        return this.streams.decode(this.pool, data, `bufferView ${stream}`, take, end);
     }
 }

@@ -40,6 +40,15 @@ const TEXTURES: Record<string, Slot[]> = {
     occlusionTexture: ["aoMap"],
 };
 const COLORED = ["map", "emissiveMap"];
+/** Numbers of both, the last that there is. */
+const NUMBERS = [
+    ["metallicFactor", "metalness"],
+    ["Pm", "metalness"],
+    ["roughnessFactor", "roughness"],
+    ["Pr", "roughness"],
+] as const;
+/** Words that only materials of glTF have. */
+const OF_GLTF = ["baseColorFactor", "baseColorTexture", "metallicFactor", "roughnessFactor"];
 
 /** The images of metadata, by their numbers. */
 async function imagesOf(metadata: Metadata, tell: (unshown: string) => void): Promise<Map<number, Texture>> {
@@ -47,25 +56,23 @@ async function imagesOf(metadata: Metadata, tell: (unshown: string) => void): Pr
         const match = /^image\.(\d+)\.data$/.exec(key);
         return match && value instanceof Uint8Array ? [[Number(match[1]), value] as const] : [];
     });
-    const textures = await Promise.all(found.map(async ([number, data]) => [number, await textureOf(data)] as const));
-    for (const [number, texture] of textures)
-        if (!texture) tell(`the image ${metadata.get(`image.${number}.name`) ?? number}, which browsers do not read`);
-    return new Map(textures.flatMap(([number, texture]) => (texture ? [[number, texture] as const] : [])));
+    const images = new Map<number, Texture>();
+    const textures = await Promise.all(found.map(([, data]) => textureOf(data)));
+    for (const [i, [number]] of found.entries()) {
+        const texture = textures[i];
+        if (texture) images.set(number, texture);
+        else tell(`the image ${metadata.get(`image.${number}.name`) ?? number}, which browsers do not read`);
+    }
+    return images;
 }
 
 /** An image as a texture whose first row is at the bottom; undefined if the browser does not know its format. */
 async function textureOf(data: Uint8Array): Promise<Texture | undefined> {
     try {
-        const image = await createImageBitmap(new Blob([data as Uint8Array<ArrayBuffer>]), {
-            imageOrientation: "flipY",
-            colorSpaceConversion: "none",
-        });
-        return Object.assign(new Texture(image), {
-            flipY: false,
-            wrapS: RepeatWrapping,
-            wrapT: RepeatWrapping,
-            needsUpdate: true,
-        });
+        const options = { imageOrientation: "flipY", colorSpaceConversion: "none" } as const;
+        const image = await createImageBitmap(new Blob([data as Uint8Array<ArrayBuffer>]), options);
+        const wrap = { wrapS: RepeatWrapping, wrapT: RepeatWrapping };
+        return Object.assign(new Texture(image), { ...wrap, flipY: false, needsUpdate: true });
     } catch {
         return undefined;
     }
@@ -77,10 +84,8 @@ export async function materialsOf(
     tell: (unshown: string) => void = (what) => console.warn(`BSM: not shown: ${what}`),
 ): Promise<MeshStandardMaterial[]> {
     const images = await imagesOf(metadata, tell);
-    const words = Array.from(
-        { length: 1 + Math.max(0, ...pieces.map(({ material }) => material)) },
-        (): Words => new Map(),
-    );
+    const length = 1 + Math.max(0, ...pieces.map(({ material }) => material));
+    const words = Array.from({ length }, (): Words => new Map());
     for (const [key, value] of metadata) {
         const match = /^material\.(\d+)\.(.+)$/s.exec(key);
         if (match && Number(match[1]) < words.length && (typeof value === "string" || typeof value === "number"))
@@ -90,21 +95,14 @@ export async function materialsOf(
 }
 
 function numbersIn(value: string | number | undefined): number[] {
-    return String(value ?? "")
-        .split(/\s+/)
-        .filter(Boolean)
-        .map(Number);
+    const words = String(value ?? "").split(/\s+/);
+    return words.filter(Boolean).map(Number);
 }
 
 function materialOf(words: Words, images: Map<number, Texture>): MeshStandardMaterial {
-    const isMtl = !["baseColorFactor", "baseColorTexture", "metallicFactor", "roughnessFactor"].some((name) =>
-        words.has(name),
-    );
-    const material = new MeshStandardMaterial({
-        name: String(words.get("name") ?? ""),
-        metalness: isMtl ? 0 : 1,
-        roughness: 1,
-    });
+    const isMtl = !OF_GLTF.some((name) => words.has(name));
+    const name = String(words.get("name") ?? "");
+    const material = new MeshStandardMaterial({ name, metalness: isMtl ? 0 : 1, roughness: 1 });
     const color = numbersIn(words.get("baseColorFactor") ?? words.get("Kd"));
     const isBlack = words.has("map_Kd") && !color.some(Boolean); // some programs write that beside an image
     const [r = 1, g = 1, b = 1, a = 1] = isBlack ? [] : color;
@@ -112,14 +110,7 @@ function materialOf(words: Words, images: Map<number, Texture>): MeshStandardMat
     material.color.setRGB(r, g, b, spaceOf("baseColorFactor"));
     const [red = 0, green = 0, blue = 0] = numbersIn(words.get("emissiveFactor") ?? words.get("Ke"));
     material.emissive.setRGB(red, green, blue, spaceOf("emissiveFactor"));
-    for (const [name, set] of [
-        ["metallicFactor", "metalness"],
-        ["Pm", "metalness"],
-        ["roughnessFactor", "roughness"],
-        ["Pr", "roughness"],
-    ] as const) {
-        if (words.has(name)) material[set] = Number(words.get(name));
-    }
+    for (const [name, set] of NUMBERS) if (words.has(name)) material[set] = Number(words.get(name));
     for (const [name, slots] of Object.entries(TEXTURES)) {
         const texture = images.get(Number(words.get(name) ?? NaN));
         if (texture) for (const slot of slots) material[slot] = inSpace(texture, COLORED.includes(slot));

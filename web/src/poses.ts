@@ -23,28 +23,26 @@ export function rateOf(times: number[]): number {
 /** The drawn meshes of a scene, in the order in which they become one. */
 function meshesIn(root: Object3D): Mesh[] {
     const found: Mesh[] = [];
-    root.traverse(
-        (each) =>
-            (each as Mesh).isMesh && (each as Mesh).geometry.attributes.position?.count > 0 && found.push(each as Mesh),
-    );
+    root.traverse((each) => {
+        const { isMesh, geometry } = each as Mesh;
+        if (isMesh && geometry.attributes.position?.count > 0) found.push(each as Mesh);
+    });
     return found;
 }
 
 /** Whether bones or morph targets place vertices. */
 export function isPosed(root: Object3D | BufferGeometry): boolean {
-    return (
-        "isObject3D" in root &&
-        meshesIn(root).some((each) => (each as SkinnedMesh).isSkinnedMesh || each.geometry.morphAttributes.position)
-    );
+    const isOne = (each: Mesh): unknown =>
+        (each as SkinnedMesh).isSkinnedMesh || each.geometry.morphAttributes.position;
+    return "isObject3D" in root && meshesIn(root).some(isOne);
 }
+
+type Poses = { positions: Float64Array; frames: number; rate: number };
 
 /**
  * Positions of all vertices in each frame of a clip, from its first key to its last one; one frame where nothing moves.
  */
-export function posesOf(
-    root: Object3D,
-    clip?: AnimationClip,
-): { positions: Float64Array; frames: number; rate: number } {
+export function posesOf(root: Object3D, clip?: AnimationClip): Poses {
     const times = [...new Set(clip?.tracks.flatMap((track) => [...track.times]))].sort((a, b) => a - b);
     const [rate, meshes, mixer, point] = [rateOf(times), meshesIn(root), new AnimationMixer(root), new Vector3()];
     const frames = clip ? Math.floor((times.at(-1)! - times[0]) * rate + 1e-3) + 1 : 1;

@@ -147,18 +147,14 @@ export async function readMesh(given: Given, beside: Given[] = [], decoding: Sce
         const { mesh, notes, dropped } = meshOfPolygons(reader(bytes));
         const { metadata = {} } = mesh;
         const isThere = (name: string): boolean => beside.some((file) => `/${file.name}`.endsWith(`/${name}`));
-        const libraries = String(metadata.mtllib ?? "")
-            .split("\n")
-            .filter(Boolean);
+        const libraries = metadata.mtllib ? String(metadata.mtllib).split("\n").filter(Boolean) : [];
         const images = Object.entries(metadata).flatMap(([key, name]) => (IMAGE.test(key) ? String(name) : []));
         if ([...libraries, ...images].some(isThere)) lost.add(MATERIALS);
-        const missing = libraries
-            .filter((name) => !isThere(name))
-            .map((name) => `the materials in ${name} were left out`);
-        for (const name of images.filter((image) => !isThere(image)))
-            missing.push(`the image ${name} was left out, its name was kept`);
-        const all = [...notes, ...missing.map((what) => `${what}: no such file beside the mesh`)];
-        return readingOf(mesh, all, lost, used, dropped.length > 0);
+        const noteOf = (name: string, words: string): string | string[] =>
+            isThere(name) ? [] : `${words}: no such file beside the mesh`;
+        const ofLibraries = libraries.flatMap((name) => noteOf(name, `the materials in ${name} were left out`));
+        const ofImages = images.flatMap((name) => noteOf(name, `the image ${name} was left out, its name was kept`));
+        return readingOf(mesh, [...notes, ...ofLibraries, ...ofImages], lost, used, dropped.length > 0);
     }
     if (!/^gl(b|tf)$/.test(suffix))
         throw new Error("Only PLY, OBJ, STL, GLB and glTF files are read here, PC2 and MDD with their mesh.");

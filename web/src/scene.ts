@@ -1,6 +1,7 @@
 /** Scenes of three.js, which are loaded only where they are asked for. */
-import { BufferGeometry, Group, Mesh, type MeshStandardMaterial } from "three";
+import { BufferGeometry, Group, Mesh, type Material } from "three";
 import type { BSMGeometry } from "./geometry";
+import type { Piece } from "./index";
 import { materialsOf, nameOf, turnOf } from "./materials";
 
 /** A whole geometry as a group of meshes: materials, textures, names of parts, and y up, as its metadata say. */
@@ -11,13 +12,8 @@ export async function sceneOf(geometry: BSMGeometry): Promise<Group> {
     group.name = String(metadata.get("name") ?? "");
     group.userData = Object.fromEntries([...metadata].filter(([, value]) => !(value instanceof Uint8Array)));
     const parts = new Set(pieces.map(({ part }) => part));
-    if (parts.size < 2)
-        group.add(
-            new Mesh<BSMGeometry, MeshStandardMaterial | MeshStandardMaterial[]>(
-                geometry,
-                materials.length > 1 ? materials : materials[0],
-            ),
-        );
+    const all: Material | Material[] = materials.length > 1 ? materials : materials[0];
+    if (parts.size < 2) group.add(new Mesh(geometry, all));
     else
         for (const piece of pieces)
             group.add(meshOf(geometry, piece, materials[piece.material], nameOf(metadata, "part", piece.part)));
@@ -26,12 +22,7 @@ export async function sceneOf(geometry: BSMGeometry): Promise<Group> {
 }
 
 /** A mesh of some of the faces; the arrays are those of all. */
-function meshOf(
-    geometry: BSMGeometry,
-    { start, count }: { start: number; count: number },
-    material: MeshStandardMaterial,
-    name: string,
-): Mesh {
+function meshOf(geometry: BSMGeometry, { start, count }: Piece, material: Material, name: string): Mesh {
     const piece = new BufferGeometry();
     for (const key of Object.keys(geometry.attributes)) piece.setAttribute(key, geometry.getAttribute(key));
     piece.setIndex(geometry.getIndex());

@@ -37,9 +37,8 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
 
     /** Frames that there are; as long as not all have come, those that the stream announces. */
     get length(): number {
-        return this.complete
-            ? this.geometry.frames.length
-            : Math.max(this.geometry.header?.frames ?? 0, this.geometry.frames.length);
+        const { frames, header } = this.geometry;
+        return this.complete ? frames.length : Math.max(header?.frames ?? 0, frames.length);
     }
 
     /** Seconds from the first frame to the end of the last. */

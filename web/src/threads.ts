@@ -39,8 +39,7 @@ function imported(address: () => URL): Worker | undefined {
 export function sayAlone(): void {
     if (isSaid || typeof Worker === "undefined") return; // without workers in the platform there is nothing to report
     isSaid = true;
-    console.warn(
-        "BSM: no thread can be started here, so the page waits while it decodes; see worker-src of its policy",
-    );
+    const why = "no thread can be started here, so the page waits while it decodes; see worker-src of its policy";
+    console.warn(`BSM: ${why}`);
 }
 let isSaid = false;

@@ -1,6 +1,7 @@
 /** BSM streams in three.js: a loader that is used as DRACOLoader is, and one of whole scenes. */
 import { type Group, Loader } from "three";
 import { BsmError, errorLike } from "./errors";
+import { messageOf } from "./fetched";
 import { fetchPieces } from "./flights";
 import { BSMGeometry, type Progress } from "./geometry";
 import type { Limits } from "./index";
@@ -8,6 +9,8 @@ import { placeOf, Pool, type Build, type StreamDecoding } from "./pool";
 import { BSMSequence, type SequenceEvents } from "./sequences";
 
 export { BSMGeometry, BSMSequence, placeOf, Pool, type Progress, type SequenceEvents };
+
+type OnProgress = (event: ProgressEvent) => void;
 
 /** Threads of all loaders that name no decoder's path of their own. */
 let shared: Pool | undefined;
@@ -82,11 +85,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
             .finally(() => manager.itemEnd(url));
     }
 
-    override loadAsync(
-        url: string,
-        onProgress?: (event: ProgressEvent) => void,
-        progress?: Progress,
-    ): Promise<BSMGeometry> {
+    override loadAsync(url: string, onProgress?: OnProgress, progress?: Progress): Promise<BSMGeometry> {
         return new Promise((keep, fail) => this.load(url, keep, onProgress, fail, progress));
     }
 
@@ -137,21 +136,14 @@ export class BSMLoader extends Loader<BSMGeometry> {
         return pool;
     }
 
-    private fetched(
-        url: string,
-        onProgress?: (event: ProgressEvent) => void,
-        progress?: Progress,
-    ): Promise<BSMGeometry> {
-        return this.decoded(progress, (stream, signal) => this.pass(url, stream, onProgress, signal)).catch(
-            (error: unknown) => {
-                if (error instanceof BsmError)
-                    throw errorLike({ ...error.described, problem: `${url}: ${error.problem}` });
-                const message = `${url}: ${error instanceof Error ? error.message : error}`; // what others made stays as it was
-                throw error instanceof DOMException
-                    ? new DOMException(message, error.name)
-                    : new Error(message, { cause: error });
-            },
-        );
+    private fetched(url: string, onProgress?: OnProgress, progress?: Progress): Promise<BSMGeometry> {
+        const rename = (error: unknown): never => {
+            if (error instanceof BsmError) throw errorLike({ ...error.described, problem: `${url}: ${error.problem}` });
+            const message = `${url}: ${messageOf(error)}`; // what others made stays as it was
+            if (error instanceof DOMException) throw new DOMException(message, error.name);
+            throw new Error(message, { cause: error });
+        };
+        return this.decoded(progress, (stream, signal) => this.pass(url, stream, onProgress, signal)).catch(rename);
     }
 
     /** The geometry of a stream that is given its bytes, until somebody or an error stops it. */
@@ -170,10 +162,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
                 { onPicture: (picture) => geometry.accept(picture), onEnd: () => keep(geometry), onError: fail },
                 { drawing, limits: this.limits, guess: progress?.guess },
             );
-            const fall = (error: unknown): void => {
-                stream.close();
-                fail(error);
-            };
+            const fall = (error: unknown): void => (stream.close(), fail(error));
             signal.onabort = () => fall(signal.reason);
             give(stream, signal).catch(fall);
         });
@@ -191,10 +180,8 @@ export class BSMLoader extends Loader<BSMGeometry> {
         signal?: AbortSignal,
     ): Promise<void> {
         const address = this.manager.resolveURL(this.path + url);
-        const request: RequestInit = {
-            headers: this.requestHeader,
-            credentials: this.withCredentials ? "include" : "same-origin",
-        };
+        const credentials = this.withCredentials ? "include" : "same-origin";
+        const request: RequestInit = { headers: this.requestHeader, credentials };
         await fetchPieces(new URL(address, globalThis.document?.baseURI ?? globalThis.location?.href), request, {
             signal,
             onPiece: (piece) => stream.receiveData(piece),
@@ -216,10 +203,8 @@ export class BSMSceneLoader extends Loader<Group> {
         onProgress?: (event: ProgressEvent) => void,
         onError: (error: unknown) => void = console.error,
     ): void {
-        this.geometries
-            .setPath(this.path)
-            .setRequestHeader(this.requestHeader)
-            .setWithCredentials(this.withCredentials);
+        this.geometries.setPath(this.path).setRequestHeader(this.requestHeader);
+        this.geometries.setWithCredentials(this.withCredentials);
         this.geometries.loadScene(url, onProgress).then(onLoad).catch(onError);
     }
 

@@ -55,10 +55,9 @@ export async function readFrames(
     for (const [frame, file] of ordered.entries()) {
         const { mesh } = frame > 0 ? await read(file) : first;
         const isSame = mesh.faces.length === faces.length && mesh.positions.length === size;
+        const runs = "bsm encode --runs takes such frames";
         if (!isSame || !Array.prototype.every.call(faces, (vertex, i) => vertex === mesh.faces[i]))
-            throw new Error(
-                `${file.name}: it has other faces than ${ordered[0].name}; bsm encode --runs takes such frames`,
-            );
+            throw new Error(`${file.name}: it has other faces than ${ordered[0].name}; ${runs}`);
         positions.set(mesh.positions, frame * size);
         report?.((frame + 1) / files.length);
     }
@@ -84,23 +83,16 @@ function headOf(file: Given, view: DataView): Cache {
     if (points < 1 || frames < 1 || view.byteLength < start + 12 * points * frames)
         throw new Error(`${file.name} claims ${frames} frames of ${points} points, and has ${view.byteLength} bytes`);
     const timeOf = (_: unknown, frame: number): number => view.getFloat32(8 + 4 * frame);
-    return {
-        points,
-        frames,
-        start,
-        isLittle: isPc2,
-        rate: isPc2 ? RATE : rateOf(Array.from({ length: frames }, timeOf)),
-    };
+    const rate = isPc2 ? RATE : rateOf(Array.from({ length: frames }, timeOf));
+    return { points, frames, start, isLittle: isPc2, rate };
 }
 
 /** The points of a PC2 or MDD file, and the faces of the mesh that has its name, or is there. */
 async function readCache(cache: Given, meshes: Given[]): Promise<Reading> {
     const stem = (name: string): string => name.replace(/\.\w+$/, "");
     const given = meshes.find(({ name }) => stem(name) === stem(cache.name)) ?? meshes[0];
-    if (!given)
-        throw new Error(
-            `Missing: ${stem(cache.name)}.obj. ${cache.name} holds points and no faces; drop its mesh, too.`,
-        );
+    const without = `${cache.name} holds points and no faces; drop its mesh, too.`;
+    if (!given) throw new Error(`Missing: ${stem(cache.name)}.obj. ${without}`);
     const view = new DataView(await cache.arrayBuffer());
     const { points, frames, start, isLittle, rate } = headOf(cache, view);
     const reading = await readMesh(given, meshes);
