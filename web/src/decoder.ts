@@ -1,22 +1,6 @@
 /** A stream to a mesh, block by block, while it arrives. */
 import type { Attribute } from "./attributes";
-import {
-    ATTRIBUTE,
-    AWAITED,
-    BLOCK,
-    CONNECTIVITY,
-    END,
-    Engine,
-    FAILED,
-    FRAME,
-    HEADER,
-    LOSS,
-    METADATA,
-    NEED,
-    OVER,
-    REFINEMENT,
-    type RawEvent,
-} from "./engine";
+import { Engine, Raw, type RawEvent } from "./engine";
 import { BsmError, errorLike } from "./errors";
 import type { Event, Mesh, Wishes } from "./events";
 import type { Header } from "./header";
@@ -105,17 +89,17 @@ export class Decoder {
     private heard(raw: RawEvent): Event | Signal | undefined {
         const { engine, wishes } = this;
         const { type, index, count, vertices } = raw;
-        if (type === NEED) return NEED_DATA;
-        if (type === OVER) return END_OF_STREAM;
-        if (type === FAILED) throw engine.error();
-        if (type === AWAITED) this.awaited = index;
-        if (type === HEADER) return this.beginMesh(engine.header());
-        if (type === METADATA) {
+        if (type === Raw.NEED) return NEED_DATA;
+        if (type === Raw.OVER) return END_OF_STREAM;
+        if (type === Raw.FAILED) throw engine.error();
+        if (type === Raw.AWAITED) this.awaited = index;
+        if (type === Raw.HEADER) return this.beginMesh(engine.header());
+        if (type === Raw.METADATA) {
             const entries = engine.metadata(this.metadata, index);
             this.metadata = index;
             return { type: "metadata", entries };
         }
-        if (type === CONNECTIVITY) {
+        if (type === Raw.CONNECTIVITY) {
             const [faces, loose] = [engine.faces(raw), engine.loose()];
             if (this.sameMesh)
                 this.queue.push(
@@ -123,12 +107,12 @@ export class Decoder {
                 );
             return { type: "connectivity", faces, vertices, loose };
         }
-        if (!wishes.whole && (type === BLOCK || type === REFINEMENT))
-            return this.changed(type === BLOCK ? index : undefined);
-        if (type === ATTRIBUTE) return { type: "attribute", ...engine.attribute(index)! };
-        if (type === FRAME)
+        if (!wishes.whole && (type === Raw.BLOCK || type === Raw.REFINEMENT))
+            return this.changed(type === Raw.BLOCK ? index : undefined);
+        if (type === Raw.ATTRIBUTE) return { type: "attribute", ...engine.attribute(index)! };
+        if (type === Raw.FRAME)
             return { type: "frame", index, positions: engine.positions(vertices), attributes: engine.attributes(true) };
-        if (type === LOSS) {
+        if (type === Raw.LOSS) {
             const isOfFrames = this.header!.gopFrames > 0 && index >= 0;
             return {
                 type: "loss",
@@ -137,7 +121,7 @@ export class Decoder {
                 error: engine.error(true).described,
             };
         }
-        if (type !== END) return undefined;
+        if (type !== Raw.END) return undefined;
         const isMesh = this.header!.gopFrames === 0;
         const losses =
             wishes.tolerant && isMesh ? engine.losses() : { missing: new Int32Array(0), degraded: new Int32Array(0) };

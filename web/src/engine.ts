@@ -19,7 +19,7 @@ import { errorName, Memory, type ViewType } from "./memory";
 import type { Share, SharedBlock } from "./share";
 
 /** Events in the order of library/bsmdec.h, and one of decoders with helpers. */
-export const [
+export const enum Raw {
     NEED,
     HEADER,
     METADATA,
@@ -32,9 +32,8 @@ export const [
     END,
     OVER,
     FAILED,
-    ,
-    AWAITED,
-] = Array.from({ length: 14 }, (_, i) => i);
+    AWAITED = 13,
+}
 
 const VIEWS: ViewType<ArrayLike<number>>[] = [
     Uint8Array,

@@ -1,5 +1,5 @@
 /** Decodes some of the chains of a stream beside a decoder, which has the others: chains know nothing of each other. */
-import { BLOCK, Engine, FAILED, HEADER, LOSS, NEED, OVER } from "./engine";
+import { Engine, Raw } from "./engine";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
 import type { Share, SharedBlock } from "./share";
@@ -33,16 +33,16 @@ export class Helper {
         const { engine } = this;
         while (!this.over) {
             const { type, index } = engine.next();
-            if (type === NEED) return NEED_DATA;
-            if (type === BLOCK) return engine.handed(index);
-            if (type === LOSS && index >= 0) return { index, problem: engine.error(true).described };
-            if (type === HEADER) {
+            if (type === Raw.NEED) return NEED_DATA;
+            if (type === Raw.BLOCK) return engine.handed(index);
+            if (type === Raw.LOSS && index >= 0) return { index, problem: engine.error(true).described };
+            if (type === Raw.HEADER) {
                 this.over = this.started; // of later runs the decoder has all chains
                 this.started = true;
             }
-            if (type === OVER || type === FAILED) this.over = true;
+            if (type === Raw.OVER || type === Raw.FAILED) this.over = true;
             // What is wrong with more than a block is found by the decoder as well.
-            if (type === FAILED) {
+            if (type === Raw.FAILED) {
                 const problem = engine.error().described;
                 if (problem.place.block !== undefined) return { index: problem.place.block, problem };
             }

@@ -1,25 +1,9 @@
 import { LIMITS } from "./constants.json";
 import { LimitError } from "./errors";
 
-type Counts =
-    | "vertices"
-    | "faces"
-    | "blocks"
-    | "blockSize"
-    | "coefficients"
-    | "frames"
-    | "gopFrames"
-    | "attributes"
-    | "attributeValues";
-type Bytes =
-    | "frameBytes"
-    | "metadataBytes"
-    | "sequenceBytes"
-    | "keptBytes"
-    | "blockMemory"
-    | "blockMemoryPerVertex"
-    | "memoryPerByte"
-    | "memory";
+type OfMeshes = "vertices" | "faces" | "blocks" | "blockSize" | "coefficients" | "attributes" | "attributeValues";
+type OfSequences = "frames" | "gopFrames" | "sequenceBytes" | "keptBytes";
+type OfStreams = "frameBytes" | "metadataBytes" | "memory" | "memoryPerByte" | "blockMemory" | "blockMemoryPerVertex";
 type Work = "work" | "workPerVertex" | "workPerByte";
 
 /**
@@ -27,7 +11,7 @@ type Work = "work" | "workPerVertex" | "workPerByte";
  * of all metadata, of the dictionaries of a sequence and of one of its GOPs, of frames that a geometry keeps, of a block's
  * dictionary while it is made (M 14.2), and of the whole decoder. Work is in nanoseconds of a processor core (M 14.3).
  */
-export type Limits = Record<Counts | Bytes | Work, number>;
+export type Limits = Record<OfMeshes | OfSequences | OfStreams | Work, number>;
 
 export const DEFAULT_LIMITS: Readonly<Limits> = { ...LIMITS, keptBytes: 2 ** 30, memory: 2 ** 31 };
 
