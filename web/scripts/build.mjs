@@ -151,7 +151,7 @@ function licenses(packages) {
 /** Path and content of everything that is built of TypeScript. */
 async function products() {
     const define = { LICENSES: JSON.stringify(licenses(BUNDLED)) };
-    const mangleProps = /^__/; // names that three.js uses for its private members
+    const mangleProps = /^_/; // names that three.js uses for its private members
     const script = (
         await smaller(
             await bundle(join(SOURCES, "viewer/viewer.ts"), {
