@@ -20,8 +20,8 @@ export interface Layer extends Inlined {
     pictures?: Picture[];
 }
 
-type Figure = "max_error" | "mean_error" | "range" | "max_angle_deg" | "mean_angle_deg";
-type AttributeErrors = Partial<Record<Figure, number | null>>;
+type ErrorFigure = "max_error" | "mean_error" | "range" | "max_angle_deg" | "mean_angle_deg";
+type AttributeErrors = Partial<Record<ErrorFigure, number | null>>;
 
 /** What is shown, as `bsm.viewer.page` lists it; `main` is the stream that arrives, the others are there at once. */
 export interface Content {

@@ -29,7 +29,7 @@ async function* piecesOf({ body }: Response): AsyncGenerator<Uint8Array> {
 }
 
 /** What the server says while it encodes. */
-type Message = { stage: string; share: number; error?: string; entry?: Content };
+type Telling = { stage: string; share: number; error?: string; entry?: Content };
 
 /** Have the server encode a file; it stops when its reader cancels. */
 const encode: Encode = async (files, preset, report, signal) => {
@@ -46,7 +46,7 @@ const encode: Encode = async (files, preset, report, signal) => {
     for await (const piece of piecesOf(await fetched(`upload?${query}`, { method: "POST", body, signal }))) {
         text += decoder.decode(piece, { stream: true });
         for (let end; (end = text.indexOf("\n")) >= 0; text = text.slice(end + 1)) {
-            const { stage, share, error, entry } = JSON.parse(text.slice(0, end)) as Message;
+            const { stage, share, error, entry } = JSON.parse(text.slice(0, end)) as Telling;
             if (error) throw new Error(error);
             if (entry) return entry;
             report(stage, share);
