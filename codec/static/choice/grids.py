@@ -145,6 +145,7 @@ class Gridded:
         self._prepared, self._shaper = prepared, bounds.measures.shaper
         self._worth, self.turn, self.spacing = worth, turn, spacing
         self.repeats = False  # whether a grid surely takes fewer bytes with congruent parts
+        self.stays = False  # whether vertices do not go to images then
         own = turned_by(prepared.mesh.positions, turn, back=True)
         self._positions = prepared.units.into(own) if any(turn) else prepared.positions
         low = box_around(own)[0]
@@ -239,6 +240,12 @@ class Gridded:
                 return made
         return first
 
+    def still(self) -> "Gridded":
+        """The same grids, but vertices stay where parts repeat: what moves may be seen."""
+        other = Gridded(self._prepared, self._bounds, turn=self.turn)
+        other.repeats, other.stays = self.repeats, True
+        return other
+
     def usual(self) -> Iterator[Trial]:
         """The trial with which the search for a look of 1 begins, if that is a stricter one and parts or spacings
         repeat: there, bytes hardly depend on steps, but on luck."""
@@ -259,7 +266,8 @@ class Gridded:
         @lru_cache
         def coded(repeats: bool) -> Draft:
             found = transforms_of(prepared, grid) if repeats else None
-            wanted = self._wanted(grid, places) if self.repeats and found is not None and len(found) else None
+            moves = self.repeats and not self.stays and found is not None and len(found) > 0
+            wanted = self._wanted(grid, places) if moves else None
             whole = replace(grid, transforms=found)
             return grid_draft(prepared, whole, places, may and not prepared.light, wanted)
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from bsm.bitstream.errors import LimitError, TargetError
+from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.static.choice.blocks import OnCells, OnVertices, Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Measures, Trial, trial_of
 from bsm.codec.static.choice.grids import Gridded, exact, paying, rounded
@@ -181,10 +182,20 @@ class Search:
             sizes[grid] = other
             if grid.repeats:  # few chosen places are images of others, and blocks take more bytes than a usual grid
                 other = max(other, math.log(usual.draft.size))
+                # What moves may be seen: then, a wider step may take fewer bytes, whose vertices stay.
+                if self._far(first, usual) and aim.error(first) > 2.0 * SLACK:
+                    ways = [*ways, still := grid.still()]
+                    begun[still] = still.at(grid.first)
+                    sizes[still] = aim.bytes(still, begun[still])
         if rows := [way for way in ways if isinstance(way, Gridded) and way.spacing]:
             begun[rows[0]] = rows[0].repeat(rows[0].at(rows[0].first))
             sizes.update(dict.fromkeys(rows, aim.bytes(rows[0], begun[rows[0]])))
         return [self._hopes(way, aim, begun.get(way, first), sizes.get(way, other), begun=way in begun) for way in ways]
+
+    def _far(self, moved: Trial, usual: Trial) -> bool:
+        """Whether vertices are much farther off where they went to images, and images bring less than a half."""
+        off, before = (squares_of(made.positions - self._prepared.positions).sum() for made in (moved, usual))
+        return moved.draft.size > 0.5 * usual.draft.size and bool(off > math.exp(2.0 * DOUBT) * before)
 
     def _hopes(self, way: Way, aim: Smallest, like: Trial, size: float | None = None, *, begun: bool) -> Hopes:
         """What to expect of a way of about this size at its first step, in logarithms, and else as of a trial."""

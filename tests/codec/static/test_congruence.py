@@ -239,6 +239,15 @@ def test_a_part_of_equal_sectors_costs_little_more_than_one(sectors):
         assert sizes[1] < 2.0 * sizes[0]
 
 
+def test_vertices_of_still_grids_do_not_go_to_images():
+    prepared = Encoder(copies(bumpy(1), np.array([about(2, 7), about(2, 5)])))._input.prepared
+    grid = Gridded(prepared, Bounds(Measures(prepared, 1), Contract(0.01, look=1.0)))
+    usual = grid.at(grid.first)
+    moved, still = grid.repeat(usual), grid.still().at(grid.first)
+    assert (still.positions == usual.positions).all() and (moved.positions != usual.positions).any()
+    assert moved.draft.size < still.draft.size < usual.draft.size and still.draft.header.transforms > 0
+
+
 def test_steps_divide_shifts_that_repeat():
     small = bumpy(2, 12, 9)
     row = copies(small, np.array([np.eye(3)] * 4), 7.77)
