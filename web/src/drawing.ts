@@ -90,14 +90,7 @@ export class Drawing {
             case "refinement":
                 return this.grow(event);
             case "attribute":
-                this.carried.push(event);
-                if (this.run > 0) return undefined;
-                return this.show({
-                    type: "attribute",
-                    name: event.name,
-                    semantic: event.semantic,
-                    domain: event.domain,
-                });
+                return this.carry(event);
             case "frame":
                 return this.addFrame(event);
             case "loss":
@@ -110,6 +103,12 @@ export class Drawing {
             default:
                 return this.show(event);
         }
+    }
+
+    private carry(event: EventOf<"attribute">): void {
+        const { type, name, semantic, domain } = event;
+        this.carried.push(event);
+        if (this.run === 0) this.show({ type, name, semantic, domain });
     }
 
     private startRun(event: EventOf<"header">): void {
@@ -204,18 +203,10 @@ export class Drawing {
             carried.length > 0 ? drawnFaces(faces, origin, carried) : bare(all.index);
         const positions = spread(all.positions, 3, vertices);
         const normals = own ?? spread(all.normals, 3, vertices);
-        const shape = (this.shape = {
-            index,
-            positions,
-            normals,
-            attributes,
-            vertices,
-            pieces,
-            ...this.memory.bounds(positions),
-        });
-        const buffers = [index, positions, normals, ...attributes.map(({ values }) => values)].map(
-            ({ buffer }) => buffer,
-        );
+        const bounds = this.memory.bounds(positions);
+        const shape = (this.shape = { index, positions, normals, attributes, vertices, pieces, ...bounds });
+        const arrays = [index, positions, normals, ...attributes.map(({ values }) => values)];
+        const buffers = arrays.map(({ buffer }) => buffer);
         if (this.run > 0) this.kept += buffers.reduce((sum, { byteLength }) => sum + byteLength, 0);
         const growth = this.growing ? { origin, blocks } : undefined;
         this.growing = false; // nothing is "grown" after the whole picture

@@ -13,14 +13,10 @@ export function drawnFaces(faces: Int32Array, origin: Int32Array, carried: Attri
         .map((_, face) => face)
         .filter((face) => [0, 1, 2].every((k) => origin[faces[3 * face + k]] >= 0));
     const ofFaces = carried.filter(({ domain, components }) => domain === "face" && components === 1);
-    const labels = LABELS.map((names) =>
-        names.map((known) => ofFaces.find(({ name }) => name === known)).find(Boolean),
-    );
-    const [part, material] = labels.map(
-        (attribute) =>
-            (face: number): number =>
-                attribute?.values[face] ?? 0,
-    );
+    const called = (known: string): Attribute | undefined => ofFaces.find(({ name }) => name === known);
+    const labels = LABELS.map((names) => names.map(called).find(Boolean));
+    const part = (face: number): number => labels[0]?.values[face] ?? 0;
+    const material = (face: number): number => labels[1]?.values[face] ?? 0;
     if (labels.some(Boolean)) whole.sort((a, b) => part(a) - part(b) || material(a) - material(b) || a - b);
     const pieces: Piece[] = [];
     let last: Piece | undefined;
@@ -31,33 +27,21 @@ export function drawnFaces(faces: Int32Array, origin: Int32Array, carried: Attri
     const drawn = carried.filter((attribute) => !labels.includes(attribute));
     const { index, vertices, rows } = parted(faces, whole, drawn, origin.length);
     const normal = drawn.find(({ semantic, domain }) => semantic === "normal" && domain !== "face");
-    const used = new Map([
-        ["position", 1],
-        ["normal", 1],
-    ]);
+    const used = new Map(["position", "normal"].map((name) => [name, 1]));
     const attributes = drawn.flatMap((attribute, i) => {
         if (attribute === normal) return [];
         const base = attribute.semantic === "generic" ? attribute.name : BASES[attribute.semantic];
         const count = used.get(base) ?? 0;
         used.set(base, count + 1);
-        return [
-            {
-                name: count ? `${base}${count}` : base,
-                source: attribute.name,
-                components: attribute.components,
-                values: numbersOf(attribute, rows[i]),
-            },
-        ];
+        const { name: source, components } = attribute;
+        return [{ name: `${base}${count || ""}`, source, components, values: numbersOf(attribute, rows[i]) }];
     });
     return { index, vertices, pieces, attributes, own: normal && numbersOf(normal, rows[drawn.indexOf(normal)]) };
 }
 
 /** The value of each corner of some faces that an attribute has; of faces, equal ones have the number of the first. */
-function valuesOf(
-    { domain, values, components, indices }: Attribute,
-    faces: Int32Array,
-    chosen: Int32Array,
-): Int32Array {
+function valuesOf(attribute: Attribute, faces: Int32Array, chosen: Int32Array): Int32Array {
+    const { domain, values, components, indices } = attribute;
     const numbers = new Int32Array(3 * chosen.length);
     const first = new Map<string, number>();
     chosen.forEach((face, i) => {
@@ -68,9 +52,8 @@ function valuesOf(
             first.set(key, ofFace);
         }
         for (let k = 0; k < 3; k++) {
-            const corner = 3 * face + k;
-            numbers[3 * i + k] =
-                domain === "face" ? ofFace : domain === "corner" ? (indices?.[corner] ?? 0) : faces[corner];
+            const ofCorner = domain === "corner" ? (indices?.[3 * face + k] ?? 0) : faces[3 * face + k];
+            numbers[3 * i + k] = domain === "face" ? ofFace : ofCorner;
         }
     });
     return numbers;
