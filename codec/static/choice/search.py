@@ -183,7 +183,8 @@ class Search:
             if grid.repeats:  # few chosen places are images of others, and blocks take more bytes than a usual grid
                 other = max(other, math.log(usual.draft.size))
                 # What moves may be seen: then, a wider step may take fewer bytes, whose vertices stay.
-                if self._far(first, usual) and aim.error(first) > 2.0 * SLACK:
+                patient = self._options.effort != "quick"
+                if patient and self._far(first, usual) and aim.error(first) > 2.0 * SLACK:
                     ways = [*ways, still := grid.still()]
                     begun[still] = still.at(grid.first)
                     sizes[still] = aim.bytes(still, begun[still])
