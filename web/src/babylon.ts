@@ -118,10 +118,14 @@ class BabylonBSMExtension implements glTF.IGLTFLoaderExtension {
         { extensions, byteLength, index }: glTF.IBufferView,
     ): Promise<ArrayBufferView> | null {
         const coded = extensions?.[EXTENSION] as Coded | undefined;
-        if (!coded) return null;
+        return coded ? this.decoded(context, coded, byteLength, index) : null;
+    }
+
+    /** An own function, since what it throws shall reject the promise. */
+    private async decoded(context: string, coded: Coded, byteLength: number, index: number): Promise<ArrayBufferView> {
         const from = this.viewOf(context, coded.stream);
         const made = this.streams.made(from, coded, byteLength, index, () => this.decode(context, from));
-        return made.then((bytes) => new Uint8Array(bytes));
+        return new Uint8Array(await made);
     }
 
     private viewOf(context: string, stream: number): glTF.IBufferView {
