@@ -241,7 +241,7 @@ class Gridded:
         return first
 
     def still(self) -> "Gridded":
-        """The same grids, but vertices stay where parts repeat: what moves may be seen."""
+        """These grids with vertices that stay where parts repeat, because what moves may be seen."""
         other = Gridded(self._prepared, self._bounds, turn=self.turn)
         other.repeats, other.stays = self.repeats, True
         return other
