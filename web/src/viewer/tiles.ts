@@ -111,7 +111,7 @@ export class TileSet {
         const response = await fetch(`${url}/manifest.json`);
         if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
         const manifest = (await response.json()) as Manifest;
-        void pool.preload(Object.keys(manifest.attributes ?? {}).length > 0 ? "whole" : "small").catch(() => {}); // who decodes says it
+        void pool.preload(Object.keys(manifest.attributes ?? {}).length > 0 ? "whole" : "grid").catch(() => {}); // who decodes says it
         const nodes = new Map<string, Tile>();
         for (const { file, size, index, sha256 } of manifest.shards) {
             const at = `${url}/${file}`;
