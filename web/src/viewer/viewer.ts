@@ -86,9 +86,9 @@ async function fillPage(list: HTMLElement): Promise<void> {
         const mine = view.begin();
         const content = contents[index];
         try {
+            if (content.tiles !== undefined) return await view.openTiles(content, index);
             await pool.preload().catch(() => {}); // so that only decoding is timed; errors come from the decoder
             if (!mine()) return;
-            if (content.tiles !== undefined) return await view.openTiles(content, index);
             const layer = content.layers[content.main];
             const pieces = layer.url === undefined ? [await bytesOf(layer)] : piecesOf(await fetched(layer.url));
             if (mine()) view.open(content, index);
