@@ -106,13 +106,11 @@ def _processes(count: int) -> Iterator[Pool]:
     try:
         yield pool, lambda: count, BrokenProcessPool
     except BaseException:
-        # The list is private, but shutdown() would wait for jobs that run, for minutes perhaps.
-        alive = list((pool._processes or {}).values())
-        pool.shutdown(wait=False, cancel_futures=True)
-        for process in alive:
+        # The list is private, but shutdown() would wait for jobs that run, for minutes perhaps. Without waiting for it,
+        # a thread of the pool may close while the interpreter ends, which prints a traceback.
+        for process in list((pool._processes or {}).values()):
             process.terminate()
-        for process in alive:
-            process.join()
+        pool.shutdown(cancel_futures=True)
         raise
     pool.shutdown()
 
