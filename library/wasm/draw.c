@@ -19,10 +19,10 @@ void page_move(const double *rows, int count, const int32_t *chosen, int first, 
     }
 }
 
-/* List the vertices that are to be drawn anew by their news, behind the number of corners of faces that are whole now.
- * These corners come to the front of `faces`, and what the listed vertices are to that of the other arrays: `places`,
- * and normals `n`, sums of those of faces, as long as twice their areas. A face is there when all its corners have an
- * origin, which is 0 or more. */
+/* Find the faces that became whole, and the vertices to draw again. A face is whole when each of its corners has an
+ * origin (0 or more). The corners of faces that became whole move to the front of `faces`; list[0] is their number.
+ * Vertices that came or moved, or share a whole face with one that did, follow in `list`. Their origins, places and
+ * unit normals (of their whole faces, weighted by area) move to the front of `origin`, `places` and `n`. */
 int page_grow(int32_t *faces, int corners, int32_t *origin, const double *p, float *places, int vertices,
     uint8_t *news, int32_t *list, float *n) {
     int32_t *whole = faces;

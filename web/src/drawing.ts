@@ -162,7 +162,7 @@ export class Drawing {
         if (performance.now() > this.due) this.flush();
     }
 
-    /** Move the vertices that have come; what has happened to each. */
+    /** Move the vertices that have arrived, and return for each whether it is new or has moved. */
     private settle(): Uint8Array {
         return this.memory.moved(this.points, this.origin, this.moves.splice(0));
     }

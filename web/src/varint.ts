@@ -2,7 +2,7 @@
 import { MAX_VARINT_BYTES } from "./constants.json";
 import { CorruptError } from "./errors";
 
-/** Throw an error where something does not hold. It has no text: what is wrong, the decoder of everything says. */
+/** Throw an error if `isSo` is false. It has no text, since the full decoder then says what is wrong. */
 export function demand(isSo: boolean): asserts isSo {
     if (!isSo) throw new CorruptError("");
 }

@@ -74,7 +74,7 @@ async function ranged(url: string, offset: number, size: number, sum: string): P
     const bytes = new Uint8Array(await response.arrayBuffer());
     const digest = new Uint8Array(await crypto.subtle.digest("SHA-256", bytes));
     const found = Array.from(digest, (byte) => byte.toString(16).padStart(2, "0")).join("");
-    if (found !== sum) throw new Error(`${url}: bytes from ${offset} on are not what was written`);
+    if (found !== sum) throw new Error(`${url}: bytes from ${offset} on differ from those that bsm tile wrote`);
     return bytes;
 }
 
