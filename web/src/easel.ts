@@ -29,8 +29,11 @@ export function hang(picture: Pictured): void {
         renderer = new WebGLRenderer({ antialias: true, alpha: true });
         renderer.setScissorTest(true);
         const { domElement } = renderer;
-        domElement.addEventListener("webglcontextlost", () => pictured.forEach((each) => each.lose(true)));
-        domElement.addEventListener("webglcontextrestored", () => pictured.forEach((each) => each.lose(false)));
+        const tell = (isLost: boolean): void => {
+            if (renderer?.domElement === domElement) pictured.forEach((each) => each.lose(isLost)); // not that of players before
+        };
+        domElement.addEventListener("webglcontextlost", () => tell(true));
+        domElement.addEventListener("webglcontextrestored", () => tell(false));
         before = performance.now();
         renderer.setAnimationLoop(drawAll);
     }

@@ -32,6 +32,7 @@ p { position: absolute; inset: auto 0 45% 0; margin: 0; padding: 0 1em; text-ali
 /** What a sequence says, and the element says again. */
 const PASSED = ["play", "pause", "frame", "loop", "ended", "waiting"] as const;
 const LABEL = "A mesh in three dimensions. Arrow keys turn it, plus and minus zoom.";
+const LOST = "The graphics card has dropped this picture (WebGL context lost).";
 const TAP = 6; // pixels that a finger may move while it taps
 /** How far outside of the window a player is drawn already. */
 const NEAR = "20%";
@@ -65,6 +66,8 @@ export class BSMPlayer extends Base {
     /** What the mesh fills, of a sequence in all of `fitted` frames. */
     private ball = new Sphere(new Vector3(), 1);
     private fitted = 0;
+    /** Whether `play` or `pause` was called last; undefined: neither was. */
+    private asked?: boolean;
     /** Whether the reader has moved the camera. */
     private touched = false;
     private orbit?: OrbitControls;
@@ -87,8 +90,21 @@ export class BSMPlayer extends Base {
         this.setAttribute("rate", `${rate}`);
     }
 
+    get playbackRate(): number {
+        return this.rate;
+    }
+
+    set playbackRate(rate: number) {
+        this.rate = rate;
+    }
+
     get paused(): boolean {
-        return !this.sequence?.playing;
+        return this.sequence ? !this.sequence.playing : !this.asked || this.content !== undefined;
+    }
+
+    get ended(): boolean {
+        const { sequence } = this;
+        return !!sequence?.complete && !sequence.loop && this.paused && sequence.frame === sequence.length - 1;
     }
 
     /** Seconds; 0 of what does not move. */
@@ -104,11 +120,14 @@ export class BSMPlayer extends Base {
         this.sequence?.seek(seconds * this.sequence.rate);
     }
 
+    /** Play, or as soon as the first frame is there. */
     play(): void {
+        this.asked = true;
         this.sequence?.play();
     }
 
     pause(): void {
+        this.asked = false;
         this.sequence?.pause();
     }
 
@@ -159,7 +178,10 @@ export class BSMPlayer extends Base {
     }
 
     attributeChangedCallback(name: string): void {
-        if (name === "src") this.open();
+        if (name === "src") {
+            this.asked = undefined;
+            this.open();
+        }
         if (name === "poster") this.hold();
         if (name === "controls" || name === "disable-zoom") this.steer();
         if (this.sequence) [this.sequence.loop, this.sequence.speed] = [this.loop, this.rate];
@@ -172,8 +194,8 @@ export class BSMPlayer extends Base {
 
     /** Say that nothing can be drawn for a while, or no longer that. */
     lose(isLost: boolean): void {
-        if (isLost) return this.fail(new Error("The graphics card has dropped this picture (WebGL context lost)."));
-        this.note.textContent = "";
+        if (isLost) return this.fail(new Error(LOST));
+        if (this.note.textContent === LOST) this.note.textContent = "";
         this.redraw();
     }
 
@@ -281,7 +303,7 @@ export class BSMPlayer extends Base {
         [sequence.loop, sequence.speed] = [this.loop, this.rate];
         for (const type of PASSED) sequence.addEventListener(type, (event) => this.say(type, event));
         sequence.addEventListener("frame", () => this.say("timeupdate"));
-        if (this.autoplay && !this.isCalm) sequence.play();
+        if (this.asked ?? (this.autoplay && !this.isCalm)) sequence.play();
         this.steer();
     }
 

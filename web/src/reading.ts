@@ -19,8 +19,9 @@ import { meshOf } from "./content";
 import type { MeshInput } from "./encoding";
 import { readObj } from "./files/obj";
 import { readPly } from "./files/ply";
-import { meshOfPolygons, type Polygons } from "./files/polygons";
+import { meshOfPolygons } from "./files/polygons";
 import { readStl } from "./files/stl";
+import { unmarked } from "./files/text";
 import type { Pool } from "./pool";
 import { isPosed, posesOf } from "./poses";
 import { EXTENSION } from "./views";
@@ -39,7 +40,11 @@ export interface Reading {
 /** The threads that decode streams in scenes; without one, those of the package. */
 export type SceneDecoding = { pool?: Pool };
 
-const READERS: Record<string, (bytes: ArrayBuffer) => Polygons> = { obj: readObj, ply: readPly, stl: readStl };
+const READERS = new Map([
+    ["obj", readObj],
+    ["ply", readPly],
+    ["stl", readStl],
+]);
 const NAMES: Record<string, string> = { normal: "normal", uv: "texcoord", color: "color" };
 const MATERIALS = "colors and textures of materials";
 const IMAGE = /^image\.\d+\.name$/;
@@ -142,9 +147,10 @@ function drawnOf(root: Object3D, lost: Set<string>): Group {
 export async function readMesh(given: Given, beside: Given[] = [], decoding: SceneDecoding = {}): Promise<Reading> {
     const [suffix, used, lost] = [suffixOf(given), [given.name], new Set<string>()];
     const bytes = await given.arrayBuffer();
-    const reader = READERS[suffix];
+    if (bytes.byteLength === 0) throw new Error("the file is empty");
+    const reader = READERS.get(suffix);
     if (reader) {
-        const { mesh, notes, dropped } = meshOfPolygons(reader(bytes));
+        const { mesh, notes, dropped } = meshOfPolygons(reader(unmarked(new Uint8Array(bytes))));
         const { metadata = {} } = mesh;
         const isThere = (name: string): boolean => beside.some((file) => `/${file.name}`.endsWith(`/${name}`));
         const libraries = metadata.mtllib ? String(metadata.mtllib).split("\n").filter(Boolean) : [];

@@ -3,6 +3,8 @@ import { EventDispatcher, Mesh, type Material } from "three";
 import type { BSMGeometry } from "./geometry";
 import { Playback } from "./playback";
 
+const ROUNDED = 1e-6; // frames by which a time in seconds may be off
+
 /**
  * `frame`: another one is shown; `loop`: it begins again; `ended`: the last frame was shown, and it does not begin again;
  * `waiting`: frames come more slowly than they are shown; `error`: the rest of the stream cannot be decoded, the frames before
@@ -75,9 +77,10 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
         return this;
     }
 
-    /** Show a frame, or the last of those that are there. */
+    /** Show a frame, or the last of those that are there; `rate` times its time may be a little less than its number. */
     seek(frame: number): this {
-        this.playback.seek(Math.min(Math.max(0, Math.floor(frame)), this.geometry.frames.length - 1));
+        const whole = Math.floor(frame + ROUNDED) || 0;
+        this.playback.seek(Math.min(Math.max(0, whole), this.geometry.frames.length - 1));
         this.show(this.playback.frame);
         return this;
     }

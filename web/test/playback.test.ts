@@ -1,7 +1,9 @@
 /** Which frame of a sequence is shown when. */
 import assert from "node:assert/strict";
 import test from "node:test";
+import type { BSMGeometry } from "../src/geometry";
 import { Playback } from "../src/playback";
+import { BSMSequence } from "../src/sequences";
 
 /** Frames that are shown in 120 pictures of a screen of 60 Hz, whose clock is a tenth of a millisecond off. */
 function shown(rate: number): number[] {
@@ -29,3 +31,18 @@ for (const rate of [60, 30, 20, 120]) {
         );
     });
 }
+
+for (const rate of [24, 25, 30000 / 1001, 30, 60])
+    test(`seeking to the time of a frame shows it, of ${rate} a second`, () => {
+        const geometry = {
+            frameRate: rate,
+            frames: Array(1000),
+            shown: -1,
+            showFrame: (i: number) => (geometry.shown = i),
+        };
+        const sequence = new BSMSequence(geometry as unknown as BSMGeometry);
+        for (let frame = 0; frame < 1000; frame++) assert.equal(sequence.seek((frame / rate) * rate).frame, frame);
+        assert.equal(sequence.seek(7.9).frame, 7);
+        assert.equal(sequence.seek(NaN).frame, 0);
+        assert.equal(sequence.seek(Infinity).frame, 999);
+    });

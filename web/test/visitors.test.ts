@@ -172,6 +172,24 @@ describe("visitors", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM
         await page.context().close();
     });
 
+    test("see a player that a page moves, and that was told to play before it had anything", async () => {
+        const page = await playing({}, 'style="height: 300px"');
+        const found = await page.evaluate(async () => {
+            const errors: string[] = [];
+            const player = document.querySelector("bsm-player")!;
+            player.addEventListener("error", ({ message }) => errors.push(message));
+            const again = new Promise((go) => player.addEventListener("load", go));
+            document.body.appendChild(document.createElement("div")).append(player); // a context is lost, and another one made
+            player.play();
+            await again;
+            await new Promise((go) => setTimeout(go, 500));
+            return errors;
+        });
+        assert.deepEqual(found, []);
+        await page.waitForFunction(() => document.querySelector("bsm-player")!.ended);
+        await page.context().close();
+    });
+
     test("see no motion that they did not ask for, and can start it", async () => {
         const page = await playing({ reducedMotion: "reduce" }, 'autoplay loop style="height: 300px"');
         assert.equal(await page.evaluate(() => document.querySelector("bsm-player")!.paused), true);

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from bsm import BsmError
+from bsm.files.formats import stl
 from bsm.files.mesh import read_mesh, written_mesh
 from tests.shapes import ply_head, tetrahedron, torus
 
@@ -69,7 +70,7 @@ def by_javascript(paths):
         ["node", Path(__file__).with_name("reading.mjs"), WEB, *paths], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
-    found = [json.loads(line) for line in done.stdout.splitlines()]
+    found = [json.loads(line) for line in done.stdout.rstrip("\n").split("\n")]  # names may have other breaks
     for each in found:
         if "error" not in each:
             each["notes"] = sorted(note for note in each["notes"] if not ABOUT_FILES.search(note))
@@ -129,6 +130,10 @@ TEXTS = {
     "empty corner": CORNERS + "vt 0 0\nf 1/ 2/1 3/1\n",
     "no faces": CORNERS,
     "values outside": CORNERS + "vt 0 0\nf 1/1 2/2 3/1\n",
+    "wide blank": "v 0 0 0\nv 1\u00a00 0\nv 0 1 0\nf 1 2 3\n",
+    "wide blanks in names": CORNERS + "usemtl a\u00a0b\nf 1 2 3\nusemtl c\u3000\u2028\x85\nf 1 3 4\n",
+    "words of objects": CORNERS + "constructor a\n__proto__ b\nf 1 2 3\n",
+    "hole": "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 3 0\nv 3 3 0\nv 3 1 0\nf 1 2 3 4 1 5 6 7 8 5\n",
     "latin": "g \u00e9t\u00e9\n" + CORNERS + "f 1 2 3\n",
 }
 
@@ -136,6 +141,7 @@ TEXTS = {
 def test_texts(tmp_path):
     files = {f"{name.replace(' ', '_')}.obj": text for name, text in TEXTS.items()}
     files["latin1.obj"] = TEXTS["latin"].encode("latin-1")
+    files["two codes.obj"] = b"# caf\xe9 \x80\n" + f"{CORNERS}g \u00e9\nf 1 2 3\n".encode()
     files["mark.obj"] = TEXTS["latin"].encode("utf-8-sig")
     files["wide.obj"] = TEXTS["latin"].encode("utf-16")
     assert require_same(written(tmp_path, files)) > 20
@@ -187,6 +193,15 @@ def plys():
         body += struct.pack(f"{kind}H3I", 3, 0, 1, 2) + struct.pack(f"{kind}H4I", 4, 0, 1, 2, 3)
         yield f"{kind == '<'}", head.encode() + body
         yield f"cut_{kind == '<'}", head.encode() + body[:-5]
+    yield "marked", "\ufeff" + ply_head(3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+    yield "unknown", ply_head(3, 1).replace("float x", "toString x") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+    more = "property float constructor\nproperty float __proto__\n"
+    yield "objects", ply_head(3, 1, more=more) + "0 0 0 1 2\n1 0 0 3 4\n0 1 0 5 6\n3 0 1 2\n"
+    for number in ("7", "-7", "4000000000", "9007199254740993"):
+        yield (
+            f"long{number}",
+            ply_head(3, 1, more="property int64 id\n") + f"0 0 0 {number}\n1 0 0 1\n0 1 0 2\n3 0 1 2\n",
+        )
     yield "mac", (ply_head(3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").replace("\n", "\r")
     yield "windows", (ply_head(3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").replace("\n", "\r\n")
 
@@ -195,10 +210,24 @@ def test_plys(tmp_path):
     assert require_same(written(tmp_path, {f"{name}.ply": data for name, data in plys()})) > 10
 
 
+def records(triangles, head=b""):
+    facets = np.zeros(len(triangles), stl.RECORD)
+    facets["corners"] = triangles
+    return head.ljust(80, b"\0") + len(facets).to_bytes(4, "little") + facets.tobytes()
+
+
 def test_stls(tmp_path):
+    random = np.random.default_rng(3)
     facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 {}\nendloop\nendfacet\n"
     two = f"solid a\n{facet.format(0)}endsolid a\nsolid b c\n{facet.format(-0.0)}{facet.format(2)}endsolid\n"
     binary = written_mesh(torus(), "stl").data
+    cube = np.array([[int(bit) for bit in f"{i:03b}"] for i in range(8)])
+    sides = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+    body = cube[sides[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)]
+    bodies = [body + place for place in ((0, 0, 0), (1, 0, 0), (1, 1, 1), (2, 1, 0), (0, 0, 0))]
+    parts = [np.add(body[:7], (0, 3, 0)), np.add(body[3:], (1, 3, 0))]  # that are open
+    touching = np.concatenate([*bodies, *parts])
+    random.shuffle(touching)
     colored = bytearray(binary)
     colored[84 + 48] = 7
     files = {
@@ -207,6 +236,12 @@ def test_stls(tmp_path):
         "upper": two.upper(),
         "cut": two[:-80],
         "lines": two.replace("\n", " ").replace("solid a", "solid a\n"),
+        "touching": records(touching),
+        "remarks": "; by me\n" + two.replace("facet n", "color 1 0 0\nfacet n"),
+        "late": "# " + 2000 * "x" + "\n" + two,
+        "wide": two.encode("utf-16"),
+        "marked": two.encode("utf-8-sig"),
+        "code": records(body, b"caf\xe9 \x80"),
         "binary": binary,
         "colored": bytes(colored),
         "more": binary + b"1234567",

@@ -1,6 +1,6 @@
 /** OBJ: lines of text, each with a keyword. */
 import { colorColumn, compact, grouped, PLURALS, polygonNormal, type Column, type Polygons } from "./polygons";
-import { metadataIn, numberIn, Rows, textOf, wordsOf } from "./text";
+import { metadataIn, numberIn, Rows, textOf, trimmed, wordsOf } from "./text";
 
 /** The attribute of faces after a keyword. */
 const STATES: Record<string, string> = { usemtl: "material", g: "group", o: "object", s: "smoothing" };
@@ -21,7 +21,7 @@ function cornerOf(word: string, corner: number): number[] {
 }
 
 /** Read an OBJ; a library of materials that it names is not read. */
-export function readObj(bytes: ArrayBuffer): Polygons {
+export function readObj(bytes: Uint8Array): Polygons {
     const text = textOf(bytes);
     if (text.includes("\0")) throw new Error("this is not an OBJ file: it holds binary data");
     const joined = text.replace(/^([ \t]*#[^\r\n]*)|\\[ \t]*\r?\n/gm, (_, comment: string) => comment ?? " ");
@@ -31,7 +31,7 @@ export function readObj(bytes: ArrayBuffer): Polygons {
     const [sizes, unread, libraries] = [[] as number[], new Set<string>(), new Set<string>()];
     const written = { v: [] as number[], vt: [] as number[], vn: [] as number[] }; // of each corner, from 0 on; NaN: none
     for (const line of joined.split(/\r\n|\r|\n/)) {
-        const [keyword = ""] = /\S+/.exec(line) ?? [];
+        const [keyword = ""] = /[^ \t-\r]+/.exec(line) ?? [];
         if (keyword === "" || keyword.startsWith("#")) continue;
         const rest = line.slice(line.indexOf(keyword) + keyword.length);
         if (keyword === "v" || keyword === "vt" || keyword === "vn") rows[keyword].add(wordsOf(rest.split("#", 1)[0]));
@@ -45,8 +45,8 @@ export function readObj(bytes: ArrayBuffer): Polygons {
                     written[which].push(number > 0 ? number - 1 : number < 0 ? number + present : NaN);
                 });
             for (const state of Object.keys(STATES)) ofFace[state].push(names[state].length - 1);
-        } else if (keyword in STATES) names[keyword].push(rest.trim());
-        else if (keyword === "mtllib") libraries.add(rest.trim());
+        } else if (Object.hasOwn(STATES, keyword)) names[keyword].push(trimmed(rest));
+        else if (keyword === "mtllib") libraries.add(trimmed(rest));
         else unread.add(keyword);
     }
     const [[fewest, most], { v: corners }, dropped] = [rows.v.range, written, [] as string[]];
@@ -78,7 +78,7 @@ export function readObj(bytes: ArrayBuffer): Polygons {
 /** Metadata in comments: what `bsm` wrote, and the text ahead of the first line of data. */
 function commentsOf(text: string, dropped: string[]): Polygons["metadata"] {
     const begin = /^[ \t]*[^#\s]/m.exec(text)?.index ?? Infinity;
-    const lines = Array.from(text.matchAll(/^#([^\r\n]*)/gm), ({ index, 1: line }) => ({ index, line: line.trim() }));
+    const lines = Array.from(text.matchAll(/^#([^\r\n]*)/gm), ({ index, 1: line }) => ({ index, line: trimmed(line) }));
     const others = lines.filter(({ line }) => line !== "" && !/^(meta|MRGB) /.test(line));
     const ahead = others.flatMap(({ index, line }) => (index < begin ? line : [])).join("\n");
     const behind = text.match(/^[ \t]*(?:v[nt]?|f)[ \t][^\r\n#]*#/gm) ?? []; // numbers
@@ -115,7 +115,7 @@ function ofCorners(
     });
     if (name === "texcoord") all.push(...new Array<number>(width).fill(0));
     notes.push(
-        `corners without ${PLURALS[name]} were given ${name === "normal" ? "those of their faces" : "zeros"}: ${lacking}`,
+        `corners without ${PLURALS.get(name)} were given ${name === "normal" ? "those of their faces" : "zeros"}: ${lacking}`,
     );
     return { ...column, values: compact(Float64Array.from(all), width), indices };
 }

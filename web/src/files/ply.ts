@@ -1,6 +1,6 @@
 /** PLY: a header that declares elements and their properties, then the elements, binary or as text. */
 import { colorColumn, meaningOf, PLURALS, type Column, type Polygons, type ColumnValues } from "./polygons";
-import { metadataIn, Rows, textOf, wordsOf } from "./text";
+import { latinOf, metadataIn, Rows, textOf, trimmed, wordsOf } from "./text";
 
 /** Numbers by the names of the methods by which a DataView reads them: their arrays, and what headers call them. */
 const KINDS = {
@@ -12,13 +12,13 @@ const KINDS = {
     Uint32: [Uint32Array, "uint32", "uint"],
     Float32: [Float32Array, "float32", "float"],
     Float64: [Float64Array, "float64", "double"],
-    BigInt64: [Float64Array, "int64", "long"],
-    BigUint64: [Float64Array, "uint64", "ulong"],
+    BigInt64: [Int32Array, "int64", "long"],
+    BigUint64: [Uint32Array, "uint64", "ulong"],
 } as const;
 type NumberKind = keyof typeof KINDS;
 type Read = (this: DataView, at: number, little: boolean) => number | bigint;
-const TYPES: Record<string, NumberKind> = Object.fromEntries(
-    Object.entries(KINDS).flatMap(([kind, [, ...names]]) => names.map((name) => [name, kind as NumberKind])),
+const TYPES = new Map(
+    Object.entries(KINDS).flatMap(([kind, [, ...names]]) => names.map((name) => [name as string, kind as NumberKind])),
 );
 const ORDERS = ["ascii", "binary_little_endian", "binary_big_endian"];
 /** Properties that are one value together, the first of a meaning and a width. */
@@ -33,7 +33,7 @@ const GROUPS: [meaning: "normal" | "color" | "texcoord", names: string[]][] = [
     ["texcoord", ["texture_u", "texture_v"]],
     ["texcoord", ["texture_s", "texture_t"]],
 ];
-const NAMES: Record<string, string> = { texnumber: "material", material_index: "material" };
+const MATERIAL = ["texnumber", "material_index"];
 const MOST_COMPONENTS = 4;
 const MOST_HEADER = 2 ** 20;
 
@@ -64,7 +64,7 @@ interface PlyHeader {
 }
 
 function headerOf(bytes: Uint8Array): PlyHeader {
-    const head = new TextDecoder("latin1").decode(bytes.subarray(0, MOST_HEADER));
+    const head = latinOf(bytes.subarray(0, MOST_HEADER));
     const begin = /^ply[ \t]*[\r\n]/.exec(head);
     if (!begin) throw new Error("this is not a PLY file: it does not begin with ply");
     const end = /[\r\n][ \t]*end_header[ \t]*(?:\r?\n|\r|$)/.exec(head);
@@ -83,18 +83,15 @@ function headerOf(bytes: Uint8Array): PlyHeader {
         else if (keyword === "element" && words.length === 2 && /^\d{1,18}$/.test(words[1]))
             elements.push({ name: words[0], count: Number(words[1]), properties: [] });
         else if (keyword === "property") {
-            const [name = "", type, length] = words.toReversed();
+            const [name, ...kinds] = words.toReversed();
             const isList = words[0] === "list";
-            if (words.length !== (isList ? 4 : 2) || !TYPES[type] || (isList && !TYPES[length]) || !elements.length)
-                wrong();
-            elements.at(-1)!.properties.push({ name, type: TYPES[type], length: isList ? TYPES[length] : undefined });
+            const [type, length] = kinds.slice(0, isList ? 2 : 1).map((kind) => TYPES.get(kind) ?? wrong());
+            if (words.length !== (isList ? 4 : 2) || !elements.length) wrong();
+            elements.at(-1)!.properties.push({ name, type, length });
         } else if (keyword === "element") wrong();
         else if (keyword !== "") {
             const isOwn = keyword === "comment" || keyword === "obj_info";
-            comments.push([
-                isOwn ? keyword : "comment",
-                isOwn ? line.trim().slice(keyword.length).trim() : line.trim(),
-            ]);
+            comments.push([isOwn ? keyword : "comment", trimmed(isOwn ? trimmed(line).slice(keyword.length) : line)]);
         }
     }
     if (order === "") throw new Error("the PLY header names no format, or too many elements");
@@ -104,7 +101,7 @@ function headerOf(bytes: Uint8Array): PlyHeader {
 /** The metadata in comments; images are those of materials. */
 function metadataOf(comments: PlyHeader["comments"]): Polygons["metadata"] {
     const isImage = (text: string): boolean => text.startsWith("TextureFile ");
-    const images = comments.filter(([, text]) => isImage(text)).map(([, text]) => text.slice(12).trim());
+    const images = comments.filter(([, text]) => isImage(text)).map(([, text]) => trimmed(text.slice(12)));
     const found = metadataIn(comments.map(([, text]) => text));
     for (const kind of ["comment", "obj_info"]) {
         const own = comments.filter(([each, text]) => each === kind && text && !isImage(text));
@@ -194,13 +191,13 @@ function tablesOf({ elements, order, size }: PlyHeader, bytes: Uint8Array): Map<
 
 /** Numbers in the type that the header declares, if they fit into it, as those of a text may not. */
 function typed(values: number[], type: NumberKind): ColumnValues {
-    const made: ColumnValues = KINDS[type][0].from(values);
+    const isWide = type === "BigInt64" && values.some((value) => value >= 2 ** 31);
+    const made: ColumnValues = (isWide ? Uint32Array : KINDS[type][0]).from(values);
     return type.startsWith("F") || values.every((value, i) => made[i] === value) ? made : Float64Array.from(values);
 }
 
 /** Read a PLY with points and faces, of any byte order, and whatever numbers they have. */
-export function readPly(data: ArrayBuffer): Polygons {
-    const bytes = new Uint8Array(data);
+export function readPly(bytes: Uint8Array): Polygons {
     const header = headerOf(bytes);
     const names = header.elements.map(({ name }) => name);
     if (names.includes("tristrips"))
@@ -279,7 +276,14 @@ function columnsOf({ properties }: PlyElement, tables: ReadProperty[], domain: "
         const isRun = name.endsWith("_0") && run.length >= 2 && run.length <= MOST_COMPONENTS;
         const own = isRun ? run : [name];
         const called = isRun ? stem : name;
-        columns.push({ name: NAMES[called] ?? called, values: take(own), components: own.length, domain });
+        const isLong = typeOf(name).startsWith("Big");
+        const values = take(own);
+        const fault =
+            isLong && values instanceof Float64Array && values.every(Number.isInteger)
+                ? "do not fit into 32 bits"
+                : undefined;
+        const known = MATERIAL.includes(called) ? "material" : called;
+        columns.push({ name: known, values, components: own.length, domain, fault });
     }
     return columns;
 }
@@ -309,7 +313,7 @@ function wedgesOf(
             to += width * size;
         });
         const lacking = present.filter((is) => !is).length;
-        if (lacking > 0) notes.push(`faces without ${PLURALS[name] ?? name} were given zeros: ${lacking}`);
+        if (lacking > 0) notes.push(`faces without ${PLURALS.get(name) ?? name} were given zeros: ${lacking}`);
         return [{ name, values: rows, components: width, domain: "corner", semantic: meaningOf(name, width) }];
     });
 }

@@ -22,6 +22,8 @@ export interface Column {
     semantic?: AttributeInput["semantic"];
     /** Which value each corner has; undefined: corner i has value i. */
     indices?: ArrayLike<number>;
+    /** Why it cannot be an attribute. */
+    fault?: string;
 }
 
 /** The points of a file in full precision, and its polygons over them. */
@@ -37,7 +39,11 @@ export interface Polygons {
 
 export type PlainMesh = MeshInput & { positions: Float32Array | Float64Array; faces: Uint32Array };
 
-export const PLURALS: Record<string, string> = { color: "colors", normal: "normals", texcoord: "texture coordinates" };
+export const PLURALS = new Map([
+    ["color", "colors"],
+    ["normal", "normals"],
+    ["texcoord", "texture coordinates"],
+]);
 const MOST_TURNS = 16; // fans that are tried for a polygon
 const MOST_CORNERS = 2 ** 15; // of a polygon whose ears are clipped: that can take the square of it
 const SINGLE = 1e-6; // of its range, by which single precision may move a value
@@ -73,7 +79,7 @@ export function meshOfPolygons(polygons: Polygons): { mesh: PlainMesh; notes: st
         const name = unusedName(column.name, domain, new Set(attributes.map((each) => each.name)));
         const wrong = faultOf(column, rows, places);
         if (wrong) {
-            refused.push([PLURALS[column.name] ?? column.name, wrong]);
+            refused.push([PLURALS.get(column.name) ?? column.name, wrong]);
             continue;
         }
         const own = domain === "face" ? picked(values, components, owners) : values;
@@ -93,11 +99,12 @@ export function meshOfPolygons(polygons: Polygons): { mesh: PlainMesh; notes: st
 
 /** Why a column cannot be an attribute of triangles whose corners are those at some places; undefined: it can. */
 function faultOf(
-    { name, components, domain, indices, values }: Column,
+    { name, components, domain, fault, indices, values }: Column,
     rows: { vertex: number; face: number },
     places: Uint32Array,
 ): string | undefined {
     const there = values.length / components;
+    if (fault) return `the values of the attribute '${name}' ${fault}`;
     if (Array.prototype.some.call(values, (value: number) => !Number.isFinite(value)))
         return `a value of the attribute '${name}' is not finite`;
     if (domain !== "corner")
@@ -114,7 +121,7 @@ function withoutInfinite(column: Column, notes: string[]): Column {
     const { name, values } = column;
     const lost = values instanceof Float32Array || values instanceof Float64Array ? countOf(values) : 0;
     if (lost === 0 || lost === values.length) return column;
-    notes.push(`values of ${PLURALS[name] ?? name} that are not finite were set to zero: ${lost}`);
+    notes.push(`values of ${PLURALS.get(name) ?? name} that are not finite were set to zero: ${lost}`);
     const kept = (values as Float64Array).map((value) => (Number.isFinite(value) ? value : 0));
     return { ...column, values: kept };
 }

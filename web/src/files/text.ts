@@ -3,15 +3,15 @@
 const WORD = /^[+-]?(?:nan|inf(?:inity)?|(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)$/i;
 const NUMBERS = { nan: NaN, inf: Infinity, infinity: Infinity };
 
+/** A text without blanks around it; other spaces than those of ASCII belong to names. */
+export const trimmed = (text: string): string => text.replace(/^[ \t-\r]+|[ \t-\r]+$/g, "");
+
 /** The words of a line. */
-export function wordsOf(line: string): string[] {
-    const found = line.trim();
-    return found === "" ? [] : found.split(/\s+/);
-}
+export const wordsOf = (line: string): string[] => line.match(/[^ \t-\r]+/g) ?? [];
 
 function numberOf(word: string): number | undefined {
     const number = Number(word);
-    if (number - number === 0 && (word.length < 3 || !/[xob]/i.test(word))) return number;
+    if (number - number === 0 && !/[^\d.e+-]/i.test(word)) return number;
     if (!WORD.test(word)) return undefined;
     const sign = word.startsWith("-") ? -1 : 1;
     const named = NUMBERS[word.replace(/^[+-]/, "").toLowerCase() as keyof typeof NUMBERS] as number | undefined;
@@ -26,15 +26,32 @@ export function numberIn(word: string, what: string): number {
     throw new Error(`${what} is not made of numbers: ${fault}`);
 }
 
-/** Text in UTF-8 or, after its mark, UTF-16; else in Latin-1, which any bytes are. */
-export function textOf(bytes: ArrayBuffer | Uint8Array): string {
-    const [first, second] = bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes);
-    if (first + second === 0x1fd) return new TextDecoder(first === 0xff ? "utf-16le" : "utf-16be").decode(bytes);
+/** Text in Latin-1, which any bytes are; what browsers call so is another code. */
+export const latinOf = (bytes: Uint8Array): string => new TextDecoder("utf-16le").decode(Uint16Array.from(bytes));
+
+/** Text in UTF-8, or else line by line in UTF-8 or Latin-1. */
+export function textOf(bytes: Uint8Array): string {
+    const decode = (some: Uint8Array): string => new TextDecoder("utf-8", { fatal: true }).decode(some);
     try {
-        return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+        return decode(bytes);
     } catch {
-        return new TextDecoder("latin1").decode(bytes);
+        return latinOf(bytes).replace(/[^\r\n]*[^\0-\x7f][^\r\n]*/g, (line) => {
+            try {
+                return decode(Uint8Array.from(line, (letter) => letter.charCodeAt(0)));
+            } catch {
+                return line;
+            }
+        });
     }
+}
+
+/** Bytes without a byte order mark; editors of Windows also write UTF-16. */
+export function unmarked(bytes: Uint8Array<ArrayBuffer>): Uint8Array<ArrayBuffer> {
+    const [first, second, third] = bytes;
+    if (first === 0xef && second === 0xbb && third === 0xbf) return bytes.slice(3);
+    if (first + second !== 0x1fd) return bytes;
+    const whole = bytes.subarray(0, bytes.length - (bytes.length % 2));
+    return new TextEncoder().encode(new TextDecoder(first === 0xff ? "utf-16le" : "utf-16be").decode(whole));
 }
 
 /** Lines of numbers: all values in one list, and how many each line has. */
