@@ -108,23 +108,16 @@ inline bool follow_normals(Doubles2 positions, ConstInts2 faces, Lists around, C
     return positions.columns == 3 && corners(faces, n) && graph(around, n, m) && triples(m, normals) && free.size == n
         && heights.size == m;
 }
-inline bool filter_normals(FaceGeometry faces, ConstDoubles2 guide, Lists near, double, double, Doubles2 packed,
-    Doubles2 filtered) {
+inline bool weighed_normals(FaceGeometry faces, ConstDoubles2 guide, Lists near, double, double, Doubles2 packed,
+    Doubles2 sums) {
     int64_t m = faces.normals.rows;
-    return geometry(faces) && triples(m, guide, filtered) && graph(near, m, m) && rows_of(8, m, packed);
+    return geometry(faces) && triples(m, guide) && graph(near, m, m) && rows_of(8, m, packed) && rows_of(4, m, sums);
 }
 inline bool patch_guidance(ConstDoubles2 normals, ConstDoubles areas, Lists patches, ConstDoubles steps, Lists inner,
     Doubles scores, Doubles2 means, Doubles2 guide) {
     int64_t m = normals.rows;
     return triples(m, normals, means, guide) && sized(m, areas, scores) && graph(patches, m, m, 1)
         && graph(inner, m, steps.size);
-}
-inline bool describe_faces(FaceGeometry faces, Filtered filtered, Lists near, double, int64_t begin, Doubles2 described,
-    Doubles2 frames) {
-    int64_t m = faces.normals.rows;
-    return geometry(faces) && triples(m, filtered.guide, filtered.smooth, filtered.axes) && graph(near, m, m)
-        && begin >= 0 && begin <= m - described.rows && described.columns >= DESCRIBED
-        && rows_of(9, described.rows, frames);
 }
 inline bool cosines(Doubles table, Doubles2 columns) { return table.size >= columns.rows + 8; }
 inline bool project(ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients) {

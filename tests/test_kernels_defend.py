@@ -12,7 +12,7 @@ import pytest
 from bsm import TriangleMesh, decode, decode_sequence, denoise, encode, encode_sequence
 from bsm._core import bitstream as of_bytes
 from bsm._core import codec as of_arrays
-from bsm.codec.denoise.learnt.descriptors import descriptions
+from bsm.codec.denoise.learnt import descriptions
 from bsm.codec.denoise.surface import Topology, surroundings
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Original, Reference, surface_distance

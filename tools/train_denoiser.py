@@ -1,6 +1,6 @@
-"""Learn what `codec.denoise.learnt` knows (`codec/denoise/learnt/weights.npz`) from synthetic noise.
+"""Learn what `codec.denoise.learnt` knows (`codec/denoise/learnt.npz`) from synthetic noise.
 
-    python -m tools.train_denoiser MESHES [--output codec/denoise/learnt/weights.npz] [--examples 4800]
+    python -m tools.train_denoiser MESHES [--output codec/denoise/learnt.npz] [--examples 4800]
 
 Shapes are those of `tools.made_shapes`, and crops of three meshes of the folder that evaluate nothing
 (`TRAINING_MESHES`); half of them are simplified. Each gets noise of a kind and strength of its own. A stage learns to
@@ -15,21 +15,30 @@ from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache, partial
-from itertools import pairwise
+from itertools import pairwise, product
 from pathlib import Path
 
 import numpy as np
 
-from bsm.codec.arrays import Faces, Floats, Positions
-from bsm.codec.denoise.learnt.cascade import (
+from bsm.codec.arrays import Faces, Floats, Order, Positions
+from bsm.codec.denoise.learnt import (
+    BASE,
     FARTHEST,
+    FILTERED,
+    NUMBERS,
+    OWN,
+    RADIUS,
+    REPEATED,
+    RINGS,
+    SECTORS,
     VERTEX_ITERATIONS,
     WEIGHTS,
     Network,
+    Singles,
+    descriptions,
     read_networks,
     regressed_normals,
 )
-from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles, descriptions, mirrored
 from bsm.codec.denoise.surface import Topology, follow_normals, surroundings
 from bsm.codec.geometry.metrics import face_normals
 from bsm.encoding.simplification import collapsed, compact
@@ -133,6 +142,22 @@ def improved(network: Network, case: Example) -> Example:
     near = surroundings(case.noisy, topology, RADIUS)
     normals = regressed_normals(descriptions(case.positions, topology, near), network)
     return replace(case, positions=follow_normals(case.positions, topology, normals, VERTEX_ITERATIONS))
+
+
+def mirrored(x: bool, y: bool) -> tuple[Order, Singles]:
+    """The numbers of a face as seen in a frame with x, y or both the other way round: their order and signs."""
+    order = np.arange(NUMBERS)
+    signs = np.ones(NUMBERS, dtype=np.float32)
+    vectors = [3 * k for k in range(1 + FILTERED)] + [OWN + 3 * k for k in range(REPEATED)]
+    circles = 3 * (1 + FILTERED)
+    for ring, sector in product(range(RINGS), range(SECTORS)):
+        turned = SECTORS // 2 - sector if x else sector
+        place = circles + 4 * (ring * SECTORS + sector)
+        order[place : place + 4] = circles + 4 * (ring * SECTORS + (-turned if y else turned) % SECTORS) + np.arange(4)
+        vectors.append(place)
+    for place in vectors:
+        signs[place : place + 3] = [-1.0 if x else 1.0, -1.0 if y else 1.0, 1.0]
+    return order, signs
 
 
 def train(parts: Sequence[tuple[Singles, Singles]], seed: int, rounds: int = ROUNDS) -> Network:

@@ -21,9 +21,8 @@ import numpy as np
 from bsm.bitstream.errors import BsmError
 from bsm.codec.arrays import Faces, Floats, Positions
 from bsm.codec.denoise.noise.causes import weld_seams
-from bsm.codec.denoise.noise.finding import MEASURES
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.noise.search import FEWEST_WINDOWS, RULES, surface, suspects
+from bsm.codec.denoise.noise.search import FEWEST_WINDOWS, MEASURES, RULES, surface, suspects
 from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.files.mesh import read_mesh

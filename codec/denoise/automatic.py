@@ -11,13 +11,11 @@ from bsm.codec.arrays import Faces, Floats, Mask, Order, Positions
 from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
 from bsm.codec.denoise.filters import BENDS, RAYS, Filter, Filtered, Filters, Step
-from bsm.codec.denoise.noise.finding import Finding
-from bsm.codec.denoise.noise.outliers import put_outliers_back
-from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.noise.synthesis import NoiseLevel, Synthesis, estimate_noise
-from bsm.codec.denoise.noise.volumes import Cells
-from bsm.codec.denoise.rehearsal import GOALS, Forecast, Progress, Rehearsal, silent
-from bsm.codec.denoise.safety import DETAIL_LOST, judge, restraint
+from bsm.codec.denoise.noise.causes import Cells
+from bsm.codec.denoise.noise.finding import Finding, NoiseLevel, Synthesis, estimate_noise
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.search import FAINTEST
+from bsm.codec.denoise.rehearsal import GOALS, Forecast, Progress, Rehearsal
 from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference, face_normals
@@ -32,26 +30,25 @@ def sample(faces: Faces, levels: Floats) -> tuple[Order, Faces]:
         return np.arange(n), faces
     labels = metis_partition(graph_of_faces(faces, n), round(n / PIECE)).labels
     means = np.bincount(labels, levels) / np.bincount(labels)
-    # Equal means keep the order of the parts, which lie all over the surface.
+    means = np.round(means / means.max(), 6)
+    # Equal means keep the order of the parts, which lie all over the surface; rounded, no draw changes it.
     order = np.argsort(means, kind="stable")
-    order = order[means[order] > 0.5 * means.max()]
+    order = order[means[order] > 0.5]
     chosen = order[np.linspace(0, len(order) - 1, min(PIECES, len(order)) + 2).astype(np.int64)[1:-1]]
     inside = np.isin(labels, chosen)
     number = np.cumsum(inside) - 1
     return np.flatnonzero(inside), number[faces[inside[faces].all(axis=1)]].astype(np.int32)
 
 
-BASE = Filter("normals", 0.2, 0.35, "patches")
 CANDIDATES = (
-    BASE,
+    Filter("normals", 0.2, 0.35, "patches"),
     Filter("normals", 0.2, 0.25),
-    *(Filter("heights", keep, sigma_r) for keep, sigma_r in ((0.2, 0.4), (0.1, 0.55))),
+    Filter("heights", 0.2, 0.4),
+    Filter("heights", 0.1, 0.55),
 )
 """The first one makes the first guess."""
 SEEN = tuple(Filter(RAYS, keep, sigma_r) for keep, sigma_r in ((0.3, 0.4), (1.0, 0.4), (0.3, 0.25), (1.0, 0.55)))
 """For scans of one view."""
-AXIAL = (*CANDIDATES[:2], *(Filter("positions", keep, width) for keep, width in ((0.4, 0.4), (0.2, 0.25), (0.1, 0.55))))
-"""For noise along one axis, along which vertices then go back. The first keeps sharp edges for the guess."""
 FUSED = tuple(Filter(BENDS, weight, 0.3) for weight in (0.15, 0.3, 0.6))
 EVEN, FUSED_UNEVEN, FUSED_MOST = 0.2, 7.0, 2.5
 """For volumes, whose noise is even and as fine as their cells. Noise of cameras is uneven, and too broad to rehearse
@@ -61,7 +58,6 @@ THICK, BENDS_WIDTH, BENDS_ITERATIONS = 2.5, 0.3, (8, 12)
 """Slices from `THICK` cells across on also get the surface of fewest bends, from twice that on in two versions. It is
 best on smooth shapes; its mean with the other filter loses nothing where detail is finer than slices."""
 WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
-SLIDING = {"heights": "positions"}  # hand-overs that let vertices slide along the surface, for those that do not
 GUESSED = 8  # iterations of a first guess, and of rehearsals on it
 STAGES = 4  # that progress tells of: noise is found, filters are rehearsed twice, and the choice is carried out
 MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
@@ -70,6 +66,17 @@ WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what
 AS_LARGE = 1.05
 """Rehearsed error over the change, from which on nothing tells noise from shape; and over the error before, as
 roughness tells it, from which on thin parts became worse."""
+MOST, MOST_UNKNOWN = 1.9, 1.25
+"""Movement along the normals over noise, above which a window has lost more than noise: where noise is known, which
+varies by chance between windows if neighbors share it, and with the slant in scans of one view; and where it is not."""
+MOST_CORRELATED = 4.0  # at most, correlated noise over its finest frequencies, a ratio that is the same everywhere
+DETAIL_LOST = {"shading": 0.075, "shape": 0.03, "both": 0.03}
+"""Noise may hold detail where rehearsals for a goal lose more roughness than this (a logarithm)."""
+NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 1.03, 4.0, 0.4
+"""Its level over that in the finest frequencies without detail, the share of movements that is not made for each unit
+more, and the largest one."""
+REACHED = 0.5  # share of the level of the noise from which on a window counts for the whole
+FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 
 
 @dataclass(frozen=True)
@@ -113,38 +120,25 @@ class AutomaticChoice:
         return replace(self, kind="outliers", reason=reason, outliers=outliers)
 
 
-def calm(positions: Positions, surface: Filters) -> tuple[int, Positions, Finding]:
-    """The number of outliers that are put back, the positions, shape (n, 3), without them, and their noise."""
-    finding = find_noise(positions, surface.probe)
-    back = positions if finding.exact else put_outliers_back(positions, surface.probe, finding)
-    outliers = int((back != positions).any(axis=1).sum())
-    return outliers, back, find_noise(back, surface.probe) if outliers else finding
-
-
-def choose(
-    positions: Positions, finding: Finding, surface: Filters, goal: str = "shading", progress: Progress = silent
-) -> AutomaticChoice:
+def choose(positions: Positions, finding: Finding, surface: Filters, goal: str, progress: Progress) -> AutomaticChoice:
     """Rehearse on `positions`, shape (n, 3), or a part of them if they are many, and pick what did best."""
     if not finding.noisy:
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0)
     if finding.kind == "cells" or finding.uneven > EVEN:
         return _by_cause(finding)
-    filters = {"view": SEEN, "axis": AXIAL, "fused": FUSED}.get(finding.kind, CANDIDATES)
+    filters = {"view": SEEN, "fused": FUSED}.get(finding.kind, CANDIDATES)
+    along = finding.kind == "axis"  # along which vertices then go back
     learnt = len(positions) <= MOST_TAUGHT or finding.kind not in ("white", "unsteady")
     members, part = sample(surface.topology.faces, finding.levels)
     chosen = positions
     if len(members) < len(positions):
         surface, chosen = Filters(part, len(members)), positions[members]
-    surface.expect(filters)
     level = estimate_noise(chosen, surface.smooth(chosen, filters[0]), surface.probe)
-    if (
-        filters is CANDIDATES
-        and level.tangential > 0.0
-        and _gains_by_sliding(chosen, finding.on(members), level, surface)
-    ):
-        level = level.sliding
-    if level.slides:  # noise has moved vertices along the surface, too
-        filters = tuple(replace(each, hand_over=SLIDING.get(each.hand_over, each.hand_over)) for each in filters)
+    across = filters is CANDIDATES and level.tangential > 0.0 and not along
+    if across and _gains_by_sliding(chosen, finding.on(members), level, surface):
+        level = NoiseLevel(level.normal, level.across, level.across, slides=True)
+    if level.slides or along:  # noise has moved vertices along the surface, too
+        filters = tuple(replace(each, hand_over=each.hand_over.replace("heights", "positions")) for each in filters)
     known = finding.on(members).reaching(surface.topology, level.slides)
     mesh = surface.filtered(chosen, known)
     rehearsal = Rehearsal(mesh, surface, known, level, filters[0], named("goal", GOALS, goal))
@@ -157,7 +151,7 @@ def choose(
         rehearsal.again(winner)
         winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, (2.0 + done) / STAGES))
     if flat > SOME_FLAT:
-        winner = rehearsal.flattened(winner)
+        winner = rehearsal.flattened(winner, finishes)
     expected, untreated, reason = winner.error, rehearsal.untreated, finding.reason
     forecast = rehearsal.forecast(winner) if goal == "shading" or not finding.clear else None
     changed, steps = np.inf if steadied else rehearsal.changed(winner), winner.steps
@@ -240,3 +234,39 @@ def treat(
         part = noisy + strength * (result - noisy)
         choice = choice.seen(share * strength, full, part, touched, surface.topology)
     return result, choice
+
+
+def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -> tuple[Mask, str]:
+    """Return which vertices may take the result, by its movement in each window, and why it may not as a whole."""
+    everywhere = np.ones(len(noisy), dtype=np.bool_)
+    windows = probe.windows
+    if finding.kind == "cells":
+        return everywhere, ""  # within the bound of the cause
+    unsure = finding.kind == "unknown" and bool(windows.valid.any())
+    if not finding.noisy and not unsure:
+        # No statistics here: they may be what is missing.
+        if np.linalg.norm(noisy - result, axis=1).max(initial=0.0) <= FAINTEST * finding.edge:
+            return everywhere, ""
+        return ~everywhere, f"{finding.reason}, and the result moves vertices nevertheless"
+    normals = probe.smooth_normals(result, passes=0)
+    removed = probe.levels(np.einsum("ij,ij->i", noisy - result, normals))
+    found = probe.levels(np.einsum("ij,ij->i", probe.fine(noisy), normals))
+    known = found if unsure else windows.means(finding.levels)
+    # Rounding is known from its grid, and may hide from the finest frequencies where it has merged vertices.
+    present = np.where(known > 0.0, np.maximum(found, (1.0 if finding.kind == "grid" else 0.5) * known), 0.0)
+    ratio = removed / np.maximum(present, FAINTEST * finding.edge)
+    # Where an axis hardly reaches, windows are put back one by one but do not count against the whole.
+    judged = windows.valid & (known > max(0.0, REACHED * finding.level))
+    movement = float(np.median(ratio[judged])) if judged.any() else 0.0
+    shared = MOST_CORRELATED if finding.kind in ("correlated", "view", "fused") else 1.0
+    most = MOST_UNKNOWN if unsure else MOST * min(max(movement, 1.0), shared)
+    bad = windows.valid & ~(ratio <= most)
+    failed = float(bad[judged].mean()) if judged.any() else 0.0
+    reason = f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"
+    return ~bad[windows.labels], reason if failed > FAILED_SHARE else ""
+
+
+def restraint(finding: Finding, finest: float) -> float:
+    """How much of a movement to make where white noise, of this level in the finest frequencies, may hold detail."""
+    excess = finding.level / finest - NOISE_ALONE if finest > 0.0 else 0.0
+    return 1.0 - min(max(DETAIL_SLOPE * excess, 0.0), DETAIL_MOST)

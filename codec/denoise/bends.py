@@ -35,15 +35,13 @@ def fewer_bends(given: Floats, places: Floats, topology: Topology, weight: float
         # bends everything, and would pass for edges.
         sharp = np.maximum(bent, BEND if turn else max(BEND, float(np.median(bent))))
         system = (sparse.diags(trust) + bends.T @ sparse.diags(weight * lengths / sharp) @ bends).tocsr()
-        # Weights differ by orders of magnitude between flat places and edges. Scaling by the diagonal evens that out,
-        # and costs nothing.
+        # Weights differ by orders of magnitude between flat places and edges. Scaling by the diagonal evens that out.
         near = sparse.diags(1.0 / system.diagonal())
         columns = zip((trust[:, None] * given).T, values.T, strict=True)
         found = [linalg.cg(system, *each, maxiter=STEPS, M=near)[0] for each in columns]
         values = np.stack(found, axis=1)
         off = np.linalg.norm(values - given, axis=1)
-        # The median of a normal distribution is 0.6745 deviations. Points far beyond are outliers, which least squares
-        # would follow.
+        # The median of a normal distribution is 0.6745 deviations. Least squares would follow outliers far beyond.
         usual = STAND_OUT * float(np.median(off)) / 0.6745
         trust = np.minimum(1.0, usual / np.maximum(off, 1e-9)) if usual > 0.0 else trust
     return values

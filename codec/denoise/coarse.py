@@ -1,10 +1,11 @@
 """The coarse step: keep the low graph frequencies of every block, and blend the blocks (paper, sections 6 and 7.2).
 
 ``v^ = U_c U_c^T v`` in each overlapping block; the copies of a vertex are averaged with the vertex's degree in each
-block as weight.
+block as weight. Noise that changes from frame to frame leaves the same blocks by their singular values over time.
 """
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 import scipy.linalg
@@ -18,6 +19,7 @@ from bsm.codec.threads import ordered_map
 BLOCK_SIZE = 500  # about the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle
 OVERLAP = 1.15
 KEEP = 0.10
+FEWEST_FRAMES = 8
 SHORTEST = 0.1  # of mean edges: the length from which on an edge is not shorter to the weights
 # More iterations than a stream would send, since no decoder has to repeat them; no springs, as in the paper.
 RULES = ChainRules(exact=False, key_interval=16, power=3, iterations=2, key_iterations=4, shift=0.125, springs=False)
@@ -81,8 +83,7 @@ def by_lengths(positions: Positions) -> ChainRules:
         sides = positions[site.vertices[rows]] - positions[site.vertices[site.neighbors]]
         lengths = np.sqrt(np.square(sides).sum(axis=1))
         mean = lengths.sum() / max(len(lengths), 1) or 1.0
-        # Dense: a block has a few hundred vertices, and LAPACK finds its lowest vectors sooner than a sparse solver
-        # would.
+        # Dense: LAPACK finds the lowest vectors of a few hundred vertices sooner than a sparse solver would.
         laplacian = np.zeros((len(site.vertices),) * 2)
         laplacian[rows, site.neighbors] = -1.0 / np.maximum(lengths / mean, SHORTEST)
         np.fill_diagonal(laplacian, -laplacian.sum(axis=1))
@@ -90,3 +91,59 @@ def by_lengths(positions: Positions) -> ChainRules:
         return lowest
 
     return replace(RULES, overrides=Overrides(dictionary))
+
+
+class TemporalFilter:
+    """The filter with its blocks, which are found once."""
+
+    def __init__(self, faces: Faces, n: int) -> None:
+        blocks, _ = overlapping(faces, n)
+        self._blocks = [blocks.members_of(index) for index in range(blocks.count)]
+        self._copies = np.bincount(np.concatenate(self._blocks), minlength=n)
+
+    def __call__(self, frames: Positions) -> tuple[Positions, float, float]:
+        """At least `FEWEST_FRAMES` frames, (T, n, 3), without noise; its deviation, and the share that remains."""
+        count, n, _ = frames.shape
+
+        def trajectories(index: int) -> Floats:
+            vertices = self._blocks[index]
+            return frames[:, vertices].transpose(1, 0, 2).reshape(len(vertices), 3 * count)
+
+        indices = range(len(self._blocks))
+        deviations = list(ordered_map(lambda index: noise_deviation(trajectories(index)), indices, None))
+        deviation = float(np.median(deviations))
+        sums, kept = np.zeros((n, 3 * count)), np.zeros(n)
+        smaller = ordered_map(lambda index: shrunk(trajectories(index), deviation), indices, None)
+        for vertices, (filtered, rank) in zip(self._blocks, smaller, strict=True):
+            sums[vertices] += filtered
+            kept[vertices] += rank / len(vertices) + rank / (3 * count)
+        result = (sums / self._copies[:, None]).reshape(n, count, 3).transpose(1, 0, 2)
+        remaining = min(1.0, float(np.mean(kept / self._copies)))
+        return np.ascontiguousarray(result), deviation, float(np.sqrt(remaining))
+
+
+def noise_deviation(values: Floats) -> float:
+    """Standard deviation of white noise in a matrix of low rank, shape (k, d): by the median of its singular values."""
+    short, long = sorted(values.shape)
+    singular = np.linalg.svd(values - values.mean(axis=0), compute_uv=False)
+    return float(np.median(singular) / _median_of_noise(short, long))
+
+
+def shrunk(values: Floats, deviation: float) -> tuple[Floats, int]:
+    """The matrix, shape (k, d), its singular values shrunk for white noise of `deviation`, and how many are left."""
+    short, long = sorted(values.shape)
+    if deviation <= np.finfo(np.float64).eps * float(np.abs(values).max()):
+        return values, short
+    mean, ratio = values.mean(axis=0), short / long
+    left, singular, right = np.linalg.svd(values - mean, full_matrices=False)
+    above = np.square(singular) / (long * deviation**2)
+    rank = int((above > (1.0 + np.sqrt(ratio)) ** 2).sum())
+    shrinking = np.sqrt((above[:rank] - ratio - 1.0) ** 2 - 4.0 * ratio) / above[:rank]
+    return (left[:, :rank] * (shrinking * singular[:rank])) @ right[:rank] + mean, rank + 1
+
+
+@lru_cache(maxsize=64)
+def _median_of_noise(short: int, long: int) -> float:
+    """Median singular value of white noise of deviation one, which varies little from draw to draw."""
+    noise = np.random.default_rng(0).normal(size=(short, long))
+    return float(np.median(np.linalg.svd(noise - noise.mean(axis=0), compute_uv=False)))

@@ -1,6 +1,6 @@
 """Filters for any mesh: a hand-over from the coarse step, iterations of a normal filter, and a finish."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
@@ -13,14 +13,12 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import check_options
 from bsm.codec.denoise.bends import flattened
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
-from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
-from bsm.codec.denoise.noise.causes import FARTHEST, Spacing
+from bsm.codec.denoise.learnt import Learnt, joined, learnt
+from bsm.codec.denoise.noise.causes import FARTHEST, Cells, Spacing
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.noise.volumes import Cells
-from bsm.codec.denoise.normals import FINE_STEPS, Guide, GuidedFilter, patch_guidance
 from bsm.codec.denoise.planes import Planes, find_planes
-from bsm.codec.denoise.surface import Topology, surface_normals
+from bsm.codec.denoise.surface import FINE_STEPS, Guide, GuidedFilter, Topology, patch_guidance, surface_normals
 from bsm.codec.geometry.metrics import face_normals
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}
@@ -94,7 +92,7 @@ class DenoiseOptions:
         check_options(self, choices, {"iterations": (0, 1 << 20), "keep": (1e-6, 1.0), "block_size": (1, 1 << 20)})
 
 
-LEARNT = 0.6  # share of learnt normals
+LEARNT, MOST_KEPT = 0.6, 0.2  # share of learnt normals; and of frequencies that a coarse step keeps at most
 
 
 @dataclass(frozen=True)
@@ -124,22 +122,14 @@ class Filters:
         self.topology = Topology(faces, n)
         self.probe = Probe(self.topology)
         self._last: Filtered | None = None
-        self._coarse: CoarseFilter | None = None
-        self._keep = 0.0
 
-    def expect(self, filters: Iterable[Filter]) -> None:
-        """Be ready for the coarse meshes that the filters need."""
-        keep = max((each.keep for each in filters if each.needs_coarse), default=0.0)
-        if keep > self._keep:
-            self._keep, self._coarse = keep, CoarseFilter(self.topology.faces, self.topology.n, keep, BLOCK_SIZE)
+    @cached_property
+    def _coarse(self) -> CoarseFilter:
+        return CoarseFilter(self.topology.faces, self.topology.n, MOST_KEPT, BLOCK_SIZE)
 
     def smooth(self, positions: Positions, filter_: Filter) -> Positions:
         """The coarse mesh, shape (n, 3), that a filter needs; `positions` if it needs none."""
-        if not filter_.needs_coarse:
-            return positions
-        self.expect([filter_])
-        assert self._coarse is not None
-        return self._coarse(positions, filter_.keep)
+        return self._coarse(positions, filter_.keep) if filter_.needs_coarse else positions
 
     def filtered(self, positions: Positions, finding: Finding) -> "Filtered":
         """Return the filtered `positions`, shape (n, 3), and keep them until others are asked for; thread-safe."""

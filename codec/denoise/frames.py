@@ -10,24 +10,22 @@ import numpy as np
 from bsm.bitstream.errors import HarmError, MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import checked, named
-from bsm.codec.denoise.automatic import STAGES, AutomaticChoice, calm, choose, treat
-from bsm.codec.denoise.coarse import RULES, CoarseFilter, by_lengths
+from bsm.codec.denoise.automatic import STAGES, AutomaticChoice, choose, judge, treat
+from bsm.codec.denoise.coarse import FEWEST_FRAMES, RULES, CoarseFilter, TemporalFilter, by_lengths
 from bsm.codec.denoise.filters import HAND_OVERS, DenoiseOptions, Filters
 from bsm.codec.denoise.noise.causes import weld_seams
 from bsm.codec.denoise.noise.finding import Finding
+from bsm.codec.denoise.noise.outliers import calm
 from bsm.codec.denoise.noise.search import FAINTEST, find_noise
-from bsm.codec.denoise.normals import FINE_STEPS, GuidedFilter
-from bsm.codec.denoise.rehearsal import GOALS, Progress, silent
-from bsm.codec.denoise.safety import judge
-from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
+from bsm.codec.denoise.rehearsal import GOALS, Progress
+from bsm.codec.denoise.surface import FINE_STEPS, GuidedFilter
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.codec.threads import ordered_map
 
 Pair = tuple[Positions, Positions]
 
-# The filter looks at frequencies over time, of which short windows have few.
-WINDOW = 64  # frames that the temporal filter sees at once, if they fit
+WINDOW = 64  # frames that the temporal filter sees at once, if they fit: few have few frequencies over time
 WINDOW_BYTES = 2**28
 CHANGING = "noise that changes with the frames"
 
@@ -44,7 +42,7 @@ class FrameDenoiser:
         goal: str = "shading",
         strength: float = 1.0,
         force: bool = False,
-        progress: Progress = silent,
+        progress: Progress = lambda stage, share: None,
     ) -> None:
         named("goal", GOALS, goal)
         if not 0.0 <= checked("strength", strength, float) <= 1.0:
@@ -85,7 +83,7 @@ class FrameDenoiser:
             assert choice is not None and found is not None
             # The first frame was calmed when the choice was made.
             if choice.outliers and welded is not begun:
-                welded = calm(welded, self._surface)[1]
+                welded = calm(welded, self._surface.probe)[1]
             result, done = treat(choice, welded, found, self._surface, self._strength)
             return (given, result), done
 
@@ -94,20 +92,18 @@ class FrameDenoiser:
                 begun = group[0][1]
                 self._progress("finding noise", 0.0)
                 if remaining is None:
-                    outliers, begun, found = calm(begun, self._surface)
+                    outliers, begun, found = calm(begun, self._surface.probe)
                     group[0] = group[0][0], begun
+                    choice = choose(begun, found, self._surface, self._goal, self._progress).after(outliers)
                 else:
                     found = find_noise(begun, self._surface.probe)
-                # What the temporal filter leaves is known in strength, even where the mesh itself does not show it.
-                if remaining is not None and remaining >= FAINTEST * found.edge:
-                    found = Finding("unsteady", remaining, np.full(len(begun), remaining), found.edge, CHANGING)
-                goal = "both" if remaining is not None and self._goal == "shading" else self._goal
-                choice = choose(begun, found, self._surface, goal, self._progress)
+                    # What the temporal filter leaves is known in strength, even where the mesh does not show it.
+                    if remaining >= FAINTEST * found.edge:
+                        found = Finding("unsteady", remaining, np.full(len(begun), remaining), found.edge, CHANGING)
+                    goal = "both" if self._goal == "shading" else self._goal
+                    choice = choose(begun, found, self._surface, goal, self._progress)
+                    choice = choice if choice.steps else replace(choice, kind="unsteady", reason=CHANGING)
                 self._progress("filtering", (STAGES - 1) / STAGES)
-                if remaining is None:
-                    choice = choice.after(outliers)
-                elif not choice.steps:
-                    choice = replace(choice, kind="unsteady", reason=CHANGING)
             for pair, done in ordered_map(finish, group, None):
                 self.choice = self.choice or done  # of the first frame
                 yield pair
@@ -168,8 +164,7 @@ class FrameDenoiser:
             result = step(start(noisy, smooth, GuidedFilter(noisy, topology)), topology.faces, **iterations)
             if self._force:
                 return given, result
-            # Options are the user's, and may be wrong for this mesh. What is lost is measured before anything is
-            # returned.
+            # Options are the user's, and may be wrong for this mesh: what is lost is measured first.
             good, reason = judge(noisy, result, find_noise(noisy, self._surface.probe), self._surface.probe)
             if reason:
                 raise HarmError(f"{reason}; nothing is written unless it is forced", frame=number)

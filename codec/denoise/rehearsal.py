@@ -13,8 +13,8 @@ import numpy as np
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.filters import Filter, Filtered, Filters, Step
-from bsm.codec.denoise.noise.finding import MANY_WINDOWS, Finding
-from bsm.codec.denoise.noise.synthesis import NoiseLevel, Synthesis
+from bsm.codec.denoise.noise.finding import Finding, NoiseLevel, Synthesis
+from bsm.codec.denoise.noise.search import MANY_WINDOWS
 from bsm.codec.denoise.surface import pair_distances
 from bsm.codec.geometry.metrics import Reference, face_geometry, face_normals, mean_edge_length
 from bsm.codec.threads import ordered_map
@@ -38,10 +38,6 @@ MOST_DROWNED = 0.1  # share of faces lower than the noise is high, from which on
 
 Goal = Callable[[Reference, Positions], float]
 Progress = Callable[[str, float], None]
-
-
-def silent(stage: str, share: float) -> None:
-    """Ignore the progress."""
 
 
 def shape(reference: Reference, positions: Positions) -> float:
@@ -188,18 +184,22 @@ class Rehearsal:
                 break
             chosen.append(alone[found])
             best = Rehearsed(tuple(member.steps[0] for member in chosen), errors[found], means[found])
+        return self._finished(best, finishes)
+
+    def _finished(self, best: Rehearsed, finishes: list[str]) -> Rehearsed:
+        """The result of some steps with the best finish."""
         finished = []
         for finish in finishes:
             result = self._within(self._trial.finished(best.result, finish), self.noisy)
-            finished.append(Rehearsed(best.steps, self._goal(self.truth, result), result, finish))
-        return min(finished, key=lambda outcome: outcome.error * (EASIER if outcome.finish == "learnt" else 1.0))
+            finished.append(replace(best, error=self._goal(self.truth, result), result=result, finish=finish))
+        return min(finished, key=lambda outcome: outcome.error * (EASIER if "learnt" in outcome.finish else 1.0))
 
-    def flattened(self, winner: Rehearsed) -> Rehearsed:
-        """The winner, put on planes, as it then does with its own result as the guess."""
-        winner = replace(winner, finish="flat" if winner.finish == "none" else f"flat, {winner.finish}")
-        self.again(winner)
-        result = self._within(self._trial.finished(self._trial.mean(winner.steps), winner.finish), self.noisy)
-        return replace(winner, error=self._goal(self.truth, result), result=result)
+    def flattened(self, winner: Rehearsed, finishes: list[str]) -> Rehearsed:
+        """The winner, put on planes, with the finish that is best then, with its own result as the guess."""
+        on_planes = {"none": "flat", "learnt": "flat, learnt"}
+        self.again(replace(winner, finish=on_planes[winner.finish]))
+        again = replace(winner, result=self._trial.mean(winner.steps))
+        return self._finished(again, [on_planes[finish] for finish in finishes])
 
     def _within(self, positions: Positions, otherwise: Positions) -> Positions:
         if self._finding.exact and self._finding.bound is not None:

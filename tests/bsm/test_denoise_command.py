@@ -14,9 +14,9 @@ import pytest
 
 from bsm import DenoiseOptions, MeshError, TriangleMesh, api
 from bsm.codec import denoise as library
-from bsm.codec.denoise import filters, normals, rehearsal
+from bsm.codec.denoise import filters, rehearsal, surface
+from bsm.codec.denoise.coarse import FEWEST_FRAMES
 from bsm.codec.denoise.frames import WINDOW
-from bsm.codec.denoise.temporal import FEWEST_FRAMES
 from bsm.commands.denoise import FINISHES, GOALS, _found
 from bsm.commands.flags import FLAGS
 from bsm.files.mesh import read_mesh, write_mesh, written_mesh
@@ -189,7 +189,7 @@ def test_frames_that_are_none_are_refused(frames, options):
 
 def test_the_command_knows_all_choices_of_the_library():
     choices = {flag.field: set(flag.value.split("|")) for flag in FLAGS["denoise method"]}
-    assert choices["fine"] == set(normals.FINE_STEPS) and choices["hand_over"] == set(filters.HAND_OVERS)
+    assert choices["fine"] == set(surface.FINE_STEPS) and choices["hand_over"] == set(filters.HAND_OVERS)
     assert set(GOALS) <= set(rehearsal.GOALS)
 
 

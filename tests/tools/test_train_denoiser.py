@@ -6,8 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm.codec.denoise.learnt.cascade import read_networks
-from bsm.codec.denoise.learnt.descriptors import BASE
+from bsm.codec.denoise.learnt import BASE, read_networks
 from bsm.codec.denoise.surface import Topology
 from tools.made_shapes import made_shape
 from tools.train_denoiser import described, example, improved, train

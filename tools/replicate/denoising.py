@@ -14,8 +14,7 @@ import numpy.typing as npt
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import FrameDenoiser
 from bsm.codec.denoise.filters import Filter, Filtered, Filters
-from bsm.codec.denoise.normals import VERTEX_ITERATIONS, bilateral_normals
-from bsm.codec.denoise.surface import follow_normals
+from bsm.codec.denoise.surface import VERTEX_ITERATIONS, bilateral_normals, follow_normals
 from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.files.mesh import read_mesh
 from tools.noise import (

@@ -1,47 +1,16 @@
-"""Findings about the noise of a mesh, and the evidence for them."""
+"""Findings of noise in a mesh, its strength along and across the surface, and more of it to rehearse with."""
 
 from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
 
-from bsm.codec.arrays import Floats, Mask, Order, Positions
-from bsm.codec.denoise.noise.causes import FEWEST_VALUES, NEAR, SAME, Confines, Reach, Spacing
-from bsm.codec.denoise.noise.probe import Probe, Windows
+from bsm.codec.arrays import Floats, Order, Positions
+from bsm.codec.denoise.noise.causes import Cells, Confines, Reach, Spacing
+from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe
 from bsm.codec.denoise.noise.view import View
-from bsm.codec.denoise.noise.volumes import HALFWAY, Cells
-from bsm.codec.denoise.surface import Topology
-
-LATTICE_USUAL = 0.25  # vertices that a plane of a lattice has at least, over the usual
-
-
-def lattice_step(positions: Positions) -> float:
-    """Step of the cubic lattice on whose lines the positions lie, as those of marching cubes do; 0 if there is none."""
-    extent = float(np.ptp(positions, axis=0).max())
-    planes = []
-    for column in positions.T:
-        # Marching cubes leave two coordinates of each vertex on planes of the lattice: heaps of equal values.
-        values, counts = np.unique(np.round((column - column.min()) / (SAME * extent or 1.0)), return_counts=True)
-        # Symmetric shapes have smaller heaps beside.
-        usual = np.median(np.repeat(counts, counts))
-        planes.append(values[counts > LATTICE_USUAL * usual] * SAME * extent)
-    # A box has heaps as well, at its sides.
-    if min(len(heaps) for heaps in planes) < FEWEST_VALUES:
-        return 0.0
-    step = float(np.median(np.concatenate([np.diff(heaps) for heaps in planes])))
-    apart = np.concatenate([heaps - heaps[len(heaps) // 2] for heaps in planes])
-    numbers = np.round(apart / step)
-    step = float(numbers @ apart / (numbers @ numbers))
-    lies = np.zeros(len(positions), dtype=np.int64)
-    for column, heaps in zip(positions.T, planes, strict=True):
-        place = (column - column.min() - heaps[len(heaps) // 2]) / step
-        lies += np.abs(place - np.round(place)) < NEAR
-    return step if (lies >= 2).mean() > HALFWAY else 0.0
-
-
-ASIDE = 0.2  # largest median of values over their levels: noise lies on both sides
-HEAP = 1.6  # largest share of values about zero, as a multiple of the normal distribution's
-LEVEL_SPREAD = 0.92  # chance makes levels of windows of w vertices spread by about this over sqrt(w)
+from bsm.codec.denoise.surface import Topology, surface_normals
+from bsm.codec.geometry.metrics import mean_edge_length
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,77 +45,83 @@ class Finding:
         """The finding with a bound to where noise that is not bound otherwise may have moved vertices from."""
         free = self.bound is None and self.kind in ("white", "correlated", "local")
         # Fine levels hold little of noise that neighbors share: about the square of their share in the finest.
-        # A bound by the noise itself, where coordinates tell none: no vertex was moved by more than a few deviations.
         return replace(self, bound=Reach(topology, self.levels / self.whiteness**2, slides)) if free else self
 
 
-MEASURES = ("level", "whiteness", "off", "uneven", "broadly uneven", "irregular", "few")
-MANY_WINDOWS = 25  # fewer say less about the spread of levels
-SLOPE, SHIFT = 0.6, 0.15  # of the broad level over the whiteness (logarithms), for all lengths of correlation
+TENTH_ACROSS = 0.4590  # a tenth of the lengths of two standard normal numbers is below this
+IRREGULARITY = 0.15  # largest level across the normals, in mean edges, that irregular triangles gave
 
 
-@dataclass(frozen=True, eq=False)
-class Evidence:
-    """What filters leave of a mesh along and across a direction at each vertex; windows' levels in mean edges."""
+@dataclass(frozen=True)
+class NoiseLevel:
+    """Standard deviations of white noise, in the unit of the mesh."""
 
-    probe: Probe
-    normals: Floats
-    edge: float
-    along: Floats
-    across: Floats
-    levels: Floats
-    broad: Floats
-    finest: Floats
-
-    def level(self, windows: Mask) -> float:
-        return float(np.median(self.levels[windows]))
-
-    def whiteness(self, windows: Mask) -> float:
-        """Level of the finest frequencies over the fine ones: 1 for white noise, less if neighbors share it."""
-        # The lower quarter: creases are in the upper parts of both.
-        return float(np.quantile(self.finest[windows], 0.25) / max(np.quantile(self.levels[windows], 0.25), 1e-9))
-
-    def is_random(self, windows: Mask) -> bool:
-        """Whether counted vertices of these windows lie on both sides of the surface, and no heap of them on it."""
-        chosen = windows[self.probe.windows.labels] & self.probe.counted
-        values = self.along[chosen] / np.maximum(self.levels[self.probe.windows.labels[chosen]], 1e-9)
-        # The share of a standard normal distribution within a tenth of a deviation is 0.0797.
-        return bool(abs(np.median(values)) < ASIDE and (np.abs(values) < 0.1).mean() < HEAP * 0.0797)
-
-    def measures(self, windows: Mask) -> Floats:
-        """Return what rules weigh, in the order of `MEASURES`; level, whiteness and irregularity are logarithms."""
-        fine, broad = self.levels[windows], self.broad[windows]
-        broader = np.log(max(np.median(broad / np.maximum(fine, 1e-9)), 1e-9))
-        level, whiteness = np.log(np.maximum([self.level(windows), self.whiteness(windows)], 1e-9))
-        uneven = (min(spread(levels, self.probe.windows), 1.5) for levels in (fine, broad))
-        off = abs(broader + SLOPE * whiteness + SHIFT)
-        across = self.across[windows[self.probe.windows.labels] & self.probe.counted]
-        irregular = np.log(max(float(np.quantile(across, 0.9)), 1e-9))
-        # Few windows make every measure uncertain, and rules want more evidence then.
-        few = max(1.0 / np.sqrt(len(fine)) - 1.0 / np.sqrt(MANY_WINDOWS), 0.0)
-        return np.array([level, whiteness, off, *uneven, irregular, few])
-
-    def weakened(self, growth: Floats) -> Self:
-        """Evidence of noise without its growth, shape (n,)."""
-        here = self.probe.windows.means(growth)
-        levels, broad, finest = (values / here for values in (self.levels, self.broad, self.finest))
-        return replace(self, along=self.along / growth, levels=levels, broad=broad, finest=finest)
+    normal: float
+    tangential: float
+    across: float = 0.0  # that along the surface, if irregular triangles have no part in it
+    slides: bool = False  # whether vertices have to slide along the surface
 
 
-def look(probe: Probe, values: Floats, directions: Floats, edge: float) -> Evidence:
-    """See `values`, shape (n, d), along `directions`, shape (n, d)."""
-    fine, broad, finest = (filtered(values) for filtered in (probe.fine, probe.broad, probe.finest))
-    along, *others = (np.einsum("ij,ij->i", seen, directions) for seen in (fine, broad, finest))
-    across = np.linalg.norm(fine - along[:, None] * directions, axis=1)
-    levels = (probe.levels(each) for each in (along, *others))
-    return Evidence(probe, directions, edge, along, across, *levels)
+def estimate_noise(positions: Positions, smooth: Positions, probe: Probe) -> NoiseLevel:
+    """Return the noise of `positions`, shape (n, 3), along and across the normals of a smooth version of them."""
+    counted = probe.counted if probe.counted.any() else np.ones(len(positions), dtype=np.bool_)
+    normals = surface_normals(smooth, probe.topology)[counted]
+    seen = probe.finest(positions)[counted]
+    along = np.einsum("ij,ij->i", seen, normals)
+    # Triangles are irregular here and there, and noise is everywhere: its tenth part tells.
+    across = float(np.quantile(np.linalg.norm(seen - along[:, None] * normals, axis=1), 0.1)) / TENTH_ACROSS
+    normal = float(np.quantile(np.abs(along), SHARE)) / BOUND
+    # Irregular triangles look like noise along the surface, up to about this level.
+    floor = IRREGULARITY * mean_edge_length(positions, probe.topology.faces)
+    above = float(np.sqrt(max(across * across - floor * floor, 0.0)))
+    return NoiseLevel(normal, min(normal, above), min(normal, across))
 
 
-def spread(levels: Floats, windows: Windows) -> float:
-    """Spread of the lower half of levels, shape (k,), beyond what chance makes; creases are in the upper one."""
-    # Robust against the upper half, where shape adds to noise.
-    bottom, middle = np.quantile(levels, [0.1, 0.5])
-    if bottom <= 0.0:
-        return float("inf")
-    chance = LEVEL_SPREAD / np.sqrt(windows.usual_size)
-    return float(np.sqrt(max((np.log(middle / bottom) / 1.2816) ** 2 - chance**2, 0.0)))
+MOST_STEPS = 12  # averagings for noise that neighbors share, and those for the pixels of a camera's window
+SHARED = 0.6  # strength of noise that the pixels of a window share, over that of single pixels
+
+
+class Synthesis:
+    """Draws noise of the kind and strength of a finding."""
+
+    def __init__(self, finding: Finding, probe: Probe, tangential: float) -> None:
+        self._finding, self._probe, self._tangential = finding, probe, tangential
+        correlated = finding.kind in ("correlated", "fused")
+        self._steps, self._strength = _correlation(finding.whiteness, probe) if correlated else (0, 1.0)
+
+    def draw(self, positions: Positions, seed: int) -> Positions:
+        finding = self._finding
+        random = np.random.default_rng(seed)
+        if isinstance(finding.bound, Spacing):
+            return finding.bound.round(positions, finding.bound.steps * random.random(3))
+        white = random.normal(size=positions.shape)
+        # A rehearsal needs noise of the same kind: a filter that is good for one is bad for another.
+        if finding.axis is not None:
+            growth = 1.0 if finding.growth is None else finding.growth[:, None]
+            return np.asarray(positions + finding.level * growth * white[:, :1] * finding.axis)
+        topology = self._probe.topology
+        if finding.view is not None:
+            seen = finding.view.heights(positions, topology)
+            shared = self._probe.correlated(white[:, 1], MOST_STEPS)
+            noise = white[:, 0] + SHARED * shared / shared.std()
+            return finding.view.at(positions, seen, seen + finding.view.level * noise)
+        normals = surface_normals(positions, topology)
+        along = np.einsum("ij,ij->i", white, normals)[:, None]
+        amount = self._probe.correlated(along, self._steps)
+        if self._steps:
+            # Averaging takes strength away, and the level is that of fine frequencies, not of all.
+            amount *= self._strength / amount.std()
+        across = np.where(finding.levels > 0.0, self._tangential, 0.0)[:, None] * (white - along * normals)
+        return np.asarray(positions + finding.levels[:, None] * amount * normals + across)
+
+
+def _correlation(whiteness: float, probe: Probe) -> tuple[int, float]:
+    """How often white noise is averaged until its spectrum falls off as steeply, and its strength over fine levels."""
+    noise = np.random.default_rng(0).normal(size=(probe.topology.n, 4))
+    strengths = []
+    for _ in range(MOST_STEPS):
+        noise = probe.correlated(noise, 1)
+        fine, finest = (values[probe.counted].std() for values in (probe.fine(noise), probe.finest(noise)))
+        strengths.append((float(finest / fine), float(noise[probe.counted].std() / fine)))
+    steps = min(range(MOST_STEPS), key=lambda index: abs(strengths[index][0] - whiteness))
+    return steps + 1, strengths[steps][1]

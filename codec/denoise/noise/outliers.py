@@ -13,7 +13,7 @@ from bsm.codec.arrays import Floats, Mask, Positions
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe, grouped_quantiles
 from bsm.codec.denoise.noise.search import FAINTEST, find_noise
-from bsm.codec.geometry.metrics import mean_edge_length
+from bsm.codec.geometry.metrics import face_normals, mean_edge_length
 
 CLEAR, LESS_CLEAR = 0.7, 0.35
 """Share of the energy around it that an outlier explains by itself: no clean mesh tried has more than a few that are
@@ -29,13 +29,16 @@ STRAY_FAR, STRAY_LEFT = 1.5, 0.15
 models go 0.1 to 1.3 edges, or a fifth stays."""
 
 
-def put_outliers_back(positions: Positions, probe: Probe, finding: Finding) -> Positions:
-    """Put back vertices far outside their neighbors and, in a mesh without noise, those that stand out; no others."""
+def calm(positions: Positions, probe: Probe) -> tuple[int, Positions, Finding]:
+    """How many outliers are put back; positions, shape (n, 3), without them; and the noise of these."""
+    finding = find_noise(positions, probe)
     # Far strays first: one of them hides fainter ones around it.
-    back = put_strays_back(positions, probe)
+    near = positions if finding.exact else put_strays_back(positions, probe)
+    finding = finding if near is positions else find_noise(near, probe)
     # In a noisy mesh, vertices that stand out a little are the noise.
-    noisy = (finding if back is positions else find_noise(back, probe)).noisy
-    return back if noisy else _peeled(back, probe)
+    back = near if finding.noisy or finding.exact else _peeled(near, probe)
+    finding = finding if back is near else find_noise(back, probe)
+    return int((back != positions).any(axis=1).sum()), back, finding
 
 
 def put_strays_back(positions: Positions, probe: Probe) -> Positions:
@@ -65,7 +68,7 @@ def _many(chosen: Mask) -> bool:
 
 def _spiky(positions: Positions, probe: Probe) -> Mask:
     """Vertices, shape (n,), around which the normals point all ways."""
-    together = probe.topology.vertex_normals(positions)
+    together = probe.topology.incidence @ face_normals(positions, probe.topology.faces)
     sizes = np.diff(probe.topology.around.starts)
     return np.asarray(probe.counted & (np.linalg.norm(together, axis=1) < SPIKY * sizes))
 

@@ -47,9 +47,7 @@ class Windows:
     def beside(self, chosen: Mask) -> Mask:
         """Windows that have an edge to one of the chosen windows, shape (count,)."""
         ends = np.repeat(self.labels, np.diff(self._graph.offsets))
-        beside = np.zeros(self.count, dtype=np.bool_)
-        beside[ends[chosen[self.labels[self._graph.neighbors]]]] = True
-        return beside
+        return np.isin(np.arange(self.count), ends[chosen[self.labels[self._graph.neighbors]]])
 
     def quantiles(self, values: Floats, share: float) -> Floats:
         """Interpolated quantiles of the counted vertices of each window, shape (count,); NaN where it is not valid."""
@@ -62,9 +60,7 @@ class Windows:
         return np.where(self.valid, sums / np.maximum(self._sizes, 1), np.nan)
 
 
-FINEST = 6
-GAIN_PROBES = 24
-NORMAL_PASSES = 2
+FINEST, GAIN_PROBES, NORMAL_PASSES = 6, 24, 2
 SHARE, BOUND = 0.6, 0.8416
 """So much of a standard normal variable is this close to zero: nearly as sure as the variance, deaf to creases."""
 

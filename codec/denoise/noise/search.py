@@ -7,18 +7,17 @@ by their cause, and accepted by `RULES`, which weigh a few measures. All other m
 """
 
 from collections.abc import Iterator
-from dataclasses import replace
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from typing import NamedTuple, Self
 
 import numpy as np
 from scipy.cluster.vq import kmeans
 
 from bsm.codec.arrays import Floats, Mask, Positions
-from bsm.codec.denoise.noise.causes import FARTHEST, Box, Spacing, find_grid
-from bsm.codec.denoise.noise.finding import Evidence, Finding, lattice_step, look, spread
-from bsm.codec.denoise.noise.probe import FEWEST_IN_WINDOW, SHARE, Probe
+from bsm.codec.denoise.noise.causes import FARTHEST, Box, Spacing, find_cells, find_grid, lattice_step
+from bsm.codec.denoise.noise.finding import Finding
+from bsm.codec.denoise.noise.probe import FEWEST_IN_WINDOW, SHARE, Probe, Windows
 from bsm.codec.denoise.noise.view import find_view, pixel
-from bsm.codec.denoise.noise.volumes import find_cells
 from bsm.codec.denoise.surface import unit
 from bsm.codec.geometry.metrics import mean_edge_length
 
@@ -41,7 +40,7 @@ NARROWER = 1.04
 1.05 (a fractal) to 1.9."""
 ONE_CELL = 0.9  # share of the stairs of a binary volume, from which on all its walls are one cell thick
 ROUNDED_ZEROS = 0.15  # largest share of vertices that show nothing of rounding: shapes drawn on a grid have more
-HEAVY_LEVEL, HEAVY_PASSES = 0.3, 8  # from here on normals are taken from a smoother version
+HEAVY_LEVEL, HEAVY_PASSES = 0.3, 8  # noise turns normals from here on: they are taken from a smoother version
 AXIS_ALONE, AXIS_EVEN = 1.25, (0.55, 1.7)
 """Noise along an axis over that across; and on sides along the axis over that at its ends: noise along normals reads 0
 to 0.8 there, triangles that are longer one way 1.8 and more."""
@@ -49,6 +48,81 @@ AXIS_BARE = 0.58
 """On sides along the axis, noise along normals over that along it: detail reads up to 0.45, noise along normals 0.7."""
 SNAP = 0.995  # cosine from which on an axis is x, y or z
 DEPTH_WORTH = 0.7  # of noise that grows with depth: the rest of the spread
+
+
+ASIDE = 0.2  # largest median of values over their levels: noise lies on both sides
+HEAP = 1.6  # largest share of values about zero, as a multiple of the normal distribution's
+LEVEL_SPREAD = 0.92  # chance makes levels of windows of w vertices spread by about this over sqrt(w)
+MEASURES = ("level", "whiteness", "off", "uneven", "broadly uneven", "irregular", "few")
+MANY_WINDOWS = 25  # fewer say less about the spread of levels
+SLOPE, SHIFT = 0.6, 0.15  # of the broad level over the whiteness (logarithms), for all lengths of correlation
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What filters leave of a mesh along and across a direction at each vertex; windows' levels in mean edges."""
+
+    probe: Probe
+    normals: Floats
+    edge: float
+    along: Floats
+    across: Floats
+    levels: Floats
+    broad: Floats
+    finest: Floats
+
+    def level(self, windows: Mask) -> float:
+        return float(np.median(self.levels[windows]))
+
+    def whiteness(self, windows: Mask) -> float:
+        """Level of the finest frequencies over the fine ones: 1 for white noise, less if neighbors share it."""
+        # The lower quarter: creases are in the upper parts of both.
+        return float(np.quantile(self.finest[windows], 0.25) / max(np.quantile(self.levels[windows], 0.25), 1e-9))
+
+    def is_random(self, windows: Mask) -> bool:
+        """Whether counted vertices of these windows lie on both sides of the surface, and no heap of them on it."""
+        chosen = windows[self.probe.windows.labels] & self.probe.counted
+        values = self.along[chosen] / np.maximum(self.levels[self.probe.windows.labels[chosen]], 1e-9)
+        # The share of a standard normal distribution within a tenth of a deviation is 0.0797.
+        return bool(abs(np.median(values)) < ASIDE and (np.abs(values) < 0.1).mean() < HEAP * 0.0797)
+
+    def measures(self, windows: Mask) -> Floats:
+        """Return what rules weigh, in the order of `MEASURES`; level, whiteness and irregularity are logarithms."""
+        fine, broad = self.levels[windows], self.broad[windows]
+        broader = np.log(max(np.median(broad / np.maximum(fine, 1e-9)), 1e-9))
+        level, whiteness = np.log(np.maximum([self.level(windows), self.whiteness(windows)], 1e-9))
+        uneven = (min(spread(levels, self.probe.windows), 1.5) for levels in (fine, broad))
+        off = abs(broader + SLOPE * whiteness + SHIFT)
+        across = self.across[windows[self.probe.windows.labels] & self.probe.counted]
+        irregular = np.log(max(float(np.quantile(across, 0.9)), 1e-9))
+        # Few windows make every measure uncertain, and rules want more evidence then.
+        few = max(1.0 / np.sqrt(len(fine)) - 1.0 / np.sqrt(MANY_WINDOWS), 0.0)
+        return np.array([level, whiteness, off, *uneven, irregular, few])
+
+    def weakened(self, growth: Floats) -> Self:
+        """Evidence of noise without its growth, shape (n,)."""
+        here = self.probe.windows.means(growth)
+        levels, broad, finest = (values / here for values in (self.levels, self.broad, self.finest))
+        return replace(self, along=self.along / growth, levels=levels, broad=broad, finest=finest)
+
+
+def look(probe: Probe, values: Floats, directions: Floats, edge: float) -> Evidence:
+    """See `values`, shape (n, d), along `directions`, shape (n, d)."""
+    fine, broad, finest = (filtered(values) for filtered in (probe.fine, probe.broad, probe.finest))
+    along, *others = (np.einsum("ij,ij->i", seen, directions) for seen in (fine, broad, finest))
+    across = np.linalg.norm(fine - along[:, None] * directions, axis=1)
+    levels = (probe.levels(each) for each in (along, *others))
+    return Evidence(probe, directions, edge, along, across, *levels)
+
+
+def spread(levels: Floats, windows: Windows) -> float:
+    """Spread of the lower half of levels, shape (k,), beyond what chance makes; creases are in the upper one."""
+    # Robust against the upper half, where shape adds to noise.
+    bottom, middle = np.quantile(levels, [0.1, 0.5])
+    if bottom <= 0.0:
+        return float("inf")
+    chance = LEVEL_SPREAD / np.sqrt(windows.usual_size)
+    return float(np.sqrt(max((np.log(middle / bottom) / 1.2816) ** 2 - chance**2, 0.0)))
 
 
 class Suspect(NamedTuple):
@@ -74,10 +148,8 @@ def find_noise(positions: Positions, probe: Probe) -> Finding:
     if int(probe.windows.valid.sum()) < FEWEST_WINDOWS:
         return Finding("unknown", 0.0, nothing, edge, "too few vertices to tell noise from shape")
     evidence = surface(positions, probe, edge)
-    for test in (_rounded, _fused):
-        finding = test(positions, evidence)
-        if finding is not None:
-            return finding
+    if finding := _rounded(positions, evidence) or _fused(positions, evidence):
+        return finding
     # The most special first: noise along an axis would also pass as noise all over, which is treated worse.
     for suspect in suspects(positions, evidence):
         if suspect.score > 0.0:
@@ -91,7 +163,6 @@ def find_noise(positions: Positions, probe: Probe) -> Finding:
 
 def surface(positions: Positions, probe: Probe, edge: float) -> Evidence:
     """Return what filters see along the normals of a surface as smooth as its noise asks, in mean edges."""
-    # Heavy noise turns normals, along which it is to be measured. Then they come from a smoother version.
     for passes in (2, HEAVY_PASSES):
         normals = probe.smooth_normals(positions, passes)
         evidence = look(probe, positions / edge, normals, edge)
@@ -103,8 +174,7 @@ def surface(positions: Positions, probe: Probe, edge: float) -> Evidence:
 def suspects(positions: Positions, evidence: Evidence) -> Iterator[Suspect]:
     """Yield the kinds of noise that there may be, the most special first."""
     for test in (_seen, _one_axis, _everywhere, _here_and_there):
-        suspect = test(positions, evidence)
-        if suspect is not None:
+        if suspect := test(positions, evidence):
             yield suspect
 
 
@@ -201,7 +271,6 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
     along = look(probe, positions / edge, np.tile(axis, (len(positions), 1)), edge)
     growth = _growth(along, positions @ axis)
     along = along if growth is None else along.weakened(growth)
-    # The shape is as strong across.
     # The shape adds as much along the axis as across it, where it is seen alone.
     level = float(np.sqrt(max(along.level(probe.windows.valid) ** 2 - values[1], 0.0)))
     if level < FAINTEST:

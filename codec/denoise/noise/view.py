@@ -5,6 +5,7 @@ measured one.
 """
 
 from dataclasses import dataclass
+from operator import itemgetter
 
 import numpy as np
 
@@ -76,12 +77,11 @@ def find_view(positions: Positions, probe: Probe) -> View | None:
     # noise, or the camera is so far away that rays are parallel.
     eyes = [np.zeros(3), eye, *(middle - FAR * extent * axis for axis in (main, *np.eye(3)))]
     views = [View(eye, (middle - eye) / (np.linalg.norm(middle - eye) or 1.0)) for eye in eyes]
-    best = min(views, key=lambda view: _irregular(view, positions, probe))
-    if _irregular(best, positions, probe) > REGULAR:
+    irregular, best = min(((_irregular(view, positions, probe), view) for view in views), key=itemgetter(0))
+    if irregular > REGULAR:
         return None
-    plane = best.plane(positions)
-    a, b, c = (plane[topology.faces[:, corner]] for corner in range(3))
-    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    a, b, c = best.plane(positions)[topology.faces.T]
+    area = np.linalg.det(np.stack([b - a, c - a], axis=1))
     # A view shows one side of every face. Other surfaces have a back.
     return best if max((area > 0.0).mean(), (area < 0.0).mean()) > ONE_SIDED else None
 

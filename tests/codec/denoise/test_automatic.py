@@ -6,8 +6,8 @@ from scipy.spatial import ConvexHull
 
 from bsm import OptionError
 from bsm.codec.denoise.automatic import CANDIDATES
-from bsm.codec.denoise.noise.synthesis import estimate_noise
-from bsm.codec.denoise.normals import guided_normal_filtering
+from bsm.codec.denoise.noise.finding import estimate_noise
+from bsm.codec.denoise.surface import guided_normal_filtering
 from bsm.codec.geometry.metrics import face_normals, mean_edge_length, rms_over_edge
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, probe_of, sphere
 from tests.shapes import theta

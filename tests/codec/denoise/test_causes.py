@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.codec.arrays import Faces, Floats, Positions
-from bsm.codec.denoise.noise.volumes import find_cells
+from bsm.codec.denoise.noise.causes import find_cells
 from bsm.codec.denoise.surface import Topology
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 from tests.shapes import theta

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from bsm.codec.denoise.automatic import judge
 from bsm.codec.denoise.noise.causes import Spacing, find_grid
-from bsm.codec.denoise.noise.outliers import put_outliers_back, put_strays_back
+from bsm.codec.denoise.noise.outliers import calm, put_strays_back
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.safety import judge
 from bsm.codec.geometry.metrics import mean_edge_length
 from tests.codec.denoise.denoise_shapes import Partners, cube, find, grid, probe_of, sphere
 from tests.shapes import theta
@@ -35,7 +35,7 @@ KINDS = {
 
 
 def without_outliers(positions: np.ndarray, probe: Probe) -> np.ndarray:
-    return put_outliers_back(positions, probe, find_noise(positions, probe))
+    return calm(positions, probe)[1]
 
 
 @pytest.mark.parametrize("shape", [cube, sphere])

@@ -5,14 +5,24 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm.codec.denoise.learnt.cascade import WEIGHTS, Network, joined, learnt, read_networks, regressed_normals
-from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, descriptions, mirrored
+from bsm.codec.denoise.learnt import (
+    BASE,
+    NUMBERS,
+    RADIUS,
+    WEIGHTS,
+    Network,
+    descriptions,
+    joined,
+    learnt,
+    read_networks,
+    regressed_normals,
+)
 from bsm.codec.denoise.surface import Topology, surroundings
 from bsm.codec.geometry.metrics import rms_over_edge
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 from tests.shapes import theta
 from tools.noise import gaussian_along_normals
-from tools.train_denoiser import write_networks
+from tools.train_denoiser import mirrored, write_networks
 
 TURN = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))[0]
 TURN *= np.sign(np.linalg.det(TURN))

@@ -3,8 +3,17 @@
 import numpy as np
 import pytest
 
-from bsm.codec.denoise.normals import FINE_STEPS, FineStep, bilateral_normal_filtering, filter_normals, patch_guidance
-from bsm.codec.denoise.surface import CROWDED, Topology, follow_normals, surroundings
+from bsm.codec.denoise.surface import (
+    CROWDED,
+    FINE_STEPS,
+    FineStep,
+    Topology,
+    bilateral_normal_filtering,
+    filter_normals,
+    follow_normals,
+    patch_guidance,
+    surroundings,
+)
 from bsm.codec.geometry.metrics import face_geometry
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, members, sphere
 from tests.shapes import theta

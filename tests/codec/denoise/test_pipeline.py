@@ -7,8 +7,7 @@ from bsm import DenoiseOptions, HarmError, MeshError, OptionError, TriangleMesh
 from bsm.codec.denoise import FrameDenoiser, denoise
 from bsm.codec.denoise.coarse import CoarseFilter, by_lengths
 from bsm.codec.denoise.filters import HAND_OVERS
-from bsm.codec.denoise.normals import GuidedFilter, guided_normal_filtering
-from bsm.codec.denoise.surface import Topology, surface_normals
+from bsm.codec.denoise.surface import GuidedFilter, Topology, guided_normal_filtering, surface_normals
 from tests.codec.denoise.denoise_shapes import Partners, sphere
 from tests.shapes import theta
 from tools.noise import gaussian_along_normals

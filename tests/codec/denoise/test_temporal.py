@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bsm.codec.denoise import FrameDenoiser
+from bsm.codec.denoise.coarse import FEWEST_FRAMES, TemporalFilter, noise_deviation, shrunk
 from bsm.codec.denoise.frames import WINDOW
-from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter, noise_deviation, shrunk
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.evaluation.sample import knot
 from tests.codec.denoise.denoise_shapes import sphere

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bsm.codec.arrays import Floats, Positions
-from bsm.codec.denoise.noise.finding import lattice_step
+from bsm.codec.denoise.noise.causes import lattice_step
 from bsm.codec.denoise.noise.view import View, find_view
 from bsm.codec.denoise.surface import Topology
 from bsm.files.mesh import read_mesh

@@ -10,7 +10,7 @@ import scipy.linalg
 
 from bsm.codec.blocks.overlap import Blend, Blocks
 from bsm.codec.denoise.coarse import KEEP, RULES, CoarseFilter
-from bsm.codec.denoise.normals import bilateral_normal_filtering, guided_normal_filtering
+from bsm.codec.denoise.surface import bilateral_normal_filtering, guided_normal_filtering
 from bsm.codec.geometry.metrics import decibel
 from bsm.codec.signal.chain import Chain, ChainRules
 from bsm.codec.static.ways.in_blocks import MOST_APART

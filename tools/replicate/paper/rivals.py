@@ -17,8 +17,13 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from bsm.codec.arrays import Faces, Floats, Positions
-from bsm.codec.denoise.normals import bilateral_normal_filtering, guided_normal_filtering
-from bsm.codec.denoise.surface import Topology, follow_normals, surface_normals
+from bsm.codec.denoise.surface import (
+    Topology,
+    bilateral_normal_filtering,
+    follow_normals,
+    guided_normal_filtering,
+    surface_normals,
+)
 from bsm.codec.geometry.graph import Lists
 from bsm.codec.geometry.metrics import face_geometry, face_normals, mean_edge_length
 

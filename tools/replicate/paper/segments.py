@@ -10,7 +10,7 @@ from bsm._core import Cut
 from bsm.codec.arrays import Indices
 from bsm.codec.blocks.overlap import Blend, Block, block_size, grow_blocks, metis_partition
 from bsm.codec.denoise.coarse import KEEP, OVERLAP
-from bsm.codec.denoise.normals import guided_normal_filtering
+from bsm.codec.denoise.surface import guided_normal_filtering
 from bsm.codec.geometry.graph import graph_of_faces
 from tools.replicate.paper.dictionaries import Floats, degree_weights, eigenvectors
 from tools.replicate.paper.figures import save_boxes, save_surfaces

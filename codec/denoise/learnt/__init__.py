@@ -1,1 +1,0 @@
-"""Normals by small networks that were trained on made shapes."""
