@@ -70,12 +70,22 @@ bool finish_coding(Coding *coding) {
         || FAIL(coding->context, CORRUPT, "# bytes are left over behind the last symbol of a payload", left);
 }
 
+/* By copies of what is there: WebAssembly makes these at full speed from its first call on, and loops not. */
+static void fill_slots(uint32_t *slots, int64_t count, uint32_t value) {
+    enum { MOST = 4096 };
+    if (count > 0) *slots = value;
+    for (int64_t done = 1, more; done < count; done += more) {
+        more = least(least(done, MOST), count - done);
+        memcpy(slots + done, slots, (size_t)more * sizeof *slots);
+    }
+}
+
 bool make_bank(Arena *arena, BankPlan plan, Bank *bank) {
     if (!TAKE(arena, plan.slots, bank->slots) || !TAKE(arena, plan.selectors * plan.inputs, bank->weights))
         return false;
     uint32_t probability = (uint32_t)(plan.probability > 0 ? plan.probability : ONE / 2);
     int32_t weight = plan.inputs < 3 ? ONE / plan.inputs : ONE * 5 / (4 * plan.inputs);
-    for (int64_t i = 0; i < plan.slots; i++) bank->slots[i] = probability << 16 | (uint32_t)plan.trust;
+    fill_slots(bank->slots, plan.slots, probability << 16 | (uint32_t)plan.trust);
     for (int64_t i = 0; i < plan.selectors * plan.inputs; i++) bank->weights[i] = weight;
     bank->limit = plan.limit > 0 ? plan.limit : 255;
     bank->rate = plan.rate > 0 ? plan.rate : 14;

@@ -101,9 +101,13 @@ async function bundle(entry, options = {}) {
     return result.outputFiles[0].text;
 }
 
+/** Has browsers compile all functions while a script comes, and none in the way of a first picture. */
+const EAGER = /^(three|pool|main|.*worker)\.js$/;
+
 /** A module in fewer bytes. */
-async function smaller(text) {
-    return (await minify(text, { module: true, ecma: 2022, compress: { passes: 3 } })).code;
+async function smaller(text, name) {
+    const format = EAGER.test(name) ? { preamble: "//# allFunctionsCalledOnLoad" } : {};
+    return (await minify(text, { module: true, ecma: 2022, compress: { passes: 3 }, format })).code;
 }
 
 /** A module that others call by all of its names. */
@@ -189,7 +193,10 @@ async function products() {
     };
     return [
         ...(await Promise.all(
-            Object.entries(built).map(async ([name, text]) => [join(WEB, "built", name), `${await smaller(text)}\n`]),
+            Object.entries(built).map(async ([name, text]) => [
+                join(WEB, "built", name),
+                `${await smaller(text, name)}\n`,
+            ]),
         )),
         [join(WEB, "built/LICENSES.txt"), `${licenses(BUNDLED)}\n`],
         [join(VIEWER, "viewer.js"), script],

@@ -99,6 +99,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             assert.ok(share > 0.05 && share < 0.6, `share ${share}`);
             assert.ok(x > 0.4 && x < 0.8 && Math.abs(y - 0.5) < 0.1, `beside the card: ${x} ${y}`);
             assert.deepEqual(complaints, []);
+            assert.equal(page.workers().length, 1, "no thread starts that decodes nothing");
         });
 
     test("cuts the stream at any byte, and goes on", async () => {

@@ -87,7 +87,7 @@ async function fillPage(list: HTMLElement): Promise<void> {
         const content = contents[index];
         try {
             if (content.tiles !== undefined) return await view.openTiles(content, index);
-            await pool.preload().catch(() => {}); // so that only decoding is timed; errors come from the decoder
+            await pool.preload("whole").catch(() => {}); // so that only decoding is timed; errors come from the decoder
             if (!mine()) return;
             const layer = content.layers[content.main];
             const pieces = layer.url === undefined ? [await bytesOf(layer)] : piecesOf(await fetched(layer.url));
