@@ -39,7 +39,7 @@ run(
     ...FORMATTED,
 );
 for (const name of readdirSync(join(WEB, "src"), { recursive: true }).filter((each) =>
-    /\.ts$|view\.html$/.test(each),
+    /\.ts$|(view|player)\.html$/.test(each),
 )) {
     const lines = readFileSync(join(WEB, "src", name), "utf8").split("\n");
     const long = lines.findIndex(({ length }) => length > MOST_COLUMNS); // the formatter breaks neither comments nor strings

@@ -140,10 +140,7 @@ function facesOf(
     return { corners, labels: firsts.map((first) => labels[first]) };
 }
 
-/**
- * Linear colors, which three.js draws, in sRGB, which streams have: bytes where these are the same to 16 bits, or else
- * floats, or words if linear bytes were given.
- */
+/** Linear colors in sRGB: bytes where these say the same to 16 bits, else words if linear bytes were given, or floats. */
 function filed(
     linear: ArrayLike<number>,
     components: number,

@@ -8,9 +8,7 @@ import { drawnFaces, numbersOf } from "./parting";
 
 export type { DrawnAttribute, Piece };
 
-/**
- * A whole mesh as it is drawn: `vertices` says which vertex of the stream each drawn one is, if that is not the same.
- */
+/** A whole mesh as it is drawn; `vertices`: the vertex of the stream that each drawn one is, if they differ. */
 export interface Shape extends Omit<DrawnFaces, "own">, Bounds {
     positions: Float32Array;
     normals: Float32Array;

@@ -12,9 +12,7 @@ export interface DrawnAttribute {
     values: Float32Array;
 }
 
-/**
- * Faces as they are drawn, which vertex each drawn one is if that is not the same, and what they carry; `own`: normals.
- */
+/** Faces as they are drawn; `vertices`: which vertex each drawn one is, if they differ; `own`: normals. */
 export interface DrawnFaces {
     index: Uint32Array;
     vertices?: Int32Array;

@@ -1,6 +1,4 @@
-/**
- * One WebGL context for all players of a page, since a page may have few: it draws them in turn, and each keeps a copy.
- */
+/** One WebGL context for all players, since a page may have few: it draws them in turn, and each keeps a copy. */
 import { type Camera, type Scene, WebGLRenderer } from "three";
 
 /** A scene with a canvas of its own. */

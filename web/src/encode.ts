@@ -1,7 +1,7 @@
 /** Meshes to streams: `encode` runs the encoder in a worker, `encodeHere` where it is called. */
 import type { BufferGeometry, Object3D } from "three";
 import { EncodeError, encodeWith, type Answer, type EncodeOptions, type MeshInput } from "./encoding";
-import { compiled, once } from "./fetched";
+import { compiled, once, resolved } from "./fetched";
 import { sayAlone, started } from "./threads";
 
 export { EncodeError, encodeWith } from "./encoding";
@@ -11,8 +11,8 @@ export type { AttributeInput, EncodeOptions, MeshInput, Quality } from "./encodi
 export type Drawn = { readonly isBufferGeometry: true } | { readonly isObject3D: true };
 
 type Bytes = Uint8Array<ArrayBuffer>;
+type Given = MeshInput | Drawn;
 const [THREAD, HERE] = ["encode-worker.js", import.meta.url];
-
 const load = once((url: string) => compiled(new URL(url)));
 
 /** The compiled encoder of meshes, or of sequences. */
@@ -21,18 +21,17 @@ export function loadEncoder(wasm?: EncodeOptions["wasm"], moves = false): Promis
     const given =
         wasm ?? (moves ? new URL("./encode-moving.wasm", import.meta.url) : new URL("./encode.wasm", import.meta.url));
     if (typeof given !== "string" && !(given instanceof URL)) return WebAssembly.compile(given);
-    return load(new URL(given, globalThis.document?.baseURI ?? globalThis.location?.href).href);
+    return load(resolved(given).href);
 }
 
 /** A mesh as it is given, or as three.js draws it, which is there then. */
-async function wholeOf(input: MeshInput | Drawn, { onNote }: EncodeOptions): Promise<MeshInput> {
-    return "positions" in input
-        ? input
-        : (await import("./content")).meshOf(input as BufferGeometry | Object3D, onNote);
+async function wholeOf(input: Given, { onNote }: EncodeOptions): Promise<MeshInput> {
+    if ("positions" in input) return input;
+    return (await import("./content")).meshOf(input as BufferGeometry | Object3D, onNote);
 }
 
 /** Encode in this thread, which waits for that. */
-export async function encodeHere(input: MeshInput | Drawn, options: EncodeOptions = {}): Promise<Bytes> {
+export async function encodeHere(input: Given, options: EncodeOptions = {}): Promise<Bytes> {
     const mesh = await wholeOf(input, options);
     return encodeWith(await loadEncoder(options.wasm, Boolean(mesh.frames)), mesh, options);
 }
@@ -42,19 +41,19 @@ export async function encodeHere(input: MeshInput | Drawn, options: EncodeOption
  *
  *     const bytes = await encode(mesh.geometry, { bits: 14, onProgress: console.log });
  */
-export async function encode(input: MeshInput | Drawn, options: EncodeOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
+export async function encode(input: Given, options: EncodeOptions = {}): Promise<Bytes> {
     const { onProgress, onNote: _, signal, wasm, ...plain } = options;
     signal?.throwIfAborted();
     const mesh = await wholeOf(input, options);
     const module = await loadEncoder(wasm, Boolean(mesh.frames));
-    const alone = (): Uint8Array<ArrayBuffer> => (sayAlone(), encodeWith(module, mesh, options));
+    const alone = (): Bytes => (sayAlone(), encodeWith(module, mesh, options));
     const worker = started(
         () => new Worker(new URL("./encode-worker.js", import.meta.url), { type: "module" }),
         () => new URL(THREAD, HERE),
     );
     if (!worker) return alone();
     try {
-        const bytes = await new Promise<Uint8Array<ArrayBuffer> | undefined>((resolve, reject) => {
+        const bytes = await new Promise<Bytes | undefined>((resolve, reject) => {
             signal?.addEventListener("abort", () => reject(signal.reason as Error), { once: true });
             let begun = false;
             worker.onerror = ({ message }) => {
@@ -84,14 +83,14 @@ export class BSMExporter {
     /** Encode, and call `onDone` with the stream, or `onError`. */
     parse(
         object: Drawn,
-        onDone: (bytes: Uint8Array<ArrayBuffer>) => void,
-        onError?: (error: unknown) => void,
+        onDone: (bytes: Bytes) => void,
+        onError: (error: unknown) => void = console.error,
         options: EncodeOptions = {},
     ): void {
-        this.parseAsync(object, options).then(onDone, onError ?? ((error: unknown) => console.error(error)));
+        this.parseAsync(object, options).then(onDone, onError);
     }
 
-    async parseAsync(object: Drawn, options: EncodeOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
+    async parseAsync(object: Drawn, options: EncodeOptions = {}): Promise<Bytes> {
         if (!("isBufferGeometry" in object || "isObject3D" in object))
             throw new EncodeError("BSMExporter writes geometries, and objects with meshes", 2);
         return encode(object, options);

@@ -6,10 +6,7 @@ import type { Header } from "./header";
 /** What the author says of a mesh, by names. */
 export type Metadata = Map<string, string | number | bigint | Uint8Array>;
 
-/**
- * What a block changed: vertices, their positions in the unit of the mesh, and which of them are final. `first`: these
- * are the vertices from this one on.
- */
+/** Vertices that a block changed, in the unit of the mesh, and which are final; `first`: they are those from it on. */
 export interface Changes {
     first?: number;
     vertices: Int32Array;
@@ -25,9 +22,7 @@ export type Event =
     | { type: "header"; header: Header }
     /** Nothing that is decoded depends on them. */
     | { type: "metadata"; entries: Metadata }
-    /**
-     * Three vertices of each face, in the order that the mesh had if the stream stores that; `vertices` counts them.
-     */
+    /** Three vertices of each face, in the order of the mesh if the stream stores that; `vertices` counts them. */
     | { type: "connectivity"; faces: Int32Array; vertices: number; loose: Loose }
     /** A block, or a chunk of a grid, has been decoded. */
     | ({ type: "block"; index: number } & Changes)
@@ -37,10 +32,7 @@ export type Event =
     | FrameEvent
     /** Something could not be decoded, and a tolerant decoder goes on: a block, frames, or bytes of neither. */
     | { type: "loss"; block?: number; frames?: { first: number; count: number }; error: Described }
-    /**
-     * The checksum is right, or a tolerant decoder has lost something: vertices without a position, and those that are
-     * less good than they were encoded.
-     */
+    /** The checksum is right, or something is lost: vertices without a position, and those that are less exact. */
     | { type: "end"; missing: Int32Array; degraded: Int32Array; positions?: Float64Array };
 
 /** An event of a type. */
@@ -48,9 +40,7 @@ export type EventOf<Type> = Extract<Event, { type: Type }>;
 
 /** What a decoder is asked for beside the mesh. */
 export interface Wishes {
-    /**
-     * Report damage behind the faces as `LossEvent`, and go on with everything that does not depend on what is lost.
-     */
+    /** Report damage behind the faces as a loss, and go on with all that does not depend on it. */
     tolerant?: boolean;
     /** Tell positions of a static mesh at its end, all at once, and not what each block changes: that is less work. */
     whole?: boolean;
@@ -65,9 +55,7 @@ export interface Mesh {
     attributes: Attribute[];
 }
 
-/**
- * A frame of a sequence: its number from 0, positions, shape (n, 3), and the attributes that move, as they are in it.
- */
+/** A frame of a sequence: its number from 0, positions, shape (n, 3), and the attributes that move. */
 export interface FrameEvent<Positions = Float64Array> {
     type: "frame";
     index: number;

@@ -10,6 +10,10 @@ export function isPage(bytes: Uint8Array): boolean {
     return /^\s*<(!|html)/i.test(new TextDecoder().decode(bytes.subarray(0, 64)));
 }
 
+/** An address as pages write them. */
+export const resolved = (url: string | URL): URL =>
+    new URL(url, globalThis.document?.baseURI ?? globalThis.location?.href);
+
 /** The bytes at an address, of a file where files can be read. */
 async function bytesAt(url: URL): Promise<ArrayBuffer | Uint8Array<ArrayBuffer>> {
     const builtin = globalThis.process?.getBuiltinModule?.bind(globalThis.process);

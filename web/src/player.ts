@@ -13,22 +13,14 @@ import {
     Vector3,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { Bar, BAR_STYLE } from "./bar";
+import { Bar } from "./bar";
 import { hang, redraw, takeDown } from "./easel";
 import type { BSMGeometry } from "./geometry";
+import page from "./player.html";
 import { sceneOf } from "./scene";
 import { BSMLoader, BSMSequence } from "./three";
 import { turnBy } from "./turning";
 
-/** Pages may style the element as they like; the text lies in front of the picture. */
-const STYLE = `
-:host { display: block; position: relative; touch-action: pan-y;
-    background: radial-gradient(circle at 50% 40%, #eef0f3, #aeb6c2); }
-canvas { display: block; width: 100%; height: 100%; touch-action: inherit; }
-img { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: contain; pointer-events: none; }
-img:not([src]) { display: none; }
-p { position: absolute; inset: auto 0 45% 0; margin: 0; padding: 0 1em; text-align: center;
-    font: 14px system-ui, sans-serif; color: #222; }`;
 /** What a sequence says, and the element says again. */
 const PASSED = ["play", "pause", "frame", "loop", "ended", "waiting"] as const;
 const LABEL = "A mesh in three dimensions. Arrow keys turn it, plus and minus zoom.";
@@ -57,7 +49,8 @@ export class BSMPlayer extends Base {
     readonly loader = new BSMLoader();
     readonly scene = new Scene();
     readonly camera = new PerspectiveCamera(35);
-    readonly canvas = globalThis.document?.createElement("canvas");
+    private readonly shadow = Object.assign(this.attachShadow({ mode: "open" }), { innerHTML: page });
+    readonly canvas = this.shadow.querySelector("canvas")!;
     /** Whether it can be seen, or nearly. */
     inView = true;
     /** What is played, once its first frame is there. */
@@ -71,12 +64,12 @@ export class BSMPlayer extends Base {
     /** Whether the reader has moved the camera. */
     private touched = false;
     private orbit?: OrbitControls;
-    private bar?: Bar;
+    private readonly bar = new Bar(this.shadow.querySelector(".bar")!, this);
     private resizes?: ResizeObserver;
     private scrolls?: IntersectionObserver;
     /** What is loading, or wrong. */
-    private readonly note = globalThis.document?.createElement("p");
-    private readonly picture = globalThis.document?.createElement("img");
+    private readonly note = this.shadow.querySelector("p")!;
+    private readonly picture = this.shadow.querySelector("img")!;
     /** Stops the load; what has been stopped is not shown. */
     private loading = new AbortController();
 
@@ -132,16 +125,8 @@ export class BSMPlayer extends Base {
     }
 
     connectedCallback(): void {
-        const { camera, canvas, note, picture, scene } = this;
-        const style = Object.assign(document.createElement("style"), { textContent: STYLE + BAR_STYLE });
-        picture.alt = "";
-        this.bar = new Bar(this);
-        canvas.setAttribute("part", "canvas");
-        canvas.tabIndex = 0;
-        canvas.setAttribute("role", "img");
+        const { camera, canvas, scene } = this;
         canvas.setAttribute("aria-label", this.getAttribute("aria-label") ?? LABEL);
-        const shadow = this.shadowRoot ?? this.attachShadow({ mode: "open" });
-        shadow.replaceChildren(style, canvas, picture, note, this.bar.element);
         this.orbit = new OrbitControls(camera, canvas);
         this.orbit.addEventListener("change", () => this.redraw());
         this.orbit.addEventListener("start", () => (this.touched = true));
@@ -208,7 +193,7 @@ export class BSMPlayer extends Base {
 
     /** Show what a reader may do: without controls, where motion is not wished for, they start a sequence. */
     private steer(): void {
-        if (!this.bar || !this.orbit) return;
+        if (!this.orbit) return;
         this.bar.element.hidden = !this.controls && !(this.autoplay && this.isCalm);
         this.orbit.enableZoom = !this.hasAttribute("disable-zoom");
         this.bar.show();
@@ -226,7 +211,7 @@ export class BSMPlayer extends Base {
         canvas.onpointerdown = ({ clientX, clientY }) => (from = [clientX, clientY]);
         canvas.onclick = ({ clientX, clientY }) => {
             const isTap = Math.hypot(clientX - from[0], clientY - from[1]) < TAP;
-            if (isTap && this.sequence && this.bar?.element.hidden === false) this.bar.toggle();
+            if (isTap && this.sequence && !this.bar.element.hidden) this.bar.toggle();
         };
     }
 
@@ -259,7 +244,6 @@ export class BSMPlayer extends Base {
         const { signal } = (this.loading = new AbortController());
         const mine = (): boolean => !signal.aborted;
         const failed = (error: unknown): void => void (mine() && this.fail(error));
-        this.note.setAttribute("role", "status");
         this.note.textContent = "Loading";
         const onProgress = ({ lengthComputable, loaded, total }: ProgressEvent): void => {
             if (mine() && !this.content && lengthComputable)
@@ -355,7 +339,7 @@ export class BSMPlayer extends Base {
     }
 
     private say(type: string, detail?: unknown): void {
-        if (this.bar?.element.hidden === false) this.bar.show();
+        if (!this.bar.element.hidden) this.bar.show();
         this.dispatchEvent(new CustomEvent(type, { detail }));
     }
 }

@@ -39,9 +39,7 @@ export function isPosed(root: Object3D | BufferGeometry): boolean {
 
 type Poses = { positions: Float64Array; frames: number; rate: number };
 
-/**
- * Positions of all vertices in each frame of a clip, from its first key to its last one; one frame where nothing moves.
- */
+/** Positions of all vertices in each frame of a clip, from its first key to its last; one frame if nothing moves. */
 export function posesOf(root: Object3D, clip?: AnimationClip): Poses {
     const times = [...new Set(clip?.tracks.flatMap((track) => [...track.times]))].sort((a, b) => a - b);
     const [rate, meshes, mixer, point] = [rateOf(times), meshesIn(root), new AnimationMixer(root), new Vector3()];

@@ -8,7 +8,5 @@ export interface SharedBlock {
     problem?: Described;
 }
 
-/**
- * Which of those that share the chains of a stream has which: chain c is that of number c % `among`; 0 is the decoder.
- */
+/** Who has which chains of a stream: chain c is that of number c % `among`; 0 is the decoder. */
 export type Share = Record<"number" | "among", number>;

@@ -1,6 +1,6 @@
 /** Where threads and kernels come from: the files beside this one, or those of a folder that is named. */
 import type { StreamWorker, Say, Start } from "./worker";
-import { compiled, once } from "./fetched";
+import { compiled, once, resolved } from "./fetched";
 import { started } from "./threads";
 import { isLight, type Build, type Thread } from "./peek";
 
@@ -53,10 +53,7 @@ export const here: Source = {
 
 /** The files in a folder, as those of `built`. */
 export function placeOf(path: string): Source {
-    const base = new URL(
-        path.endsWith("/") ? path : `${path}/`,
-        globalThis.document?.baseURI ?? globalThis.location?.href,
-    );
+    const base = resolved(path.endsWith("/") ? path : `${path}/`);
     const address = (thread: Thread): URL => new URL(fileOf(thread), base);
     return {
         worker: (thread) =>

@@ -1,7 +1,7 @@
 /** BSM streams in three.js: a loader that is used as DRACOLoader is, and one of whole scenes. */
 import { type Group, Loader } from "three";
 import { BsmError, errorLike } from "./errors";
-import { messageOf } from "./fetched";
+import { messageOf, resolved } from "./fetched";
 import { fetchPieces } from "./flights";
 import { BSMGeometry, type Progress } from "./geometry";
 import type { Limits } from "./index";
@@ -44,10 +44,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
         return this;
     }
 
-    /**
-     * Have a thread and the decoder ready before there is a stream: of all meshes, static ones, sequences, or those of
-     * `--quick`.
-     */
+    /** Have a thread and a decoder ready before there is a stream: of all meshes, static ones, sequences, or `--quick`. */
     preload(build: Build = "small"): this {
         this.pool.preload(build).catch((error) => console.error(error));
         return this;
@@ -69,19 +66,15 @@ export class BSMLoader extends Loader<BSMGeometry> {
     override load(
         url: string,
         onLoad: (geometry: BSMGeometry) => void,
-        onProgress?: (event: ProgressEvent) => void,
-        onError?: (error: unknown) => void,
+        onProgress?: OnProgress,
+        onError: (error: unknown) => void = console.error,
         progress?: Progress,
     ): void {
         const { manager } = this;
         manager.itemStart(url);
         this.fetched(url, onProgress, progress)
             .then(onLoad)
-            .catch((error) => {
-                if (onError) onError(error);
-                else console.error(error);
-                manager.itemError(url);
-            })
+            .catch((error) => (onError(error), manager.itemError(url)))
             .finally(() => manager.itemEnd(url));
     }
 
@@ -106,14 +99,14 @@ export class BSMLoader extends Loader<BSMGeometry> {
     }
 
     /** A group of meshes, one for each part and material, with their textures; y is up. */
-    async loadScene(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<Group> {
+    async loadScene(url: string, onProgress?: OnProgress, progress?: Progress): Promise<Group> {
         const loading = this.loadAsync(url, onProgress, { guess: "whole", ...progress });
         const [geometry, { sceneOf }] = await Promise.all([loading, import("./scene")]);
         return sceneOf(geometry);
     }
 
     /** A sequence that can be played as soon as its first frame is there. */
-    loadSequence(url: string, onProgress?: (event: ProgressEvent) => void, signal?: AbortSignal): Promise<BSMSequence> {
+    loadSequence(url: string, onProgress?: OnProgress, signal?: AbortSignal): Promise<BSMSequence> {
         let sequence: BSMSequence | undefined;
         const stop = new AbortController();
         return new Promise((keep, fail) => {
@@ -143,7 +136,22 @@ export class BSMLoader extends Loader<BSMGeometry> {
             if (error instanceof DOMException) throw new DOMException(message, error.name);
             throw new Error(message, { cause: error });
         };
-        return this.decoded(progress, (stream, signal) => this.pass(url, stream, onProgress, signal)).catch(rename);
+        const give = async (stream: StreamDecoding, signal: AbortSignal): Promise<void> => {
+            const credentials = this.withCredentials ? "include" : "same-origin";
+            const address = resolved(this.manager.resolveURL(this.path + url));
+            await fetchPieces(
+                address,
+                { headers: this.requestHeader, credentials },
+                {
+                    signal,
+                    onPiece: (piece) => stream.receiveData(piece),
+                    onProgress: (loaded, total) =>
+                        onProgress?.(new ProgressEvent("progress", { lengthComputable: total > 0, loaded, total })),
+                },
+            );
+            stream.receiveEof();
+        };
+        return this.decoded(progress, give).catch(rename);
     }
 
     /** The geometry of a stream that is given its bytes, until somebody or an error stops it. */
@@ -166,29 +174,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
             signal.onabort = () => fall(signal.reason);
             give(stream, signal).catch(fall);
         });
-        return found.finally(() => {
-            signal.onabort = null;
-            own.abort();
-        });
-    }
-
-    /** Give a stream its bytes as they come. */
-    private async pass(
-        url: string,
-        stream: StreamDecoding,
-        onProgress?: (event: ProgressEvent) => void,
-        signal?: AbortSignal,
-    ): Promise<void> {
-        const address = this.manager.resolveURL(this.path + url);
-        const credentials = this.withCredentials ? "include" : "same-origin";
-        const request: RequestInit = { headers: this.requestHeader, credentials };
-        await fetchPieces(new URL(address, globalThis.document?.baseURI ?? globalThis.location?.href), request, {
-            signal,
-            onPiece: (piece) => stream.receiveData(piece),
-            onProgress: (loaded, total) =>
-                onProgress?.(new ProgressEvent("progress", { lengthComputable: total > 0, loaded, total })),
-        });
-        stream.receiveEof();
+        return found.finally(() => ((signal.onabort = null), own.abort()));
     }
 }
 
@@ -200,7 +186,7 @@ export class BSMSceneLoader extends Loader<Group> {
     override load(
         url: string,
         onLoad: (group: Group) => void,
-        onProgress?: (event: ProgressEvent) => void,
+        onProgress?: OnProgress,
         onError: (error: unknown) => void = console.error,
     ): void {
         this.geometries.setPath(this.path).setRequestHeader(this.requestHeader);

@@ -1,7 +1,4 @@
-/**
- * Scenes of glTF whose geometry is BSM streams (EXT_bsm_compression), in glTF-Transform: read as plain geometry, and
- * written.
- */
+/** Scenes of glTF whose geometry is BSM streams (EXT_bsm_compression), in glTF-Transform: read, and written. */
 import {
     Accessor,
     BufferUtils,

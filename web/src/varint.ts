@@ -1,5 +1,5 @@
-/** Integers of any size in as few bytes as they need (specification, F 1.2). */
-import { MAX_VARINT_BYTES } from "./constants.json";
+/** Integers of any size in as few bytes as they need (specification, F 1.2), and frames, which begin with one. */
+import { MAX_VARINT_BYTES, SHORT } from "./constants.json";
 import { CorruptError } from "./errors";
 
 /** Throw an error if `isSo` is false. It has no text, since the full decoder then says what is wrong. */
@@ -19,4 +19,14 @@ export function parseVarint(data: Uint8Array, start: number, end: number): { val
     }
     demand(end - start < MAX_VARINT_BYTES);
     return undefined;
+}
+
+const BLOCK_TAG = 6;
+
+/** What a tag says, and where the frame's payload and the frame end (F 3). */
+export function frameOf(tag: { value: number; end: number }): Record<"type" | "length" | "sum" | "end", number> {
+    const type = tag.value % 16;
+    const length = Math.floor(tag.value / 16);
+    const sum = tag.end + length;
+    return { type, length, sum, end: sum + (type === BLOCK_TAG || length < SHORT ? 2 : 4) };
 }

@@ -60,10 +60,7 @@ export class CodedViews<T> {
         return bytes;
     }
 
-    /**
-     * What is drawn of a stream, or of its first frame; `take` gets all pictures, and `end` hears that no more will
-     * come.
-     */
+    /** What is drawn of a stream or its first frame; `take` gets all pictures, and `end` hears that no more come. */
     decode(
         pool: Pool,
         data: Uint8Array,

@@ -5,8 +5,7 @@ import { join } from "node:path";
 import test from "node:test";
 import { BsmError, Decoder, END_OF_STREAM, type Event } from "../src/index";
 import { PREAMBLE } from "../src/constants.json";
-import { frameOf } from "../src/reader";
-import { parseVarint } from "../src/varint";
+import { frameOf, parseVarint } from "../src/varint";
 import { kernels, VECTORS } from "./shared";
 
 /** The folder with damaged streams, and what Python makes of each. */

@@ -65,10 +65,7 @@ export class Camera extends PerspectiveCamera {
         return (this.size[1] * devicePixelRatio) / (2 * Math.tan(this.fov / 2 / MathUtils.RAD2DEG));
     }
 
-    /**
-     * Show points, which a matrix puts around the origin, from the side of their front, if they have one, in that area
-     * where they are largest.
-     */
+    /** Show points, which a matrix puts around the origin, from their front, in that area where they are largest. */
     aim(points: Points, matrix: Matrix4, front: Vector3, areas: Area[]): void {
         const begin = VIEW.clone();
         if (Math.hypot(front.x, front.z) > OPEN) begin.theta += Math.atan2(front.x, front.z);

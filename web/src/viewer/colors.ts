@@ -45,10 +45,7 @@ export function fieldOf(
     };
 }
 
-/**
- * Colors of all drawn vertices, shape (n, 3), the range of a field being that of another mesh; undefined where a mesh
- * has nothing of the kind.
- */
+/** Colors of all drawn vertices, shape (n, 3), within the range of a field; undefined where a mesh has no such values. */
 export function colorsOf(
     geometry: BSMGeometry,
     scheme: Scheme,

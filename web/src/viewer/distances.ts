@@ -1,6 +1,4 @@
-/**
- * How far a mesh is from its original: vertex by vertex where the faces agree, and from its surface where they do not.
- */
+/** How far a mesh is from its original: from its vertices where the faces agree, from its surface where not. */
 import { Box3, Triangle, Vector3 } from "three";
 import type { BSMGeometry } from "../geometry";
 

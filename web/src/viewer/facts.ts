@@ -35,10 +35,7 @@ export interface Content {
         /** Frames of a sequence whose looks were measured; `look` is the worst one. */
         drawn?: number;
         farthest?: number;
-        /**
-         * Of two surfaces with other faces: their mean distance; `farthest` is the largest one then, not that of
-         * vertices.
-         */
+        /** The mean distance of two surfaces with other faces; `farthest` is their largest one then. */
         apart?: number;
         /** Vertices and faces of the original. */
         before?: [number, number];
@@ -135,10 +132,7 @@ function visibleIn(notes: string[]): string[] {
     return names.length > 0 ? names.filter((name) => !UNSEEN.test(name)) : ["parts of the file"];
 }
 
-/**
- * Sizes of the given file and the stream, what is claimed of them, and the rows below; sizes are compared only if all
- * of the file that can be seen is in the stream.
- */
+/** Sizes, which are compared only if all that can be seen is in the stream; what is claimed of them; the rows below. */
 export function factsOf(
     { layers, main, facts }: Content,
     length: number,

@@ -1,7 +1,4 @@
-/**
- * Tiles of a mesh of any size: coarse ones first, then those that are worth most where one looks, by ranges; memory has
- * a bound.
- */
+/** Tiles of a mesh of any size: coarse ones first, then those worth most where one looks; memory has a bound. */
 import { Vector3 } from "three";
 import { messageOf } from "../fetched";
 import { BSMGeometry } from "../geometry";
