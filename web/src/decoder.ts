@@ -1,13 +1,13 @@
 /** A stream to a mesh, block by block, while it arrives. */
 import type { Attribute } from "./attributes";
-import type { Event, Mesh, Wishes } from "./events";
-import type { SharedBlock } from "./share";
-import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Signal } from "./signals";
 import { Engine, Raw, type RawEvent } from "./engine";
 import { BsmError, errorLike } from "./errors";
+import type { Event, Mesh, Wishes } from "./events";
 import type { Header } from "./header";
+import type { SharedBlock } from "./share";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
+import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Signal } from "./signals";
 
 export type * from "./events";
 export { END_OF_STREAM, NEED_BLOCK, NEED_DATA };

@@ -10,13 +10,13 @@
  */
 import { HEADER_KEYS } from "./constants.json";
 import { DOMAINS, KINDS, SEMANTICS, type Attribute } from "./attributes";
-import type { Changes, Loose, Metadata } from "./events";
-import type { Share, SharedBlock } from "./share";
 import { BsmError, errorLike } from "./errors";
+import type { Changes, Loose, Metadata } from "./events";
 import type { Header } from "./header";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
 import { errorName, Memory, type ViewType } from "./memory";
+import type { Share, SharedBlock } from "./share";
 
 /** Events in the order of library/bsmdec.h, and one of decoders with helpers. */
 export const enum Raw {

@@ -27,7 +27,7 @@ const LABEL = "A mesh in three dimensions. Arrow keys turn it, plus and minus zo
 const LOST = "The graphics card has dropped this picture (WebGL context lost).";
 const TAP = 6; // pixels that a finger may move while it taps
 /** How far outside of the window a player is drawn already. */
-const NEAR = "20%";
+const NEAR = { rootMargin: "20%" };
 /** From where it is looked at first, in front and a little above, and how much farther away than would do. */
 const [FRONT, ROOM] = [new Vector3(0.4, 0.3, 1).normalize(), 1.02];
 /** Without a document, the class can still be imported. */
@@ -65,8 +65,8 @@ export class BSMPlayer extends Base {
     private touched = false;
     private orbit?: OrbitControls;
     private readonly bar = new Bar(this.shadow.querySelector(".bar")!, this);
-    private resizes?: ResizeObserver;
-    private scrolls?: IntersectionObserver;
+    private readonly resizes = new ResizeObserver(() => this.fit());
+    private readonly scrolls = new IntersectionObserver((seen) => (this.inView = seen.at(-1)!.isIntersecting), NEAR);
     /** What is loading, or wrong. */
     private readonly note = this.shadow.querySelector("p")!;
     private readonly picture = this.shadow.querySelector("img")!;
@@ -138,11 +138,7 @@ export class BSMPlayer extends Base {
         sun.position.set(1, 1, 1);
         camera.clear().add(sun);
         scene.clear().add(new HemisphereLight(0xffffff, 0x888888, 1.5), camera);
-        this.resizes = new ResizeObserver(() => this.fit());
         this.resizes.observe(this);
-        this.scrolls = new IntersectionObserver((seen) => (this.inView = seen.at(-1)!.isIntersecting), {
-            rootMargin: NEAR,
-        });
         this.scrolls.observe(this);
         try {
             hang(this);
@@ -156,8 +152,8 @@ export class BSMPlayer extends Base {
     disconnectedCallback(): void {
         takeDown(this);
         this.empty();
-        this.resizes?.disconnect();
-        this.scrolls?.disconnect();
+        this.resizes.disconnect();
+        this.scrolls.disconnect();
         this.orbit?.dispose();
         this.orbit = undefined;
     }
@@ -262,15 +258,11 @@ export class BSMPlayer extends Base {
             moving.complete = true;
             void first?.then(() => mine() && this.content && this.measure(moving!.geometry));
         };
-        const onLoad = (geometry: BSMGeometry): void => {
-            settle();
-            (first ?? this.show(geometry, mine)).then(() => mine() && this.say("load"), failed);
-        };
-        const onError = (error: unknown): void => {
-            settle();
-            void Promise.resolve(first).then(() => failed(error));
-        };
-        this.loader.load(this.src, onLoad, onProgress, onError, { onFrame, signal });
+        const loading = this.loader.loadAsync(this.src, onProgress, { onFrame, signal }).finally(settle);
+        loading
+            .then((geometry) => first ?? this.show(geometry, mine))
+            .then(() => mine() && this.say("load"))
+            .catch((error) => Promise.resolve(first).then(() => failed(error)));
     }
 
     private async show(geometry: BSMGeometry, mine: () => boolean, sequence?: BSMSequence): Promise<void> {
@@ -345,24 +337,18 @@ export class BSMPlayer extends Base {
 }
 
 /** Properties that are attributes. */
-for (const name of ["src", "poster"])
+for (const name of ["src", "poster", "loop", "controls", "autoplay"]) {
+    const isText = name === "src" || name === "poster";
     Object.defineProperty(BSMPlayer.prototype, name, {
-        get(this: BSMPlayer): string {
-            return this.getAttribute(name) ?? "";
+        get(this: BSMPlayer): unknown {
+            return isText ? (this.getAttribute(name) ?? "") : this.hasAttribute(name);
         },
-        set(this: BSMPlayer, value: string) {
-            this.setAttribute(name, value);
+        set(this: BSMPlayer, value: unknown) {
+            if (isText) this.setAttribute(name, `${value}`);
+            else this.toggleAttribute(name, Boolean(value));
         },
     });
-for (const name of ["loop", "controls", "autoplay"])
-    Object.defineProperty(BSMPlayer.prototype, name, {
-        get(this: BSMPlayer): boolean {
-            return this.hasAttribute(name);
-        },
-        set(this: BSMPlayer, value: boolean) {
-            this.toggleAttribute(name, value);
-        },
-    });
+}
 
 if (globalThis.customElements && !customElements.get("bsm-player")) customElements.define("bsm-player", BSMPlayer);
 

@@ -37,9 +37,6 @@ export interface Reading {
     used: string[];
 }
 
-/** The threads that decode streams in scenes; without one, those of the package. */
-export type SceneDecoding = { pool?: Pool };
-
 const READERS = new Map([
     ["obj", readObj],
     ["ply", readPly],
@@ -86,7 +83,7 @@ async function readScene(
     beside: Given[],
     used: string[],
     lost: Set<string>,
-    { pool }: SceneDecoding,
+    pool?: Pool,
 ): Promise<Scene> {
     const manager = new LoadingManager().setURLModifier((url) => addressOf(url, beside, used));
     const loader = new GLTFLoader(manager).register(({ json }) => ({
@@ -143,8 +140,8 @@ function drawnOf(root: Object3D, lost: Set<string>): Group {
     return drawn;
 }
 
-/** Read a file by the suffix of its name, and files beside it that it names. */
-export async function readMesh(given: Given, beside: Given[] = [], decoding: SceneDecoding = {}): Promise<Reading> {
+/** Read a file by the suffix of its name, and files beside it that it names; a pool decodes streams in scenes. */
+export async function readMesh(given: Given, beside: Given[] = [], pool?: Pool): Promise<Reading> {
     const [suffix, used, lost] = [suffixOf(given), [given.name], new Set<string>()];
     const bytes = await given.arrayBuffer();
     if (bytes.byteLength === 0) throw new Error("the file is empty");
@@ -164,7 +161,7 @@ export async function readMesh(given: Given, beside: Given[] = [], decoding: Sce
     }
     if (!/^gl(b|tf)$/.test(suffix))
         throw new Error("Only PLY, OBJ, STL, GLB and glTF files are read here, PC2 and MDD with their mesh.");
-    const { root, clip } = await readScene(bytes, beside, used, lost, decoding);
+    const { root, clip } = await readScene(bytes, beside, used, lost, pool);
     const said: string[] = [];
     let mesh = meshOf(drawnOf(root, lost), (note) => said.push(note)) as Reading["mesh"];
     Object.assign(mesh.metadata!, { up: "y", unit: "meters" });

@@ -5,7 +5,8 @@
  */
 import { compact } from "./files/polygons";
 import { rateOf } from "./poses";
-import { moving, readMesh, suffixOf, type SceneDecoding, type Given, type Reading } from "./reading";
+import type { Pool } from "./pool";
+import { moving, readMesh, suffixOf, type Given, type Reading } from "./reading";
 
 export { encodeHere } from "./encode";
 export { readMesh } from "./reading";
@@ -23,8 +24,8 @@ export function shownAmong(files: Given[]): Given[] {
 }
 
 /** The mesh or sequence of a file, which names others. */
-export function readOne(file: Given, files: Given[], decoding?: SceneDecoding): Promise<Reading> {
-    return CACHES.test(suffixOf(file)) ? readCache(file, those(files, MESHES)) : readMesh(file, files, decoding);
+export function readOne(file: Given, files: Given[], pool?: Pool): Promise<Reading> {
+    return CACHES.test(suffixOf(file)) ? readCache(file, those(files, MESHES)) : readMesh(file, files, pool);
 }
 
 /** A mesh in single precision, which streams without loss have, where that moves no vertex visibly. */
@@ -38,16 +39,13 @@ export async function readFrames(
     files: Given[],
     rate = RATE,
     report?: (share: number) => void,
-    decoding?: SceneDecoding,
+    pool?: Pool,
 ): Promise<Reading> {
     const ordered = files.toSorted((a, b) => order.compare(a.name, b.name));
-    const read = async (file: Given): Promise<Reading> => {
-        try {
-            return await readMesh(file, [], decoding);
-        } catch (error) {
-            throw new Error(`${file.name}: ${(error as Error).message}`);
-        }
-    };
+    const read = (file: Given): Promise<Reading> =>
+        readMesh(file, [], pool).catch((error: Error) => {
+            throw new Error(`${file.name}: ${error.message}`);
+        });
     const first = await read(ordered[0]);
     const { faces } = first.mesh;
     const size = first.mesh.positions.length;

@@ -1,14 +1,14 @@
 /** The work of a thread: it decodes streams, or helps others that do, as messages ask. */
 import type { Decoder } from "./decoder";
 import type { Event, FrameEvent } from "./events";
-import type { Share, SharedBlock } from "./share";
-import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Signal } from "./signals";
 import { Drawing, type Picture } from "./drawing";
 import { BsmError, type Described } from "./errors";
+import type { Share, SharedBlock } from "./share";
 import { Kernels } from "./kernels";
 import type { Limits } from "./limits";
 import type { Memory } from "./memory";
 import type { Build } from "./peek";
+import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Signal } from "./signals";
 
 /** What a thread reports of a stream; frames come in single precision, as they are drawn. */
 export type DrawnEvent = Exclude<Event, FrameEvent> | FrameEvent<Float32Array>;

@@ -74,7 +74,7 @@ async function work(
 ): Promise<void> {
     const [begin, all] = [performance.now(), shownAmong(files) as File[]];
     const source = { worker: () => undefined, kernels: async () => kernels, local: async () => ({ openDesk }) };
-    const decoding = { pool: new Pool(source) };
+    const pool = new Pool(source);
     if (all.length === 0)
         throw new Error("There is no PLY, OBJ, STL, GLB or glTF file, and no PC2 or MDD file with its mesh.");
     const [isPair, transfer, notes, used] = [all.length === 2, [] as Transferable[], [] as string[], new Set<string>()];
@@ -89,8 +89,8 @@ async function work(
         }
         report({ stage: "reading", share: 0 });
         const { mesh, ...rest } = await (all.length > 2
-            ? readFrames(all, undefined, (share) => report({ stage: "reading", share }), decoding)
-            : readOne(file, files, decoding));
+            ? readFrames(all, undefined, (share) => report({ stage: "reading", share }), pool)
+            : readOne(file, files, pool));
         const encode = (options: EncodeOptions, own = mesh): Promise<Uint8Array> =>
             encodeHere(own, { ...options, onProgress: (share) => report({ stage: "encoding", share }) });
         const isExact = isPair || preset === "lossless";

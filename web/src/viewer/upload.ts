@@ -48,82 +48,76 @@ async function filesIn(entries: FileSystemEntry[]): Promise<File[]> {
     return (await Promise.all(found)).flat();
 }
 
-export class Upload {
-    private working = new AbortController();
+/** Take files that are opened or dropped; `show` gets what they hold. Returns what cancels the work on them. */
+export function takeFiles(
+    form: Form,
+    show: (content: Content, bytes: Uint8Array) => void,
+    encode?: Encode,
+): () => void {
+    const { root } = form;
+    let working = new AbortController();
+    const cancel = (): void => working.abort();
 
-    constructor(
-        private readonly form: Form,
-        private readonly show: (content: Content, bytes: Uint8Array) => void,
-        private readonly encode?: Encode,
-    ) {
-        const { root } = form;
-        form.on("cancel", "click", () => this.cancel());
-        form.on("file", "change", (input) => {
-            const files = [...(input.files ?? [])];
-            input.value = ""; // the same file, changed meanwhile, may be opened again
-            if (files.length > 0) void this.take(files);
-        });
-        const drop = form.part("drop");
-        root.addEventListener("dragover", (event) => {
-            event.preventDefault();
-            drop.hidden = false;
-        });
-        root.addEventListener("dragleave", ({ relatedTarget }) => {
-            drop.hidden = !root.contains(relatedTarget as Node | null);
-        });
-        root.addEventListener("drop", (event) => {
-            event.preventDefault();
-            drop.hidden = true;
-            const entries = [...(event.dataTransfer?.items ?? [])].flatMap((item) => item.webkitGetAsEntry() ?? []);
-            const given = [...(event.dataTransfer?.files ?? [])];
-            const all = entries.some(({ isDirectory }) => isDirectory) ? filesIn(entries) : Promise.resolve(given);
-            void all.then((files) => (files.length > 0 ? this.take(files) : undefined));
-        });
-    }
-
-    cancel(): void {
-        this.working.abort();
-    }
-
-    private async take(files: File[]): Promise<void> {
-        const { form } = this;
-        this.cancel();
-        const { signal } = (this.working = new AbortController());
-        const names = namesOf(files);
-        form.say("problem", "");
-        try {
-            if (files.length > 2 && (!this.encode || files.every(isStream)))
-                throw new Error("Open one file, or two to compare them.");
-            if (files.length === 2 && isStream(files[0]) && !isStream(files[1])) files.reverse(); // a mesh is the original of a stream
-            const isHere = files.every(isStream) && (files.length === 1 || !this.encode);
-            const content = isHere
-                ? contentOf(files, await Promise.all(files.map(bytesIn)), {})
-                : await this.encoded(files, signal);
-            const bytes = await bytesOf(content.layers[content.main]);
-            if (!signal.aborted) this.show(content, bytes);
-        } catch (error) {
-            if (!signal.aborted) form.say("problem", `${names} cannot be shown. ${messageOf(error)}`);
-        } finally {
-            if (this.working.signal === signal) {
-                form.part("work").hidden = true;
-                form.part("invite").hidden = form.root.dataset.state !== "empty";
-            }
-        }
-    }
-
-    private encoded(files: File[], signal: AbortSignal): Promise<Content> {
-        const { form } = this;
+    const encoded = (files: File[], signal: AbortSignal): Promise<Content> => {
         const [first, second] = files.map(({ name }) => name);
         const command = second ? `bsm view ${second} --original ${first}` : `bsm view ${first}`;
-        if (!this.encode) throw new Error(`This page opens only .bsm files. To view this mesh, run: ${command}`);
+        if (!encode) throw new Error(`This page opens only .bsm files. To view this mesh, run: ${command}`);
         [form.part("invite").hidden, form.part("work").hidden] = [true, false];
-        const bar = form.root.querySelector("progress")!;
+        const bar = root.querySelector("progress")!;
         const report = (stage: string, share: number): void => {
             form.say("stage", `${namesOf(files)}: ${stage}`);
             if (share > 0) bar.value = share;
             else bar.removeAttribute("value");
         };
         report(served ? "sending" : "reading", 0);
-        return this.encode(files, form.control<HTMLSelectElement>("preset").value, report, signal);
-    }
+        return encode(files, form.control<HTMLSelectElement>("preset").value, report, signal);
+    };
+
+    const take = async (files: File[]): Promise<void> => {
+        if (files.length === 0) return;
+        cancel();
+        const { signal } = (working = new AbortController());
+        form.say("problem", "");
+        try {
+            if (files.length > 2 && (!encode || files.every(isStream)))
+                throw new Error("Open one file, or two to compare them.");
+            if (files.length === 2 && isStream(files[0]) && !isStream(files[1])) files.reverse(); // a mesh is the original of a stream
+            const isHere = files.every(isStream) && (files.length === 1 || !encode);
+            const content = isHere
+                ? contentOf(files, await Promise.all(files.map(bytesIn)), {})
+                : await encoded(files, signal);
+            const bytes = await bytesOf(content.layers[content.main]);
+            if (!signal.aborted) show(content, bytes);
+        } catch (error) {
+            if (!signal.aborted) form.say("problem", `${namesOf(files)} cannot be shown. ${messageOf(error)}`);
+        } finally {
+            if (working.signal === signal) {
+                form.part("work").hidden = true;
+                form.part("invite").hidden = root.dataset.state !== "empty";
+            }
+        }
+    };
+
+    form.on("cancel", "click", cancel);
+    form.on("file", "change", (input) => {
+        const files = [...(input.files ?? [])];
+        input.value = ""; // the same file, changed meanwhile, may be opened again
+        void take(files);
+    });
+    const drop = form.part("drop");
+    root.addEventListener("dragover", (event) => {
+        event.preventDefault();
+        drop.hidden = false;
+    });
+    root.addEventListener("dragleave", ({ relatedTarget }) => {
+        drop.hidden = !root.contains(relatedTarget as Node | null);
+    });
+    root.addEventListener("drop", (event) => {
+        event.preventDefault();
+        drop.hidden = true;
+        const entries = [...(event.dataTransfer?.items ?? [])].flatMap((item) => item.webkitGetAsEntry() ?? []);
+        const given = [...(event.dataTransfer?.files ?? [])];
+        void (entries.some(({ isDirectory }) => isDirectory) ? filesIn(entries).then(take) : take(given));
+    });
+    return cancel;
 }

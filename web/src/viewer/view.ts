@@ -25,7 +25,7 @@ import { joinNormals } from "./seams";
 import { SequenceBar } from "./sequence";
 import { Stage } from "./stage";
 import { TileSet } from "./tiles";
-import { Upload, type Encode } from "./upload";
+import { takeFiles, type Encode } from "./upload";
 import template from "./view.html";
 
 const RULER = 120; // pixels of the longest bar
@@ -50,7 +50,7 @@ export class View {
     private readonly arrival: Arrival;
     private readonly meshes: Comparison;
     private readonly sequence: SequenceBar;
-    private readonly upload: Upload;
+    private readonly cancel: () => void;
     private content: Content = { name: "", main: 0, layers: [], facts: {} };
     private geometry = new BSMGeometry();
     private decoding?: StreamDecoding;
@@ -89,21 +89,10 @@ export class View {
         this.arrival = new Arrival(this.form);
         this.meshes = new Comparison(this.form, this.stage);
         this.sequence = new SequenceBar(this.form);
-        const show = (content: Content, bytes: Uint8Array): void => {
-            this.begin();
-            this.open(content);
-            this.receive(bytes);
-            this.finish();
-        };
-        this.upload = new Upload(this.form, show, encode);
+        this.cancel = takeFiles(this.form, (content, bytes) => (this.begin(), this.showAll(content, bytes)), encode);
         this.listen();
         for (const part of [root, ...root.querySelectorAll(".bsm-side > *, .bsm-dock")]) this.watch.observe(part);
-        const go = (now: number): void => {
-            if (this.closed) return;
-            this.step(now);
-            requestAnimationFrame(go);
-        };
-        requestAnimationFrame(go);
+        this.stage.renderer.setAnimationLoop((now) => this.step(now)); // until it is disposed of
     }
 
     /** Let the reader choose among streams of these names; ask for a file where there are none. */
@@ -142,6 +131,13 @@ export class View {
         this.headline();
     }
 
+    /** Show another stream, all of which is there. */
+    showAll(content: Content, bytes: Uint8Array): void {
+        this.open(content);
+        this.receive(bytes);
+        this.finish();
+    }
+
     async openTiles(content: Content, index: number): Promise<void> {
         this.open(content, index);
         this.over = true;
@@ -167,7 +163,7 @@ export class View {
     close(): void {
         this.closed = true;
         this.watch.disconnect();
-        this.upload.cancel();
+        this.cancel();
         this.decoding?.close();
         this.tiles?.close();
         this.stage.dispose();
@@ -194,9 +190,8 @@ export class View {
         root.querySelector("form")!.addEventListener("submit", (event) => event.preventDefault());
         // Most lost contexts come back at once: only one that stays away is worth a sentence.
         let gone = 0;
-        stage.canvas.addEventListener("webglcontextlost", () => {
-            gone = window.setTimeout(() => form.say("problem", LOST), 2000);
-        });
+        const complain = (): unknown => (gone = window.setTimeout(() => form.say("problem", LOST), 2000));
+        stage.canvas.addEventListener("webglcontextlost", complain);
         stage.canvas.addEventListener("webglcontextrestored", () => {
             clearTimeout(gone);
             if (form.part("problem").textContent === LOST) form.say("problem", "");
@@ -305,14 +300,12 @@ export class View {
     private lose(loss: EventOf<"loss">): void {
         if (this.content.live && loss.frames?.first === 0) return void (this.missed = loss.frames.count);
         this.losses.push(loss);
-        const blocks = this.losses.flatMap(({ block }) => (block === undefined ? [] : [block]));
+        const blocks = this.losses.flatMap(({ block }) => block ?? []);
         const frames = this.losses.reduce((sum, { frames }) => sum + (frames?.count ?? 0), 0);
-        const lost = [
-            blocks.length > 0 ? `block${blocks.length > 1 ? "s" : ""} ${blocks.join(", ")}` : "",
-            frames > 0 ? `${frames} frames` : "",
-        ];
+        const lost = blocks.length > 0 ? [`block${blocks.length > 1 ? "s" : ""} ${blocks.join(", ")}`] : [];
+        if (frames > 0) lost.push(`${frames} frames`);
         const { name, message } = errorLike(this.losses[0].error);
-        const what = lost.filter(Boolean).join(" and ") || "some bytes";
+        const what = lost.join(" and ") || "some bytes";
         const rest = `the rest is shown. First, ${name}: ${message}`;
         this.form.say("problem", `This stream is damaged: ${what} cannot be decoded, ${rest}`);
     }
@@ -330,10 +323,8 @@ export class View {
         this.fill();
         if (geometry.getIndex()) stage.shadow(geometry);
         this.headline();
-        const complain = (error: unknown): void =>
-            this.form.say("problem", `The original cannot be compared. ${messageOf(error)}`);
         const rest = meshes.accompanied ? meshes.showMaterials().then(() => this.headline()) : this.accompany();
-        void rest.catch(complain);
+        rest.catch((error) => this.form.say("problem", `The original cannot be compared. ${messageOf(error)}`));
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
     }
 
@@ -384,10 +375,10 @@ export class View {
     }
 
     private listRows(rows: Row[]): void {
-        const listed = rows.flatMap(([name, value, more]) => {
-            const small = more ? [element("small", ` ${more}`)] : [];
-            return [element("dt", name), element("dd", value, ...small)];
-        });
+        const listed = rows.flatMap(([name, value, more]) => [
+            element("dt", name),
+            element("dd", value, ...(more ? [element("small", ` ${more}`)] : [])),
+        ]);
         this.form.part("more").hidden = rows.length === 0;
         this.form.part("facts").replaceChildren(...listed);
     }

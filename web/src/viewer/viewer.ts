@@ -112,9 +112,7 @@ async function render({ model, el }: { model: Model; el: HTMLElement }): Promise
     const view = new View(root, new Pool(inlined), LICENSES);
     const open = async (): Promise<void> => {
         const content = model.get("content") as Content;
-        view.open(content);
-        view.receive(await bytesOf(content.layers[content.main]));
-        view.finish();
+        view.showAll(content, await bytesOf(content.layers[content.main]));
     };
     model.on("change:content", open);
     await open();
