@@ -22,14 +22,12 @@ export class Bar {
         this.show();
     }
 
-    /** Play, or pause. */
     toggle(): void {
         if (this.player.paused) this.player.play();
         else this.player.pause();
         this.show();
     }
 
-    /** Show where it is. */
     show(): void {
         const { button, element, range, time } = this;
         const { currentTime, duration, paused } = this.player;

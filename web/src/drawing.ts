@@ -41,7 +41,6 @@ export type Picture =
     /** It is there, and drawn once the mesh is whole. */
     | { type: "attribute"; name: string; semantic: Attribute["semantic"]; domain: Attribute["domain"] };
 
-/** A picture of a type. */
 export type PictureOf<Type> = Extract<Picture, { type: Type }>;
 
 type Show = (picture: Picture, moved?: Transferable[]) => void;

@@ -30,7 +30,6 @@ export function spread(numbers: ArrayLike<number>, width: number, vertices?: Int
     return rows;
 }
 
-/** The corners of chosen faces. */
 export function cornersOf(faces: Int32Array, chosen: ArrayLike<number>): Uint32Array {
     const corners = new Uint32Array(3 * chosen.length);
     for (let i = 0; i < corners.length; i++) corners[i] = faces[3 * chosen[Math.floor(i / 3)] + (i % 3)];

@@ -6,7 +6,6 @@ export interface Pictured {
     readonly canvas: HTMLCanvasElement;
     readonly scene: Scene;
     readonly camera: Camera;
-    /** Whether it can be seen now. */
     readonly inView: boolean;
     /** Hear that the context is lost, or there again. */
     lose(isLost: boolean): void;

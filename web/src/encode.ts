@@ -80,7 +80,6 @@ export async function encode(input: Given, options: EncodeOptions = {}): Promise
  *     const bytes = await new BSMExporter().parseAsync(mesh, { bits: 14 });
  */
 export class BSMExporter {
-    /** Encode, and call `onDone` with the stream, or `onError`. */
     parse(
         object: Drawn,
         onDone: (bytes: Bytes) => void,

@@ -42,7 +42,6 @@ export interface EncodeOptions {
     keepOrder?: boolean;
     /** Quick to decode, and some more bytes. */
     quick?: boolean;
-    /** Of attributes by name. */
     qualities?: Record<string, Quality>;
     /** Receives a note for each thing of a geometry or an object that is left out; without it, the console does. */
     onNote?: (note: string) => void;
@@ -99,7 +98,6 @@ export function wholes(values: ArrayLike<number>, what: string): Uint32Array {
     return Uint32Array.from(values);
 }
 
-/** Encode in this thread. */
 export function encodeWith(
     module: WebAssembly.Module,
     mesh: MeshInput,

@@ -35,7 +35,6 @@ export type Event =
     /** The checksum is right, or something is lost: vertices without a position, and those that are less exact. */
     | { type: "end"; missing: Int32Array; degraded: Int32Array; positions?: Float64Array };
 
-/** An event of a type. */
 export type EventOf<Type> = Extract<Event, { type: Type }>;
 
 /** What a decoder is asked for beside the mesh. */

@@ -25,7 +25,7 @@ interface Flight {
 const flights = new Map<string, Flight>();
 const keyOf = (address: URL): string => `file:${address.href}`;
 
-/** Fetch what is at an address; resolves when all pieces were handed over. */
+/** Fetch what is at an address; resolves when all pieces were handed over, or would have been without the signal. */
 export async function fetchPieces(address: URL, request: RequestInit, passenger: Passenger): Promise<void> {
     const cached: unknown = Cache.enabled ? Cache.get(keyOf(address)) : undefined;
     if (cached instanceof ArrayBuffer) {
@@ -36,20 +36,11 @@ export async function fetchPieces(address: URL, request: RequestInit, passenger:
     const flight = flights.get(key) ?? begun(key, address, request);
     for (const piece of flight.pieces) passenger.onPiece(piece);
     flight.passengers.add(passenger);
-    const { signal } = passenger;
-    let leave: () => void = () => {};
-    const left = new Promise<never>((_, fail) => {
-        leave = () => fail(signal!.reason);
-        if (signal?.aborted) leave();
-        signal?.addEventListener("abort", leave, { once: true });
-    });
-    try {
-        await Promise.race([flight.over, left]);
-    } finally {
-        signal?.removeEventListener("abort", leave);
-        flight.passengers.delete(passenger);
-        if (flight.passengers.size === 0) flight.stop.abort();
-    }
+    const leave = (): void => {
+        if (flight.passengers.delete(passenger) && flight.passengers.size === 0) flight.stop.abort();
+    };
+    passenger.signal?.addEventListener("abort", leave, { once: true });
+    await flight.over.finally(leave);
 }
 
 function begun(key: string, address: URL, request: RequestInit): Flight {

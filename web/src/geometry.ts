@@ -41,7 +41,6 @@ export class BSMGeometry extends BufferGeometry {
     pieces: Piece[] = [];
     /** Frames of a sequence that are there, for `showFrame`. */
     readonly frames: (Omit<PictureOf<"frame">, "type"> & { shape: Shape })[] = [];
-    /** The frame that is shown. */
     shown = -1;
     /** The colors that the stream has, of what is shown. */
     color?: BufferAttribute;

@@ -15,11 +15,9 @@ export type Limits = Record<OfMeshes | OfSequences | OfStreams | Work, number>;
 
 export const DEFAULT_LIMITS: Readonly<Limits> = { ...LIMITS, keptBytes: 2 ** 30, memory: 2 ** 31 };
 
-/** Throw `LimitError` if `value` exceeds the limit called `name`. */
 export function checkLimit(limits: Limits, name: keyof Limits, value: number): void {
-    if (value > limits[name]) {
+    if (value > limits[name])
         throw new LimitError(
             `${name} = ${value} is over the limit of ${limits[name]}; raise it if you trust the source`,
         );
-    }
 }

@@ -182,7 +182,6 @@ function readingOf(mesh: Reading["mesh"], said: string[], lost: Set<string>, use
 const still = ({ attributes }: MeshInput): MeshInput["attributes"] =>
     attributes?.filter(({ semantic }) => semantic !== "normal");
 
-/** A mesh that moves. */
 export function moving(
     mesh: MeshInput,
     positions: Reading["mesh"]["positions"],

@@ -85,7 +85,6 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
         return this;
     }
 
-    /** Advance by a number of seconds. */
     update(seconds: number): void {
         const { playback, geometry } = this;
         const [before, wasPlaying] = [playback.frame, playback.playing];
@@ -97,7 +96,6 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
         if (wasPlaying && !playback.playing) this.dispatchEvent({ type: "ended" });
     }
 
-    /** A mesh of it. */
     mesh(material?: Material): Mesh {
         const mesh = new Mesh(this.geometry, material);
         mesh.frustumCulled = false; // the bounds are those of the first frame

@@ -44,7 +44,6 @@ function beside(address: () => URL): URL {
 
 const local: Source["local"] = (build) => (isLight(build) ? import("./quick") : import("./index"));
 
-/** The files beside this one. */
 export const here: Source = {
     worker: (thread) => started(WORKERS[thread], () => new URL(fileOf(thread), HERE)),
     kernels: once(async (build) => compiled(beside(KERNELS[build]))),

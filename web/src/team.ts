@@ -11,10 +11,8 @@ const TASK = 0;
 /** How many helpers have something to do; none for blocks of fewer vertices than are worthwhile. */
 export function helpersFor(header: Header, worthwhile = WORTHWHILE): number {
     if (header.blocks * header.blockSize < worthwhile) return 0;
-    return Math.max(
-        0,
-        Math.min(Math.ceil(header.blocks / (header.keyInterval || header.blocks)), processors(), MOST + 1) - 1,
-    ); // chains: M 10.1
+    const chains = Math.ceil(header.blocks / (header.keyInterval || header.blocks)); // M 10.1
+    return Math.max(0, Math.min(chains, processors(), MOST + 1) - 1);
 }
 
 /** Lines to threads that run `serve`, with which a stream is shared: each takes all of its bytes. */

@@ -3,7 +3,6 @@
 /** Vertices of blocks from which on helpers win more than they cost: each starts a thread and decodes all faces. */
 export const WORTHWHILE = 8192;
 
-/** Threads that this machine runs at the same time. */
 export function processors(): number {
     return globalThis.navigator?.hardwareConcurrency ?? 1;
 }

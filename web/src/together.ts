@@ -63,42 +63,28 @@ export async function readFrames(
     return { ...first, mesh, used: ordered.map(({ name }) => name) };
 }
 
-/** The head of a cache of points: how many in how many frames, from which byte on, in which order of bytes. */
-interface Cache {
-    points: number;
-    frames: number;
-    start: number;
-    isLittle: boolean;
-    rate: number;
-}
-
-function headOf(file: Given, view: DataView): Cache {
-    if (view.byteLength < LEAST) throw new Error(`${file.name} is cut short`);
-    const isPc2 = suffixOf(file) === "pc2";
-    const points = isPc2 ? view.getInt32(16, true) : view.getInt32(4);
-    const frames = isPc2 ? view.getInt32(28, true) : view.getInt32(0);
-    const start = isPc2 ? LEAST : 8 + 4 * frames;
-    if (points < 1 || frames < 1 || view.byteLength < start + 12 * points * frames)
-        throw new Error(`${file.name} claims ${frames} frames of ${points} points, and has ${view.byteLength} bytes`);
-    const timeOf = (_: unknown, frame: number): number => view.getFloat32(8 + 4 * frame);
-    const rate = isPc2 ? RATE : rateOf(Array.from({ length: frames }, timeOf));
-    return { points, frames, start, isLittle: isPc2, rate };
-}
-
 /** The points of a PC2 or MDD file, and the faces of the mesh that has its name, or is there. */
 async function readCache(cache: Given, meshes: Given[]): Promise<Reading> {
+    const { name } = cache;
     const stem = (name: string): string => name.replace(/\.\w+$/, "");
-    const given = meshes.find(({ name }) => stem(name) === stem(cache.name)) ?? meshes[0];
-    const without = `${cache.name} holds points and no faces; drop its mesh, too.`;
-    if (!given) throw new Error(`Missing: ${stem(cache.name)}.obj. ${without}`);
+    const given = meshes.find((mesh) => stem(mesh.name) === stem(name)) ?? meshes[0];
+    const without = `${name} holds points and no faces; drop its mesh, too.`;
+    if (!given) throw new Error(`Missing: ${stem(name)}.obj. ${without}`);
     const view = new DataView(await cache.arrayBuffer());
-    const { points, frames, start, isLittle, rate } = headOf(cache, view);
+    const { byteLength: size } = view;
+    if (size < LEAST) throw new Error(`${name} is cut short`);
+    const isPc2 = suffixOf(cache) === "pc2"; // whose numbers have their least byte first
+    const [points, frames] = (isPc2 ? [16, 28] : [4, 0]).map((at) => view.getInt32(at, isPc2));
+    const start = isPc2 ? LEAST : 8 + 4 * frames;
+    if (points < 1 || frames < 1 || size < start + 12 * points * frames)
+        throw new Error(`${name} claims ${frames} frames of ${points} points, and has ${size} bytes`);
+    const times = Array.from({ length: isPc2 ? 0 : frames }, (_, frame) => view.getFloat32(8 + 4 * frame));
     const reading = await readMesh(given, meshes);
     const vertices = reading.mesh.positions.length / 3;
     if (vertices !== points)
-        throw new Error(`${cache.name} has ${points} points, and ${given.name} has ${vertices} vertices`);
+        throw new Error(`${name} has ${points} points, and ${given.name} has ${vertices} vertices`);
     const positions = new Float32Array(3 * points * frames);
-    for (let i = 0; i < positions.length; i++) positions[i] = view.getFloat32(start + 4 * i, isLittle);
-    const used = [cache.name, ...reading.used];
-    return { ...reading, mesh: moving(reading.mesh, positions, frames, rate), used };
+    for (let i = 0; i < positions.length; i++) positions[i] = view.getFloat32(start + 4 * i, isPc2);
+    const mesh = moving(reading.mesh, positions, frames, isPc2 ? RATE : rateOf(times));
+    return { ...reading, mesh, used: [name, ...reading.used] };
 }

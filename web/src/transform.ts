@@ -40,7 +40,6 @@ export async function loadSceneDecoder(): Promise<SceneDecoder> {
     };
 }
 
-/** Makes a stream of a mesh. */
 export type SceneEncoder = (mesh: MeshInput, keepOrder: boolean) => Uint8Array;
 
 /** What is needed to write, too: `io.registerDependencies({ "bsm.encoder": await loadSceneEncoder({ bits: 12 }) })`. */
@@ -196,7 +195,6 @@ export class EXTBSMCompression extends Extension {
     }
 }
 
-/** What a primitive has of its vertices. */
 function arraysOf(primitive: Primitive): [string, Accessor][] {
     const names = primitive.listSemantics().sort();
     return names.map((name) => [name, primitive.getAttribute(name)!]);

@@ -109,9 +109,8 @@ function metadataOf(comments: PlyHeader["comments"]): Polygons["metadata"] {
         if (said.length > 0) found[kind] ??= said.join("\n");
     }
     const entries = Object.entries(found);
-    const shown = entries
-        .filter(([key]) => /^material\.\d+\.(map_\w+|norm|\w+Texture)$/.test(key))
-        .map(([, image]) => image);
+    const isTexture = (key: string): boolean => /^material\.\d+\.(map_\w+|norm|\w+Texture)$/.test(key);
+    const shown = entries.flatMap(([key, image]) => (isTexture(key) ? image : []));
     images.forEach((image, place) => {
         const known = entries.find(([key, name]) => /^image\.\d+\.name$/.test(key) && name === image);
         const number = known ? Number(known[0].split(".")[1]) : place;
@@ -175,10 +174,8 @@ function tablesOf({ elements, order, size }: PlyHeader, bytes: Uint8Array): Map<
     }
     const { counts, values } = rows;
     const claimed = elements.reduce((sum, { count }) => sum + count, 0);
-    if (counts.length < claimed)
-        throw new Error(
-            `the file is cut short: its header claims ${claimed} vertices and faces, ${counts.length} follow`,
-        );
+    const short = `its header claims ${claimed} vertices and faces, ${counts.length} follow`;
+    if (counts.length < claimed) throw new Error(`the file is cut short: ${short}`);
     const next = (): number => {
         most(values.length - 1);
         return values[at++];
@@ -213,9 +210,8 @@ export function readPly(bytes: Uint8Array): Polygons {
     const axes = ["x", "y", "z"].map((name) => vertex.properties.findIndex((each) => each.name === name));
     if (axes.some((place) => place < 0 || vertex.properties[place].length))
         throw new Error("the vertices of this PLY file have no numbers x, y and z");
-    const positions = together(
-        axes.map((place) => Float64Array.from(typed(points[place].values, vertex.properties[place].type))),
-    ) as Float64Array;
+    const axisAt = (place: number): ColumnValues => typed(points[place].values, vertex.properties[place].type);
+    const positions = together(axes.map((place) => Float64Array.from(axisAt(place)))) as Float64Array;
     const list = face.properties.findIndex(({ name }) => name === "vertex_indices" || name === "vertex_index");
     if (list < 0 || !face.properties[list].length)
         throw new Error("the faces of this PLY file have no list vertex_indices");

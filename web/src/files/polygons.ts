@@ -179,25 +179,19 @@ export function compact(values: Float64Array, width: number): Float32Array | Flo
 /** Colors as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known. */
 export function colorColumn(values: ColumnValues, components: number, domain: Column["domain"]): Column {
     const column = { name: "color", values, components, domain };
-    if (!(values instanceof Float32Array || values instanceof Float64Array))
-        return {
-            ...column,
-            semantic: values instanceof Uint8Array || values instanceof Uint16Array ? "color" : "generic",
-        };
+    if (values instanceof Uint8Array || values instanceof Uint16Array) return { ...column, semantic: "color" };
+    if (!(values instanceof Float32Array || values instanceof Float64Array)) return { ...column, semantic: "generic" };
     if (values.length === 0 || countOf(values) > 0) return column;
-    const [low, high] = (values as Float64Array).reduce(
-        ([least, most], value) => [Math.min(least, value), Math.max(most, value)],
-        [Infinity, -Infinity],
-    );
-    const exact = high > 1 ? values : (values as Float64Array).map((value) => 255 * value);
+    const floats = values as Float64Array;
+    const exact = floats.some((value) => value > 1) ? floats : floats.map((value) => 255 * value);
     const isWhole = (value: number): boolean => {
         const byte = Math.round(value);
         return byte >= 0 && byte <= 255 && Math.abs(byte - value) <= 255e-6;
     };
-    if ((exact as Float64Array).every(isWhole))
-        return { ...column, values: Uint8Array.from(exact, Math.round), semantic: "color" };
+    if (exact.every(isWhole)) return { ...column, values: Uint8Array.from(exact, Math.round), semantic: "color" };
     const plain = values instanceof Float64Array ? compact(values, components) : values;
-    return { ...column, values: plain, semantic: low >= 0 && high <= 1 ? "color" : "generic" };
+    const isShare = floats.every((value) => value >= 0 && value <= 1);
+    return { ...column, values: plain, semantic: isShare ? "color" : "generic" };
 }
 
 /** The meaning of values by their name, if as many components can mean that. */
@@ -234,14 +228,10 @@ export function grouped(
 
 /** Twice the areas of triangles, along their normals. */
 function areasOf(points: Float64Array, corners: ArrayLike<number>, cut: number[]): Vector3[] {
-    const at = (i: number): Vector3 => new Vector3().fromArray(points, 3 * corners[cut[i]]);
-    const areaOf = (_: unknown, i: number): Vector3 => {
-        const first = at(3 * i);
-        return at(3 * i + 1)
-            .sub(first)
-            .cross(at(3 * i + 2).sub(first));
-    };
-    return Array.from({ length: cut.length / 3 }, areaOf);
+    return Array.from({ length: cut.length / 3 }, (_, i) => {
+        const [a, b, c] = [0, 1, 2].map((k) => new Vector3().fromArray(points, 3 * corners[cut[3 * i + k]]));
+        return b.sub(a).cross(c.sub(a));
+    });
 }
 
 const sumOf = (vectors: Vector3[]): Vector3 => vectors.reduce((sum, each) => sum.add(each), new Vector3());

@@ -81,14 +81,11 @@ function ofBytes(bytes: Uint8Array, view: DataView, claimed: number): Soup {
     const isKnown = !UNKNOWN.includes(claimed);
     if (held < claimed && isKnown)
         throw new Error(`the STL file is cut short (or is not one): it has ${held} of ${claimed} triangles`);
-    const count = isKnown && rest ? claimed : held === claimed ? claimed : held;
+    const count = isKnown && rest ? claimed : held;
     const beyond = bytes.length - HEAD - RECORD * count;
-    const dropped =
-        count === claimed
-            ? beyond > 0
-                ? [`${beyond} bytes after the last triangle`]
-                : []
-            : [`the number of triangles in the header (${claimed}; by its size, the file has ${held})`];
+    const dropped = count === claimed && beyond > 0 ? [`${beyond} bytes after the last triangle`] : [];
+    if (count !== claimed)
+        dropped.push(`the number of triangles in the header (${claimed}; by its size, the file has ${held})`);
     const [soup, colors] = [new Float64Array(9 * count), new Uint16Array(count)];
     for (let i = 0; i < count; i++) {
         const at = HEAD + RECORD * i;

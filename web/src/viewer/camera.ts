@@ -21,9 +21,7 @@ export function frontOf(normals?: BufferAttribute): Vector3 {
 }
 
 export class Camera extends PerspectiveCamera {
-    /** Whether the reader has moved it. */
     touched = false;
-    /** Pixels of the picture. */
     size = [1, 1];
     /** Where the middle of the mesh is, in pixels from the left. */
     middle = 0.5;

@@ -121,7 +121,6 @@ export class Comparison {
         form.root.dataset.layers = String(layers.length);
     }
 
-    /** Have all sequences show a frame. */
     seek(frame: number): void {
         for (const geometry of this.geometries)
             if (geometry?.frames.length) geometry.showFrame(Math.min(frame, geometry.frames.length - 1));
@@ -201,7 +200,6 @@ export class Comparison {
         });
     }
 
-    /** What stands below each side. */
     get captions(): string[] {
         const { layers } = this.content;
         return this.stage.sides.map((i) => (layers[i] ? `${layers[i].title}, ${sized(layers[i].size)}` : ""));

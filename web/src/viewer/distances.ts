@@ -13,7 +13,6 @@ const SPREAD = Float64Array.from({ length: CELLS }, (_, cell) =>
 export interface Distances {
     /** Of each vertex in each frame; empty where there are too many, or the faces change. */
     off: Float32Array;
-    /** The largest distance of each frame. */
     errors: number[];
     /** The mean distance to the other surface, if faces differ. */
     mean?: number;

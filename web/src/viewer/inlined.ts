@@ -31,7 +31,6 @@ export async function bytesOf({ url, data, bytes }: Inlined): Promise<Uint8Array
     return new Uint8Array(await (await fetched(url!)).arrayBuffer());
 }
 
-/** The decoder, compiled. */
 export const load = once(async (build: Build) =>
     WebAssembly.compile(await bytesOf((build === "grid" && KERNELS.grid) || KERNELS.kernels)),
 );

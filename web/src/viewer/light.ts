@@ -21,6 +21,7 @@ const BOXES = [
 ];
 const [SKY, HORIZON, FLOOR] = [0.62, 0.42, 0.2];
 const [WIDE, TALL] = [128, 64];
+const SMOOTH = { magFilter: LinearFilter, minFilter: LinearFilter, needsUpdate: true };
 
 /** What surrounds the meshes: a texture for reflections, and what it sheds on all that is rough. */
 export function studio(): { texture: DataTexture; probe: LightProbe } {
@@ -30,24 +31,16 @@ export function studio(): { texture: DataTexture; probe: LightProbe } {
         const [row, column] = [Math.floor(i / WIDE), i % WIDE];
         from.setFromSphericalCoords(1, Math.PI * (1 - (row + 0.5) / TALL), (2 * Math.PI * (column + 0.5)) / WIDE);
         const even = HORIZON + (from.y > 0 ? SKY - HORIZON : HORIZON - FLOOR) * from.y;
-        const light = BOXES.reduce(
-            (sum, [x, y, z, bright, narrow]) =>
-                sum + bright * Math.exp(narrow * (from.dot(new Vector3(x, y, z).normalize()) - 1)),
-            even,
-        );
+        const lightOf = ([x, y, z, bright, narrow]: number[]): number =>
+            bright * Math.exp(narrow * (from.dot(new Vector3(x, y, z).normalize()) - 1));
+        const light = BOXES.reduce((sum, box) => sum + lightOf(box), even);
         [1.02, 1, 0.97, 1].forEach((tint, c) => (data[4 * i + c] = DataUtils.toHalfFloat(c < 3 ? tint * light : 1)));
         SphericalHarmonics3.getBasisAt(from, basis);
         const angle = ((2 * Math.PI * Math.PI) / WIDE / TALL) * Math.sqrt(1 - from.y * from.y); // that a pixel fills
         probe.sh.coefficients.forEach((sum, k) => sum.addScalar(basis[k] * light * angle));
     }
     const texture = new DataTexture(data, WIDE, TALL);
-    Object.assign(texture, {
-        type: HalfFloatType,
-        mapping: EquirectangularReflectionMapping,
-        magFilter: LinearFilter,
-        minFilter: LinearFilter,
-        needsUpdate: true,
-    });
+    Object.assign(texture, SMOOTH, { type: HalfFloatType, mapping: EquirectangularReflectionMapping });
     return { texture, probe };
 }
 
@@ -70,9 +63,8 @@ export function shadowOf(
     for (const geometry of geometries) {
         const [place, index] = [geometry.getAttribute("position") as BufferAttribute, geometry.getIndex()!];
         for (let at = 0; at + 2 < Math.min(geometry.drawRange.count, index.count); at += step) {
-            [a, b, c].forEach((corner, k) =>
-                corner.fromBufferAttribute(place, index.getX(at + k)).applyMatrix4(matrix),
-            );
+            for (const [k, corner] of [a, b, c].entries())
+                corner.fromBufferAttribute(place, index.getX(at + k)).applyMatrix4(matrix);
             const longest = Math.max(a.distanceTo(b), b.distanceTo(c), c.distanceTo(a));
             const parts = Math.min(Math.ceil((longest / GROUND) * SIDE), SIDE) || 1;
             for (let i = 0; i <= parts; i++) {
@@ -94,6 +86,5 @@ export function shadowOf(
     }
     const pixels = texture.image.data as Uint8Array;
     dark.forEach((value, i) => (pixels[4 * i + 1] = 255 * value));
-    Object.assign(texture, { magFilter: LinearFilter, minFilter: LinearFilter, needsUpdate: true });
-    return texture;
+    return Object.assign(texture, SMOOTH);
 }

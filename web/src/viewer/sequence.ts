@@ -20,7 +20,6 @@ export class SequenceBar {
         form.on("loop", "change", ({ checked }) => this.sequence && (this.sequence.loop = checked));
     }
 
-    /** Start with another sequence. */
     open(facts: Content["facts"]): void {
         [this.sequence, this.shown] = [undefined, -1];
         this.plot(facts);
