@@ -54,10 +54,9 @@ export function meshOf(
         refuse("no face is drawn: see the index, the draw range, the groups and the materials");
     const places = parts.map((part) => valuesOf(part, "position") as Values);
     const starts = places.map((_, i) => places.slice(0, i).reduce((sum, { length }) => sum + length / 3, 0));
-    const names = [...new Set(parts.flatMap(({ geometry }) => Object.keys(geometry.attributes)))].filter(
-        (name) => name !== "position",
-    );
-    const attributes = names.flatMap((name): AttributeInput[] => {
+    const names = new Set(parts.flatMap(({ geometry }) => Object.keys(geometry.attributes)));
+    names.delete("position");
+    const attributes = [...names].flatMap((name): AttributeInput[] => {
         const own = parts.flatMap(({ geometry }) => geometry.attributes[name] ?? []);
         const components = own[0].itemSize;
         const isTaken = ({ array, itemSize }: ThreeAttribute): boolean =>
@@ -77,9 +76,8 @@ export function meshOf(
         domain: "face" as const,
         values: Uint16Array.from(faces.flatMap(({ labels }, part) => (which ? labels : labels.map(() => part)))),
     }));
-    const metadata: MeshInput["metadata"] = Object.fromEntries(
-        materials.length > 1 ? materials.map(({ name }, i) => [`material.${i}.name`, name]) : [],
-    );
+    const metadata: NonNullable<MeshInput["metadata"]> = {};
+    if (materials.length > 1) materials.forEach(({ name }, i) => (metadata[`material.${i}.name`] = name));
     if (parts.length > 1) metadata["part.names"] = parts.map(({ name }) => name.replaceAll("\n", " ")).join("\n");
     if (materials.some((material) => Object.values(material).some((value: Texture | undefined) => value?.isTexture)))
         left.add("textures");
@@ -133,19 +131,13 @@ function facesOf(
     const length = Math.floor(Math.min(count, all.length - start) / 3);
     const firsts = Array.from({ length }, (_, i) => start + 3 * i).filter((first) => labels[first] >= 0);
     const order = matrix !== undefined && matrix.determinant() < 0 ? [2, 1, 0] : [0, 1, 2]; // of a mirrored one
-    const corners = Uint32Array.from(
-        { length: 3 * firsts.length },
-        (_, i) => all[firsts[Math.floor(i / 3)] + order[i % 3]],
-    );
+    const cornerAt = (_: unknown, i: number): number => all[firsts[Math.floor(i / 3)] + order[i % 3]];
+    const corners = Uint32Array.from({ length: 3 * firsts.length }, cornerAt);
     return { corners, labels: firsts.map((first) => labels[first]) };
 }
 
 /** Linear colors in sRGB: bytes where these say the same to 16 bits, else words if linear bytes were given, or floats. */
-function filed(
-    linear: ArrayLike<number>,
-    components: number,
-    ofBytes: boolean,
-): Uint8Array | Uint16Array | Float32Array {
+function filed(linear: ArrayLike<number>, components: number, ofBytes: boolean): ArrayLike<number> {
     const [color, shares] = [new Color(), Float32Array.from(linear)];
     for (let i = 0; i < shares.length; i += components) {
         color.fromArray(linear as number[], i).convertLinearToSRGB();

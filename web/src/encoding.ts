@@ -1,5 +1,6 @@
 /** The encoder in C, compiled to WebAssembly: what its worker runs, and who encodes in the calling thread. */
 import { DOMAINS, KINDS, SEMANTICS, type Attribute } from "./attributes";
+import { messageOf } from "./fetched";
 
 /** The quality of an attribute: "exact", a number of bits, the largest error, or of normals degrees or "recompute". */
 export type Quality =
@@ -178,6 +179,7 @@ export function encodeWith(
     return new Uint8Array(calls.memory.buffer).slice(at, at + calls.encode_size());
 }
 
+type Question = { module: WebAssembly.Module; mesh: MeshInput; options: EncodeOptions };
 export type Answer = { part: number } | { bytes: Uint8Array<ArrayBuffer> } | { message: string; status: number };
 
 /** A worker, for one mesh. */
@@ -186,17 +188,13 @@ export function serve(): void {
         onmessage: unknown;
         postMessage(answer: Answer, transferred?: Transferable[]): void;
     };
-    scope.onmessage = ({
-        data: { module, mesh, options },
-    }: MessageEvent<{ module: WebAssembly.Module; mesh: MeshInput; options: EncodeOptions }>) => {
+    scope.onmessage = ({ data: { module, mesh, options } }: MessageEvent<Question>) => {
         try {
             const bytes = encodeWith(module, mesh, { ...options, onProgress: (part) => scope.postMessage({ part }) });
             scope.postMessage({ bytes }, [bytes.buffer]);
         } catch (error) {
-            scope.postMessage({
-                message: error instanceof Error ? error.message : String(error),
-                status: error instanceof EncodeError ? error.status : 1,
-            });
+            const status = error instanceof EncodeError ? error.status : 1;
+            scope.postMessage({ message: messageOf(error), status });
         }
     };
 }

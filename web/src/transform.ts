@@ -83,9 +83,7 @@ export class EXTBSMCompression extends Extension {
         if (!decoder) throw new Error(`[${EXTENSION}] needs a dependency, "bsm.decoder": await loadSceneDecoder()`);
         const views = json.bufferViews ?? [];
         const streams = new CodedViews<Shape>();
-        views.forEach((view, index) => {
-            const coded = codedOf(view);
-            if (!coded) return;
+        for (const { view, index, coded } of codedIn(views)) {
             const { buffer, byteOffset = 0, byteLength } = views[coded.stream];
             const resource = resources[json.buffers?.[buffer].uri ?? GLB_BUFFER];
             const shape = streams.shape(views[coded.stream], () => {
@@ -95,22 +93,20 @@ export class EXTBSMCompression extends Extension {
             });
             const bytes = streams.bytes(shape, views[coded.stream], coded, view.byteLength, index);
             bufferViews[index] = new Uint8Array(bytes);
-        });
+        }
         return this;
     }
 
     override read({ jsonDoc: { json }, buffers, bufferViewBuffers }: ReaderContext): this {
         const views = json.bufferViews ?? [];
         const replaced = new Set<Buffer>();
-        views.forEach((view, index) => {
-            const coded = codedOf(view);
-            if (!coded) return;
+        for (const { view, index, coded } of codedIn(views)) {
             const [filled, kept] = [buffers[view.buffer], buffers[views[coded.stream].buffer]];
             bufferViewBuffers[index] = kept;
             for (const accessor of this.document.getRoot().listAccessors())
                 if (accessor.getBuffer() === filled) accessor.setBuffer(kept);
             replaced.add(filled);
-        });
+        }
         for (const buffer of replaced) buffer.dispose();
         for (const mesh of json.meshes ?? []) delete mesh.extensions?.[EXTENSION];
         this.dispose();
@@ -158,10 +154,9 @@ export class EXTBSMCompression extends Extension {
         for (const [name, accessor] of arraysOf(primitive)) {
             const count = shape.positions.length / 3;
             const { componentType, normalized, type } = context.createAccessorDef(accessor);
-            const bounds =
-                name === "POSITION" ? { min: shape.low.map(Math.fround), max: shape.high.map(Math.fround) } : {};
+            const [min, max] = [shape.low, shape.high].map((corner) => corner.map(Math.fround));
             const kind = isFloat(name, accessor) ? { componentType: FLOAT } : { componentType, normalized };
-            declare(name, { type, count, ...bounds, ...kind });
+            declare(name, { type, count, ...(name === "POSITION" ? { min, max } : {}), ...kind });
         }
         declare("indices", { type: "SCALAR", count: shape.index.length, componentType: UNSIGNED_INT });
         const buffer = primitive.getAttribute("POSITION")!.getBuffer() ?? this.document.getRoot().listBuffers()[0];
@@ -205,24 +200,17 @@ const FLOATS = /^(POSITION|NORMAL|TEXCOORD_[01]|COLOR_0)$/;
 
 /** Whether an array is coded in single precision; integers that take no multiple of four bytes are, too. */
 function isFloat(name: string, accessor: Accessor): boolean {
-    return (
-        FLOATS.test(name) ||
-        accessor.getComponentType() === Accessor.ComponentType.FLOAT ||
-        (accessor.getElementSize() * accessor.getComponentSize()) % 4 !== 0
-    );
+    const isWide = (accessor.getElementSize() * accessor.getComponentSize()) % 4 === 0;
+    return FLOATS.test(name) || accessor.getComponentType() === Accessor.ComponentType.FLOAT || !isWide;
 }
 
-/** Qualities, as `bsm glb` has them, and meanings. */
-const QUALITIES: Record<string, AttributeInput["quality"]> = {
-    NORMAL: { bits: 10 },
-    TANGENT: { bits: 9 },
-    COLOR_0: { bits: 8 },
-};
-const SEMANTICS: Record<string, AttributeInput["semantic"]> = {
-    NORMAL: "normal",
-    COLOR_0: "color",
-    TEXCOORD_0: "texcoord",
-    TEXCOORD_1: "texcoord",
+/** Meanings, and qualities, as `bsm glb` has them. */
+const MEANINGS: Record<string, Pick<AttributeInput, "semantic" | "quality">> = {
+    NORMAL: { semantic: "normal", quality: { bits: 10 } },
+    TANGENT: { quality: { bits: 9 } },
+    COLOR_0: { semantic: "color", quality: { bits: 8 } },
+    TEXCOORD_0: { semantic: "texcoord" },
+    TEXCOORD_1: { semantic: "texcoord" },
 };
 
 /** A primitive as a mesh; why it is none, is an `EncodeError`. */
@@ -237,11 +225,11 @@ function meshOf(primitive: Primitive): MeshInput {
     const attributes = arraysOf(primitive)
         .filter(([name]) => name !== "POSITION")
         .map(([name, accessor]): AttributeInput => ({
+            ...MEANINGS[name],
+            ...(isFloat(name, accessor) ? {} : { quality: "exact" }),
             name,
             values: isFloat(name, accessor) ? floatsOf(accessor) : (accessor.getArray() as AttributeInput["values"]),
             components: accessor.getElementSize(),
-            semantic: SEMANTICS[name] ?? "generic",
-            quality: isFloat(name, accessor) ? QUALITIES[name] : "exact",
         }));
     return {
         positions: floatsOf(positions),
@@ -258,6 +246,10 @@ function floatsOf(accessor: Accessor): Float32Array {
     return floats;
 }
 
-function codedOf(view: GLTF.IBufferView): Coded | undefined {
-    return view.extensions?.[EXTENSION] as Coded | undefined;
+/** BufferViews that streams hold. */
+function codedIn(views: GLTF.IBufferView[]): { view: GLTF.IBufferView; index: number; coded: Coded }[] {
+    return views.flatMap((view, index) => {
+        const coded = view.extensions?.[EXTENSION] as Coded | undefined;
+        return coded ? { view, index, coded } : [];
+    });
 }

@@ -35,14 +35,11 @@ export function fieldOf(
     const attribute = scheme.startsWith("of ") ? geometry?.attributes[scheme.slice(3)] : undefined;
     if (!attribute) return undefined;
     const numbers = Array.from({ length: attribute.itemSize }, (_, d) => d);
-    const values = Float32Array.from({ length: attribute.count }, (_, i) =>
-        numbers.length > 1 ? Math.hypot(...numbers.map((d) => attribute.getComponent(i, d))) : attribute.getX(i),
-    );
-    return {
-        values,
-        low: values.reduce((a, b) => Math.min(a, b), Infinity),
-        high: values.reduce((a, b) => Math.max(a, b), -Infinity),
-    };
+    const lengthAt = (i: number): number => Math.hypot(...numbers.map((d) => attribute.getComponent(i, d)));
+    const valueAt = (_: unknown, i: number): number => (numbers.length > 1 ? lengthAt(i) : attribute.getX(i));
+    const values = Float32Array.from({ length: attribute.count }, valueAt);
+    const [low, high] = values.reduce(([a, b], c) => [Math.min(a, c), Math.max(b, c)], [Infinity, -Infinity]);
+    return { values, low, high };
 }
 
 /** Colors of all drawn vertices, shape (n, 3), within the range of a field; undefined where a mesh has no such values. */

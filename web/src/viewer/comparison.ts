@@ -154,9 +154,8 @@ export class Comparison {
         const { geometries, scheme } = this;
         const geometry = geometries[index]!;
         const { attributes, metadata, color } = geometry;
-        const fields = Object.keys(attributes).flatMap((name) =>
-            /^(position|normal|(uv|color)\d*)$/.test(name) ? [] : new Option(name, `of ${name}`),
-        );
+        const names = Object.keys(attributes).filter((name) => !/^(position|normal|(uv|color)\d*)$/.test(name));
+        const fields = names.map((name) => new Option(name, `of ${name}`));
         if (index === this.content.main) this.form.part("fields").replaceChildren(...fields);
         const named = [...metadata.keys()].some((key) => key.startsWith("material."));
         if (named) {

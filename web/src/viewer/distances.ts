@@ -39,9 +39,8 @@ function bodyOf({ frames, index, parted, attributes: { position } }: BSMGeometry
     if (count === 0) throw new Error("There are no triangles to compare.");
     if (faces.length > 3 * MOST) throw new Error(`There are more than ${MOST} triangles; use bsm compare.`);
     const [points, seen] = [new Float32Array(3 * count), new Uint8Array(count)];
-    whole.forEach(
-        (drawn, i) => (points.set(positions.subarray(3 * drawn, 3 * drawn + 3), 3 * faces[i]), (seen[faces[i]] = 1)),
-    );
+    whole.forEach((drawn, i) => points.set(positions.subarray(3 * drawn, 3 * drawn + 3), 3 * faces[i]));
+    for (const vertex of faces) seen[vertex] = 1;
     return { points, faces, used: Uint32Array.from(seen.keys()).filter((vertex) => seen[vertex]) };
 }
 
@@ -62,11 +61,8 @@ class Tree {
         const size = whole.getSize(new Vector3()).clampScalar(Number.MIN_VALUE, Infinity);
         const along = Float64Array.from({ length: count }, (_, face) => {
             const share = this.at(face).getMidpoint(this.place).sub(whole.min).divide(size);
-            const cell = share
-                .multiplyScalar(CELLS)
-                .floor()
-                .clampScalar(0, CELLS - 1);
-            return (SPREAD[cell.x] + 2 * SPREAD[cell.y] + 4 * SPREAD[cell.z]) * MOST + face;
+            const [x, y, z] = share.toArray().map((part) => SPREAD[Math.min(Math.floor(CELLS * part), CELLS - 1)]);
+            return (x + 2 * y + 4 * z) * MOST + face;
         });
         this.order = along.sort().map((key) => key % MOST);
         const inner = 2 ** Math.ceil(Math.log2(Math.max(1, count / LEAF))) - 1;
@@ -118,10 +114,8 @@ function* matched(now: Body, then: Body): Generator<void, ArrayLike<number> | un
     if (now.faces.length !== then.faces.length || now.used.length !== then.used.length) return undefined;
     const [point, same] = [new Vector3(), Uint32Array.from({ length: now.points.length / 3 }, (_, vertex) => vertex)];
     if (now.faces.every((vertex, i) => vertex === then.faces[i])) return same;
-    const tree = new Tree(
-        then.points,
-        Uint32Array.from({ length: 3 * then.used.length }, (_, i) => then.used[Math.floor(i / 3)]),
-    ); // of points
+    const points = Uint32Array.from({ length: 3 * then.used.length }, (_, i) => then.used[Math.floor(i / 3)]);
+    const tree = new Tree(then.points, points);
     for (const vertex of now.used) {
         tree.distance(point.fromArray(now.points, 3 * vertex));
         same[vertex] = then.used[tree.face];
@@ -129,9 +123,8 @@ function* matched(now: Body, then: Body): Generator<void, ArrayLike<number> | un
     }
     const known = new Set(written(then.faces));
     const isOnto = new Set(now.used.map((vertex) => same[vertex])).size === now.used.length;
-    return isOnto && written(now.faces.map((vertex) => same[vertex])).every((face) => known.has(face))
-        ? same
-        : undefined;
+    const isSame = isOnto && written(now.faces.map((vertex) => same[vertex])).every((face) => known.has(face));
+    return isSame ? same : undefined;
 }
 
 function* measured(stream: BSMGeometry, original: BSMGeometry): Generator<void, Distances> {
