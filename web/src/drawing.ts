@@ -19,10 +19,7 @@ export type Picture =
     | EventOf<"header" | "metadata" | "loss" | "end">
     /** A mesh that grows has begun. */
     | { type: "begun"; vertices: number; corners: number; loose: Loose }
-    /**
-     * Vertices that have moved or whose normals have, shape (k,), with what they are now, and the corners of faces that can
-     * be drawn from now on. `origin`: the block that each came with, -1 if it is not there.
-     */
+    /** Vertices that have moved or whose normals have; corners of faces that can be drawn now; `origin`: blocks, or -1. */
     | {
           type: "grown";
           vertices: Int32Array;
@@ -32,10 +29,7 @@ export type Picture =
           index: Uint32Array;
           blocks: number;
       }
-    /**
-     * The whole mesh, or the first frame of a sequence; of a later run, that which the frames after it have. `growth`: the
-     * blocks of all vertices of a mesh that grew.
-     */
+    /** The whole mesh, or the first frame of a run; `growth`: the blocks of all vertices of a mesh that grew. */
     | { type: "whole"; shape: Shape; run: number; growth?: { origin: Int32Array; blocks: number } }
     | { type: "frame"; index: number; positions: Float32Array; normals: Int16Array; attributes: DrawnAttribute[] }
     /** It is there, and drawn once the mesh is whole. */

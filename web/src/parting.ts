@@ -59,10 +59,7 @@ function valuesOf(attribute: Attribute, faces: Int32Array, chosen: Int32Array): 
     return numbers;
 }
 
-/**
- * A vertex for each vertex of `faces` and values of the attributes that meet at a corner of the `chosen` ones: which drawn vertices these
- * have, which vertex each drawn one is, and which value of each attribute it has. Nothing is parted where nothing needs it.
- */
+/** A drawn vertex for all corners of one vertex with the same values; `rows`: which value of each attribute it has. */
 function parted(
     faces: Int32Array,
     chosen: Int32Array,

@@ -3,10 +3,7 @@
 const UNKNOWN_RATE = 24; // as where `bsm` writes glTF and USD
 /** Seconds of frames that must be there before playing goes on behind a wait. */
 const RESERVE = 0.5;
-/**
- * By how much of its time each frame is shown early: where a screen's pictures come as frames do, or several to each,
- * clocks that tremble skip none.
- */
+/** The part of its time by which a frame is early, so that clocks that tremble skip none where screens are in step. */
 const EARLY = 0.1;
 
 /** Goes through the frames that are there; where they end too early, it waits for half a second of them. */

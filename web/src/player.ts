@@ -13,7 +13,7 @@ import {
     Vector3,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { Bar } from "./bar";
+import { steerBy } from "./bar";
 import { hang, redraw, takeDown } from "./easel";
 import type { BSMGeometry } from "./geometry";
 import page from "./player.html";
@@ -64,7 +64,8 @@ export class BSMPlayer extends Base {
     /** Whether the reader has moved the camera. */
     private touched = false;
     private orbit?: OrbitControls;
-    private readonly bar = new Bar(this.shadow.querySelector(".bar")!, this);
+    private readonly bar = this.shadow.querySelector<HTMLElement>(".bar")!;
+    private readonly showBar = steerBy(this.bar, this);
     private readonly resizes = new ResizeObserver(() => this.fit());
     private readonly scrolls = new IntersectionObserver((seen) => (this.inView = seen.at(-1)!.isIntersecting), NEAR);
     /** What is loading, or wrong. */
@@ -122,6 +123,12 @@ export class BSMPlayer extends Base {
     pause(): void {
         this.asked = false;
         this.sequence?.pause();
+    }
+
+    /** Play, or pause. */
+    toggle(): void {
+        if (this.paused) this.play();
+        else this.pause();
     }
 
     connectedCallback(): void {
@@ -190,9 +197,9 @@ export class BSMPlayer extends Base {
     /** Show what a reader may do: without controls, where motion is not wished for, they start a sequence. */
     private steer(): void {
         if (!this.orbit) return;
-        this.bar.element.hidden = !this.controls && !(this.autoplay && this.isCalm);
+        this.bar.hidden = !this.controls && !(this.autoplay && this.isCalm);
         this.orbit.enableZoom = !this.hasAttribute("disable-zoom");
-        this.bar.show();
+        this.showBar();
     }
 
     /** Whether the reader prefers reduced motion. */
@@ -207,12 +214,12 @@ export class BSMPlayer extends Base {
         canvas.onpointerdown = ({ clientX, clientY }) => (from = [clientX, clientY]);
         canvas.onclick = ({ clientX, clientY }) => {
             const isTap = Math.hypot(clientX - from[0], clientY - from[1]) < TAP;
-            if (isTap && this.sequence && !this.bar.element.hidden) this.bar.toggle();
+            if (isTap && !this.bar.hidden) this.toggle();
         };
     }
 
     private act(event: KeyboardEvent): void {
-        if (event.key === " " && this.sequence) this.paused ? this.play() : this.pause();
+        if (event.key === " " && this.sequence) this.toggle();
         else if (!this.orbit || !turnBy(event.key, this.camera, this.orbit.target)) return;
         else this.touched = true;
         event.preventDefault();
@@ -331,7 +338,7 @@ export class BSMPlayer extends Base {
     }
 
     private say(type: string, detail?: unknown): void {
-        if (!this.bar.element.hidden) this.bar.show();
+        if (!this.bar.hidden) this.showBar();
         this.dispatchEvent(new CustomEvent(type, { detail }));
     }
 }

@@ -121,19 +121,14 @@ export function sizeOf(
 
 /** The bytes of a bufferView, of what is drawn of its stream; it says how many these are. */
 function bytesOf(shape: Shape, { attribute, componentType }: Coded, byteLength: number, index: number): ArrayBuffer {
-    const values = valuesOf(shape, attribute);
+    const { index: corners, positions, normals, attributes } = shape;
+    const own = { indices: corners, POSITION: positions, NORMAL: normals } as Record<string, ArrayLike<number>>;
+    const others = attributes.find(({ name }) => name === (SETS[attribute] ?? attribute));
+    const values = Object.hasOwn(own, attribute) ? own[attribute] : others?.values;
     const Kind = KINDS[componentType ?? (attribute === "indices" ? 5125 : 5126)];
     if (!values || !Kind) throw new Error(`bufferView ${index}: its stream has no ${attribute} of such a type`);
-    const bytes = Kind.from(values as ArrayLike<number>).buffer as ArrayBuffer;
+    const bytes = Kind.from(values).buffer as ArrayBuffer;
     if (bytes.byteLength !== byteLength)
         throw new Error(`bufferView ${index}: ${attribute} has ${bytes.byteLength} bytes, not ${byteLength}`);
     return bytes;
-}
-
-/** The numbers that the extension calls so. */
-function valuesOf({ index, positions, normals, attributes }: Shape, name: string): ArrayLike<number> | undefined {
-    if (name === "indices") return index;
-    if (name === "POSITION") return positions;
-    if (name === "NORMAL") return normals;
-    return attributes.find((attribute) => attribute.name === (SETS[name] ?? name))?.values;
 }
