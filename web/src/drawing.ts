@@ -3,7 +3,7 @@ import type { Attribute } from "./attributes";
 import type { Event, Loose, EventOf } from "./events";
 import { spread, type DrawnAttribute, type DrawnFaces, type Piece } from "./drawn";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
-import type { Bounds, Memory, Move } from "./memory";
+import type { Bounds, Grown, Memory, Move } from "./memory";
 import { drawnFaces, numbersOf } from "./parting";
 
 export type { DrawnAttribute, Piece };
@@ -20,15 +20,7 @@ export type Picture =
     /** A mesh that grows has begun. */
     | { type: "begun"; vertices: number; corners: number; loose: Loose }
     /** Vertices that have moved or whose normals have; corners of faces that can be drawn now; `origin`: blocks, or -1. */
-    | {
-          type: "grown";
-          vertices: Int32Array;
-          positions: Float32Array;
-          normals: Float32Array;
-          origin: Int32Array;
-          index: Uint32Array;
-          blocks: number;
-      }
+    | ({ type: "grown"; blocks: number } & Grown)
     /** The whole mesh, or the first frame of a run; `growth`: the blocks of all vertices of a mesh that grew. */
     | { type: "whole"; shape: Shape; run: number; growth?: { origin: Int32Array; blocks: number } }
     | { type: "frame"; index: number; positions: Float32Array; normals: Int16Array; attributes: DrawnAttribute[] }
@@ -80,8 +72,11 @@ export class Drawing {
             case "block":
             case "refinement":
                 return this.grow(event);
-            case "attribute":
-                return this.carry(event);
+            case "attribute": {
+                const { type, name, semantic, domain } = event;
+                this.carried.push(event);
+                return this.run > 0 ? undefined : this.show({ type, name, semantic, domain });
+            }
             case "frame":
                 return this.addFrame(event);
             case "loss":
@@ -94,12 +89,6 @@ export class Drawing {
             default:
                 return this.show(event);
         }
-    }
-
-    private carry(event: EventOf<"attribute">): void {
-        const { type, name, semantic, domain } = event;
-        this.carried.push(event);
-        if (this.run === 0) this.show({ type, name, semantic, domain });
     }
 
     private startRun(event: EventOf<"header">): void {

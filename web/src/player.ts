@@ -13,7 +13,6 @@ import {
     Vector3,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { steerBy } from "./bar";
 import { hang, redraw, takeDown } from "./easel";
 import type { BSMGeometry } from "./geometry";
 import page from "./player.html";
@@ -341,6 +340,26 @@ export class BSMPlayer extends Base {
         if (!this.bar.hidden) this.showBar();
         this.dispatchEvent(new CustomEvent(type, { detail }));
     }
+}
+
+/** Have the elements of a bar steer a player; returns what shows there where the player is. */
+function steerBy(bar: HTMLElement, player: BSMPlayer): () => void {
+    const [button, full] = bar.querySelectorAll("button");
+    const [range, time] = [bar.querySelector("input")!, bar.querySelector("output")!];
+    const show = (): void => {
+        const { currentTime, duration, paused } = player;
+        bar.classList.toggle("still", !(duration > 0));
+        bar.classList.toggle("paused", paused);
+        button.setAttribute("aria-label", paused ? "Play" : "Pause");
+        [range.max, range.value] = [String(duration), String(currentTime)];
+        time.textContent = `${currentTime.toFixed(1)} s of ${duration.toFixed(1)} s`;
+        range.setAttribute("aria-valuetext", time.textContent);
+    };
+    full.hidden = !document.fullscreenEnabled;
+    full.onclick = () => void (document.fullscreenElement ? document.exitFullscreen() : player.requestFullscreen?.());
+    button.onclick = () => player.toggle();
+    range.oninput = () => ((player.currentTime = Number(range.value)), show());
+    return show;
 }
 
 /** Properties that are attributes. */

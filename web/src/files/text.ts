@@ -1,7 +1,6 @@
 /** Numbers in text, read as Python reads them: what is not a number is an error that says where. */
 
 const WORD = /^[+-]?(?:nan|inf(?:inity)?|(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)$/i;
-const NUMBERS = { nan: NaN, inf: Infinity, infinity: Infinity };
 
 /** A text without blanks around it; other spaces than those of ASCII belong to names. */
 export const trimmed = (text: string): string => text.replace(/^[ \t-\r]+|[ \t-\r]+$/g, "");
@@ -13,9 +12,8 @@ function numberOf(word: string): number | undefined {
     const number = Number(word);
     if (number - number === 0 && !/[^\d.e+-]/i.test(word)) return number;
     if (!WORD.test(word)) return undefined;
-    const sign = word.startsWith("-") ? -1 : 1;
-    const named = NUMBERS[word.replace(/^[+-]/, "").toLowerCase() as keyof typeof NUMBERS] as number | undefined;
-    return named === undefined ? number : sign * named;
+    if (/i/i.test(word)) return word.startsWith("-") ? -Infinity : Infinity;
+    return number; // NaN of "nan", too
 }
 
 /** The number that a word is; `what` is named where it is none. */
