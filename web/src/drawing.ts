@@ -25,7 +25,7 @@ export type Picture =
     | { type: "whole"; shape: Shape; run: number; growth?: { origin: Int32Array; blocks: number } }
     | { type: "frame"; index: number; positions: Float32Array; normals: Int16Array; attributes: DrawnAttribute[] }
     /** It is there, and drawn once the mesh is whole. */
-    | { type: "attribute"; name: string; semantic: Attribute["semantic"]; domain: Attribute["domain"] };
+    | ({ type: "attribute" } & Pick<Attribute, "name" | "semantic" | "domain">);
 
 export type PictureOf<Type> = Extract<Picture, { type: Type }>;
 

@@ -55,8 +55,11 @@ const encode: Encode = async (files, preset, report, signal) => {
     throw new Error("The server has stopped.");
 };
 
-/** Encode files in a thread of the page; it ends when its reader cancels. */
-function inThread(job: Job, report: (stage: string, share: number) => void, signal: AbortSignal): Promise<Content> {
+/** Encode a mesh or a sequence, or compare two, in a thread of the page; it ends when its reader cancels. */
+const encodeHere: Encode = async (files, preset, report, signal) => {
+    if (files.every(isStream)) return contentOf(files, await Promise.all(files.map(bytesIn)), {});
+    const named = files.map((file) => new File([file], pathOf(file)));
+    const kernels = await load("whole");
     const worker = new Worker(encoder!, { type: "module", name: "BSM encoder" });
     return new Promise<Content>((resolve, fail) => {
         signal.addEventListener("abort", () => fail(signal.reason), { once: true });
@@ -66,15 +69,8 @@ function inThread(job: Job, report: (stage: string, share: number) => void, sign
             else if ("stage" in data) report(data.stage, data.share);
             else resolve(data.content);
         };
-        worker.postMessage(job);
+        worker.postMessage({ files: named, preset, kernels } satisfies Job);
     }).finally(() => worker.terminate());
-}
-
-/** Encode a mesh or a sequence, or compare two. */
-const encodeHere: Encode = async (files, preset, report, signal) => {
-    if (files.every(isStream)) return contentOf(files, await Promise.all(files.map(bytesIn)), {});
-    const named = files.map((file) => new File([file], pathOf(file)));
-    return inThread({ files: named, preset, kernels: await load("whole") }, report, signal);
 };
 
 async function fillPage(list: HTMLElement): Promise<void> {
