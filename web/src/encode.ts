@@ -11,7 +11,7 @@ export type { AttributeInput, EncodeOptions, MeshInput, Quality } from "./encodi
 export type Drawn = { readonly isBufferGeometry: true } | { readonly isObject3D: true };
 
 type Bytes = Uint8Array<ArrayBuffer>;
-type Given = MeshInput | Drawn;
+type Encodable = MeshInput | Drawn;
 const [THREAD, HERE] = ["encode-worker.js", import.meta.url];
 const load = once((url: string) => compiled(new URL(url)));
 
@@ -25,13 +25,13 @@ export function loadEncoder(wasm?: EncodeOptions["wasm"], moves = false): Promis
 }
 
 /** A mesh as it is given, or as three.js draws it, which is there then. */
-async function wholeOf(input: Given, { onNote }: EncodeOptions): Promise<MeshInput> {
+async function wholeOf(input: Encodable, { onNote }: EncodeOptions): Promise<MeshInput> {
     if ("positions" in input) return input;
     return (await import("./content")).meshOf(input as BufferGeometry | Object3D, onNote);
 }
 
 /** Encode in this thread, which waits for that. */
-export async function encodeHere(input: Given, options: EncodeOptions = {}): Promise<Bytes> {
+export async function encodeHere(input: Encodable, options: EncodeOptions = {}): Promise<Bytes> {
     const mesh = await wholeOf(input, options);
     return encodeWith(await loadEncoder(options.wasm, Boolean(mesh.frames)), mesh, options);
 }
@@ -41,7 +41,7 @@ export async function encodeHere(input: Given, options: EncodeOptions = {}): Pro
  *
  *     const bytes = await encode(mesh.geometry, { bits: 14, onProgress: console.log });
  */
-export async function encode(input: Given, options: EncodeOptions = {}): Promise<Bytes> {
+export async function encode(input: Encodable, options: EncodeOptions = {}): Promise<Bytes> {
     const { onProgress, onNote: _, signal, wasm, ...plain } = options;
     signal?.throwIfAborted();
     const mesh = await wholeOf(input, options);
