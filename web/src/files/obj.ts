@@ -114,9 +114,8 @@ function ofCorners(
         at += size;
     });
     if (name === "texcoord") all.push(...new Array<number>(width).fill(0));
-    notes.push(
-        `corners without ${PLURALS.get(name)} were given ${name === "normal" ? "those of their faces" : "zeros"}: ${lacking}`,
-    );
+    const given = name === "normal" ? "those of their faces" : "zeros";
+    notes.push(`corners without ${PLURALS.get(name)} were given ${given}: ${lacking}`);
     return { ...column, values: compact(Float64Array.from(all), width), indices };
 }
 

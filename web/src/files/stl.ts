@@ -116,12 +116,11 @@ function ofText(given: string): Soup {
         else names.push(trimmed(name));
     }
     const isWhole = /endfacet[^\n]*\s+endsolid[^\n]*\s*$/i.test(text);
-    if (facets.length > 0 && corners.counts.length > 3 * facets.length && isWhole)
-        throw new Error(`${facets.length} facets have ${corners.counts.length} corners; cut them into triangles`);
-    if (corners.counts.length !== 3 * facets.length || (facets.length === 0 && !/endsolid/i.test(text)))
-        throw new Error(
-            `the STL file is cut short: ${corners.counts.length} corners in ${facets.length} finished triangles`,
-        );
+    const found = corners.counts.length;
+    if (facets.length > 0 && found > 3 * facets.length && isWhole)
+        throw new Error(`${facets.length} facets have ${found} corners; cut them into triangles`);
+    if (found !== 3 * facets.length || (facets.length === 0 && !/endsolid/i.test(text)))
+        throw new Error(`the STL file is cut short: ${found} corners in ${facets.length} finished triangles`);
     const others = text.matchAll(/^[ \t]*(?!(?:(?:end)?(?:solid|facet|loop)|outer|vertex)\b)(\S+)/gim);
     const unread = [...new Set(Array.from(others, ([, word]) => word))].sort().join(", ");
     const dropped = unread ? [`lines that begin with ${unread}`.slice(0, MOST_UNREAD)] : [];
