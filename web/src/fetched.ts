@@ -35,14 +35,11 @@ async function answered(url: URL): Promise<Response> {
 
 /** WebAssembly that is compiled while it comes, where the server says that it is that. */
 export async function compiled(url: URL): Promise<WebAssembly.Module> {
-    if (/^http/.test(url.protocol)) {
-        const response = await answered(url);
-        if (/^application\/wasm\b/.test(response.headers.get("content-type") ?? ""))
-            // After a complete read, the error can be named.
-            return WebAssembly.compileStreaming(response).catch(async () => ofBytes(url, await bytesAt(url)));
-        return ofBytes(url, await response.arrayBuffer());
-    }
-    return ofBytes(url, await bytesAt(url));
+    const response = /^http/.test(url.protocol) ? await answered(url) : undefined;
+    if (response && /^application\/wasm\b/.test(response.headers.get("content-type") ?? ""))
+        // After a complete read, the error can be named.
+        return WebAssembly.compileStreaming(response).catch(async () => ofBytes(url, await bytesAt(url)));
+    return ofBytes(url, await (response?.arrayBuffer() ?? bytesAt(url)));
 }
 
 function ofBytes(url: URL, bytes: ArrayBuffer | Uint8Array<ArrayBuffer>): Promise<WebAssembly.Module> {

@@ -25,7 +25,7 @@ interface Flight {
 const flights = new Map<string, Flight>();
 const keyOf = (address: URL): string => `file:${address.href}`;
 
-/** Fetch what is at an address; resolves when all pieces were handed over, or would have been without the signal. */
+/** Fetch what is at an address; resolves when all of it has come, though a signal may have stopped this load. */
 export async function fetchPieces(address: URL, request: RequestInit, passenger: Passenger): Promise<void> {
     const cached: unknown = Cache.enabled ? Cache.get(keyOf(address)) : undefined;
     if (cached instanceof ArrayBuffer) {

@@ -188,7 +188,7 @@ export class GridDecoder {
         this.offset += count;
     }
 
-    /** What is to be done by the next frame that tells anything; `END_OF_STREAM` after END and `receiveEof`. */
+    /** Read frames up to one that tells something; returns what is to be done with it, or what the stream waits for. */
     private nextFrame(): (() => void) | Signal {
         if (!this.started && !this.start()) return this.incomplete();
         while (this.last !== "end") {
@@ -229,7 +229,7 @@ export class GridDecoder {
         throw new TruncatedError("", { offset: this.offset + this.end - this.begin });
     }
 
-    /** Check a frame against everything before it: what is to be done by it; undefined for one to be skipped. */
+    /** Check a frame against all before it; returns what is to be done with it, undefined for one to be skipped. */
     private accept(type: number, payload: Uint8Array): (() => void) | undefined {
         if (type >= 8 && type <= 11) return void demand(this.header !== undefined);
         const kind = kinds[type];
