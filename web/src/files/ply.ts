@@ -50,10 +50,10 @@ interface PlyElement {
     properties: PlyProperty[];
 }
 
-/** The items of a property, those of all rows one after the other, and how many each row has. */
-interface ReadProperty {
+/** A property and its items, those of all rows one after the other, and how many each row has. */
+interface ReadProperty extends PlyProperty {
     sizes: Uint32Array;
-    values: number[];
+    values: ColumnValues;
 }
 
 interface PlyHeader {
@@ -134,15 +134,15 @@ function readElement({ count, properties }: PlyElement, { next, left, size }: Su
     const missing = properties.reduce((sum, { type, length }) => sum + count * size(length ?? type), -left());
     if (properties.length > 0 && missing > 0)
         throw new Error(`${CUT} its header claims ${missing} bytes more than there are`);
-    const found = properties.map((): ReadProperty => ({ sizes: new Uint32Array(count).fill(1), values: [] }));
+    const found = properties.map((own) => ({ ...own, sizes: new Uint32Array(count).fill(1), values: [] as number[] }));
     for (let row = 0; properties.length > 0 && row < count; row++)
-        properties.forEach(({ type, length }, p) => {
+        for (const { type, length, sizes, values } of found) {
             const items = length ? next(length) : 1;
             if (items < 0 || items !== Math.floor(items)) throw new Error(`row ${row} has a list of ${items} items`);
-            found[p].sizes[row] = items;
-            for (let i = 0; i < items; i++) found[p].values.push(next(type));
-        });
-    return found;
+            sizes[row] = items;
+            for (let i = 0; i < items; i++) values.push(next(type));
+        }
+    return found.map((own) => ({ ...own, values: typed(own.values, own.type) }));
 }
 
 /** The rows of all elements, by the names of these. */
@@ -207,23 +207,21 @@ export function readPly(bytes: Uint8Array): Polygons {
     if (!vertex || !face) throw new Error("this PLY file has no faces; point clouds are not supported");
     const tables = tablesOf(header, bytes);
     const [points, polygons] = [tables.get("vertex")!, tables.get("face")!];
-    const axes = ["x", "y", "z"].map((name) => vertex.properties.findIndex((each) => each.name === name));
-    if (axes.some((place) => place < 0 || vertex.properties[place].length))
+    const axes = ["x", "y", "z"].map((name) => points.find((each) => each.name === name));
+    if (!axes.every((axis) => axis && !axis.length))
         throw new Error("the vertices of this PLY file have no numbers x, y and z");
-    const axisAt = (place: number): ColumnValues => typed(points[place].values, vertex.properties[place].type);
-    const positions = together(axes.map((place) => Float64Array.from(axisAt(place)))) as Float64Array;
-    const list = face.properties.findIndex(({ name }) => name === "vertex_indices" || name === "vertex_index");
-    if (list < 0 || !face.properties[list].length)
-        throw new Error("the faces of this PLY file have no list vertex_indices");
-    const { sizes, values: corners } = polygons[list];
-    const broken = corners.find((corner) => corner !== Math.floor(corner));
+    const positions = together(axes.map((axis) => Float64Array.from(axis!.values))) as Float64Array;
+    const list = polygons.find(({ name }) => name === "vertex_indices" || name === "vertex_index");
+    if (!list?.length) throw new Error("the faces of this PLY file have no list vertex_indices");
+    const { sizes, values: corners } = list;
+    const broken = (corners as Float64Array).find((corner) => corner !== Math.floor(corner));
     if (broken !== undefined) throw new Error(`a vertex index is ${broken}, not a whole number`);
     const [notes, dropped]: [string[], string[]] = [[], []];
-    const wedges = wedgesOf(face.properties, polygons, list, notes, dropped);
-    const columns = [...columnsOf(vertex, points, "vertex"), ...columnsOf(face, polygons, "face"), ...wedges];
-    for (const { name, length } of vertex.properties) if (length) dropped.push(`the list ${name} of vertices`);
-    for (const { properties } of [vertex, face]) {
-        const all = properties.map(({ name }) => name);
+    const wedges = wedgesOf(polygons, list, notes, dropped);
+    const columns = [...columnsOf(points, "vertex"), ...columnsOf(polygons, "face"), ...wedges];
+    for (const { name, length } of points) if (length) dropped.push(`the list ${name} of vertices`);
+    for (const element of [points, polygons]) {
+        const all = element.map(({ name }) => name);
         const repeated = new Set(all.filter((name, i) => all.indexOf(name) !== i));
         for (const name of repeated) dropped.push(`the first ${name}, of which there are several`);
     }
@@ -242,42 +240,37 @@ function together(columns: ColumnValues[]): ColumnValues {
 }
 
 /** The properties that are numbers, those together that are one value. */
-function columnsOf({ properties }: PlyElement, tables: ReadProperty[], domain: "vertex" | "face"): Column[] {
+function columnsOf(properties: ReadProperty[], domain: "vertex" | "face"): Column[] {
     const needed = domain === "vertex" ? ["x", "y", "z"] : [];
-    const places = new Map<string, number>();
-    properties.forEach(({ name, length }, place) => !length && !needed.includes(name) && places.set(name, place));
+    const left = new Map<string, ReadProperty>();
+    for (const own of properties) if (!own.length && !needed.includes(own.name)) left.set(own.name, own);
     const take = (names: string[]): ColumnValues => {
-        const found = names.map((name) => typed(tables[places.get(name)!].values, properties[places.get(name)!].type));
+        const found = names.map((name) => left.get(name)!.values);
         const isOne = found.every((each) => each.constructor === found[0].constructor);
-        for (const name of names) places.delete(name);
+        for (const name of names) left.delete(name);
         return together(isOne ? found : found.map((each) => Float64Array.from(each)));
     };
-    const typeOf = (name: string): string => properties[places.get(name)!].type;
+    const typeOf = (name: string): string => left.get(name)!.type;
     const columns: Column[] = [];
     for (const [semantic, names] of GROUPS) {
-        if (!names.every((name) => places.has(name)) || new Set(names.map(typeOf)).size > 1) continue;
+        if (!names.every((name) => left.has(name)) || new Set(names.map(typeOf)).size > 1) continue;
         const [values, components] = [take(names), names.length];
-        columns.push(
-            semantic === "color"
-                ? colorColumn(values, components, domain)
-                : { name: semantic, values, components, domain, semantic },
-        );
+        const plain = { name: semantic, values, components, domain, semantic };
+        columns.push(semantic === "color" ? colorColumn(values, components, domain) : plain);
     }
-    while (places.size > 0) {
-        const [name] = places.keys();
+    while (left.size > 0) {
+        const [name] = left.keys();
         const stem = name.replace(/_0$/, "");
         const run = [];
-        for (let i = 0; places.has(`${stem}_${i}`) && typeOf(`${stem}_${i}`) === typeOf(name); i++)
+        for (let i = 0; left.has(`${stem}_${i}`) && typeOf(`${stem}_${i}`) === typeOf(name); i++)
             run.push(`${stem}_${i}`);
         const isRun = name.endsWith("_0") && run.length >= 2 && run.length <= MOST_COMPONENTS;
         const own = isRun ? run : [name];
         const called = isRun ? stem : name;
         const isLong = typeOf(name).startsWith("Big");
         const values = take(own);
-        const fault =
-            isLong && values instanceof Float64Array && values.every(Number.isInteger)
-                ? "do not fit into 32 bits"
-                : undefined;
+        const isTooLong = isLong && values instanceof Float64Array && values.every(Number.isInteger);
+        const fault = isTooLong ? "do not fit into 32 bits" : undefined;
         const known = MATERIAL.includes(called) ? "material" : called;
         columns.push({ name: known, values, components: own.length, domain, fault });
     }
@@ -285,23 +278,16 @@ function columnsOf({ properties }: PlyElement, tables: ReadProperty[], domain: "
 }
 
 /** Values of corners: lists as long as that of the vertices, or twice, and so on; the lists that are not; and notes. */
-function wedgesOf(
-    properties: PlyProperty[],
-    tables: ReadProperty[],
-    list: number,
-    notes: string[],
-    dropped: string[],
-): Column[] {
+function wedgesOf(polygons: ReadProperty[], list: ReadProperty, notes: string[], dropped: string[]): Column[] {
     const most = (sizes: Uint32Array): number => sizes.reduce((high, size) => Math.max(high, size), 0);
-    const { sizes, values: corners } = tables[list];
-    return properties.flatMap(({ name, length, type }, place): Column[] => {
-        if (!length || place === list) return [];
-        const { sizes: lengths, values } = tables[place];
+    const { sizes, values: corners } = list;
+    return polygons.flatMap((own): Column[] => {
+        const { name, length, sizes: lengths, values: made } = own;
+        if (!length || own === list) return [];
         const width = name === "texcoord" ? 2 : Math.floor(most(lengths) / Math.max(most(sizes), 1));
         const present = Array.from(lengths, (each, i) => each === width * sizes[i]);
         const isFit = width >= 1 && width <= MOST_COMPONENTS && present.some(Boolean);
         if (!isFit || !present.every((is, i) => is || lengths[i] === 0)) return (dropped.push(name), []);
-        const made = typed(values, type);
         const rows = new (made.constructor as new (size: number) => ColumnValues)(width * corners.length);
         let [from, to] = [0, 0];
         sizes.forEach((size, i) => {

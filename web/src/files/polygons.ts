@@ -54,11 +54,8 @@ export function meshOfPolygons(polygons: Polygons): { mesh: PlainMesh; notes: st
     const { positions, sizes, corners, columns, metadata } = polygons;
     const [notes, dropped, count] = [[...polygons.notes], [...polygons.dropped], positions.length / 3];
     const every = Array.from(sizes);
-    if (!every.some((size) => size > 0))
-        throw new Error(
-            `the file has no faces that can be read; ` +
-                (dropped.length > 0 ? `it has ${dropped.join(", ")}` : "point clouds are not supported"),
-        );
+    const why = dropped.length > 0 ? `it has ${dropped.join(", ")}` : "point clouds are not supported";
+    if (!every.some((size) => size > 0)) throw new Error(`the file has no faces that can be read; ${why}`);
     for (let i = 0; i < corners.length; i++)
         if (!(corners[i] >= 0 && corners[i] < count))
             throw new Error(`a face refers to vertex ${corners[i]}, outside 0..${count - 1}`);
