@@ -78,11 +78,6 @@ class Contract:
         """Return the largest error of a vertex of a mesh of this diagonal, in multiples of `unit`."""
         return (self.farthest if self.absolute else self.farthest * diagonal) / unit
 
-    @property
-    def is_local(self) -> bool:
-        """Whether vertices or pictures are bounded, and not only means over the mesh."""
-        return self.absolute or self.farthest < WIDEST or self.look < math.inf
-
     def doubt(self, diagonal: float, unit: str) -> str:
         """Return a question about the unit if the bound is about as large as a mesh of this diagonal; empty if not.
 

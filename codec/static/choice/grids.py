@@ -202,7 +202,7 @@ class Gridded:
         grid = Raster(start, held, tuple(int(value) for value in np.ptp(places, axis=0)), turn=self.turn)
         largest = np.array(grid.largest, np.int32)
         places = places - least
-        if self._bounds.contract.is_local:  # no mean sees a face without area, and on coarse grids many have none
+        if self._bounds.metric is not None:  # pictures show faces without area; on coarse grids there are many
             places = self._prepared.linked.mended(places, largest, self._wanted(grid, places))
         return replace(self._candidate(grid, places), step=step)
 

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
+from operator import attrgetter
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.geometry.mesh import squares_of
@@ -21,13 +22,13 @@ from bsm.codec.static.choice.bounds import Bounds, Measures, Trial, trial_of
 from bsm.codec.static.choice.grids import Gridded, exact, paying, rounded
 from bsm.codec.static.choice.laws import DOUBT, Hopes, Law, Way, search, steps_of
 from bsm.codec.static.choice.settling import RATIO
-from bsm.codec.static.options import BALANCED, RANGES, EncodeOptions, Paper
+from bsm.codec.static.options import BALANCED, PRESETS, RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, TRIES, WIDEST, Contract, secant
 
 QUICK, PRICE = 2e-3, 6e-4
 """Prices of a stage of a trial, as shares of the bytes, over the fourth root of the number of vertices."""
-USUAL = Paper(), EncodeOptions.block_size, None, EncodeOptions.key_interval
+blocks_of = attrgetter("paper", "block_size", "overlap", "key_interval")
 BYTES = 3.0 / math.log(256.0)  # of a vertex, that a step e times as wide saves where most levels are not 0
 
 
@@ -101,15 +102,18 @@ class Search:
             return point if self._size(point) <= most else None
         promised = contract or Contract(WIDEST)
         near = Bounds(self._measures, replace(contract or BALANCED, look=1.0))
-        grid = Gridded(self._prepared, near).in_frame()
+        grid, smallest = Gridded(self._prepared, near).in_frame(), Smallest(near, self._size)
         octave = BYTES * math.log(2.0) * self._prepared.graph.size  # a step twice as wide looks about twice as far off
-        octaves = min(max((self._size(grid.at(grid.first).congruent) - most) / octave, -12.0), 6.0)
+        # At the bytes of the default, its own stream is found, and what follows can only be better.
+        kept, queue = self._kept(smallest, grid)
+        taken = min((self._size(made.congruent) for made in kept), default=self._size(grid.at(grid.first).congruent))
+        octaves = min(max((taken - most) / octave, -12.0), 6.0)
         if abs(octaves) > 1.0:
             bare = self._measures.painting(lambda decoded: 0.0)  # the look of the shape alone
             near = Bounds(bare, replace(promised, look=2.0**octaves))
-            grid = Gridded(self._prepared, near, turn=grid.turn)
-        smallest = Smallest(near, self._size)
-        kept, queue = self._kept(smallest, grid)
+            smallest = Smallest(near, self._size)
+            other, queue = self._kept(smallest, Gridded(self._prepared, near, turn=grid.turn))
+            kept += other
         aim = Best(smallest, Bounds(self._measures, promised), math.log(max(most - smallest.rest, 1.0)))
         for hopes in queue:
             hopes.fit(aim.most, -math.log(near.contract.look))
@@ -228,8 +232,9 @@ class Search:
         if not prepared.has_low_frequencies:
             return ways
         blocks = OnVertices(prepared, options, bounds)
-        # Blocks that somebody asks for are on the mesh itself.
-        asked = (options.paper, options.block_size, options.overlap, options.key_interval) != USUAL
+        # Blocks that somebody asks for are on the mesh itself; but a size begins with the default's own blocks.
+        usual = [EncodeOptions(), *([PRESETS["none"]] if options.target and options.target.shrinks_with_step else ())]
+        asked = blocks_of(options) not in map(blocks_of, usual)
         based = OnCells(prepared, options, bounds) if seen and not asked else blocks
         refined = Refined(prepared, bounds, based, settled=seen or bounds.contract.angle == ANY_ANGLE)
         ways.append(refined)
