@@ -32,6 +32,7 @@ if (
 const fileAt = (path) => new File([readFileSync(path)], basename(path));
 
 try {
+    globalThis.ProgressEvent ??= class extends Event {}; // which three.js sends for data in addresses, and Node lacks
     const { readFrames, readMesh, inSingle, encodeHere } = await import("./built/reading.js");
     const files = isFolder
         ? readdirSync(source)

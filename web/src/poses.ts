@@ -1,14 +1,5 @@
 /** Where the vertices of a scene are while it moves: bones, morph targets and nodes, as three.js animates them. */
-import {
-    type AnimationClip,
-    AnimationMixer,
-    type BufferGeometry,
-    LoopOnce,
-    type Mesh,
-    type Object3D,
-    type SkinnedMesh,
-    Vector3,
-} from "three";
+import { type AnimationClip, AnimationMixer, LoopOnce, type Mesh, type Object3D, Vector3 } from "three";
 
 const RATES = [12, 15, 24, 25, 30, 48, 50, 60, 72, 90, 100, 120]; // frames per second that are likely
 const USUAL = 24;
@@ -28,13 +19,6 @@ function meshesIn(root: Object3D): Mesh[] {
         if (isMesh && geometry.attributes.position?.count > 0) found.push(each as Mesh);
     });
     return found;
-}
-
-/** Whether bones or morph targets place vertices. */
-export function isPosed(root: Object3D | BufferGeometry): boolean {
-    const isOne = (each: Mesh): unknown =>
-        (each as SkinnedMesh).isSkinnedMesh || each.geometry.morphAttributes.position;
-    return "isObject3D" in root && meshesIn(root).some(isOne);
 }
 
 type Poses = { positions: Float64Array; frames: number; rate: number };

@@ -8,22 +8,23 @@ import {
     Group,
     type InstancedMesh,
     LoadingManager,
-    type Material,
+    Material,
     Mesh,
     MeshBasicMaterial,
     type AnimationClip,
     type Object3D,
+    type SkinnedMesh,
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { meshOf } from "./content";
 import type { MeshInput } from "./encoding";
 import { readObj } from "./files/obj";
 import { readPly } from "./files/ply";
-import { meshOfPolygons } from "./files/polygons";
+import { meshOfPolygons, requireFinite } from "./files/polygons";
 import { readStl } from "./files/stl";
 import { unmarked } from "./files/text";
 import type { Pool } from "./pool";
-import { isPosed, posesOf } from "./poses";
+import { posesOf } from "./poses";
 import { EXTENSION } from "./views";
 
 /** A file by its name or its path in a folder. */
@@ -42,11 +43,13 @@ const READERS = new Map([
     ["ply", readPly],
     ["stl", readStl],
 ]);
-const NAMES: Record<string, string> = { normal: "normal", uv: "texcoord", color: "color" };
+/** Attributes of three.js that streams have, too: normals, and sets of texture coordinates and colors. */
+const DRAWN = /^(?:(normal)|uv(\d*)|color(?:_(\d+))?)$/;
 const MATERIALS = "colors and textures of materials";
+const TURNED = 1e-6; // by which bones at rest may move a vertex
 const IMAGE = /^image\.\d+\.name$/;
 const DRACO = "KHR_draco_mesh_compression";
-const MESHOPT = "EXT_meshopt_compression";
+const MESHOPT = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 /** What to do with a scene that is not read here. */
 const DECODE_DRACO =
     "Its geometry is compressed by Draco, which is not read here. Run: bsm encode FILE. " +
@@ -54,6 +57,7 @@ const DECODE_DRACO =
 
 export const suffixOf = ({ name }: Given): string => /\.(\w+)$/.exec(name)?.[1].toLowerCase() ?? "";
 
+type PartAttribute = BufferGeometry["attributes"][string];
 interface Scene {
     root: Object3D;
     clip?: AnimationClip;
@@ -61,10 +65,14 @@ interface Scene {
 
 /** The names of extensions that a scene needs or uses. */
 function extensionsOf(bytes: ArrayBuffer): string[] {
-    const isBinary = new DataView(bytes).getUint32(0, true) === 0x46546c67;
-    const size = isBinary ? new DataView(bytes).getUint32(12, true) : bytes.byteLength;
-    const text = new TextDecoder().decode(new Uint8Array(bytes, isBinary ? 20 : 0, size));
-    return (JSON.parse(text) as { extensionsUsed?: string[] }).extensionsUsed ?? [];
+    const [magic, version, , size] = new Uint32Array(bytes.slice(0, bytes.byteLength < 20 ? 0 : 16));
+    const isBinary = magic === 0x46546c67;
+    if (isBinary && version !== 2) throw new Error(`not a GLB of version 2 (version ${version})`);
+    const text = new TextDecoder().decode(isBinary ? new Uint8Array(bytes).subarray(20, 20 + size) : bytes);
+    const { asset, extensionsUsed } = JSON.parse(text) as { asset?: { version: string }; extensionsUsed?: string[] };
+    if (!/^2(\.|$)/.test(`${asset?.version}`))
+        throw new Error(`this is glTF ${asset?.version}, and only glTF 2.0 is read; convert it first`);
+    return extensionsUsed ?? [];
 }
 
 /** The address of a file beside a scene, whose name `used` gets. */
@@ -99,44 +107,115 @@ async function readScene(
         const { GLTFBSMExtension } = await import("./gltf");
         loader.register((parser) => new GLTFBSMExtension(parser, pool));
     }
-    if (extensions.includes(MESHOPT))
+    if (MESHOPT.some((name) => extensions.includes(name)))
         loader.setMeshoptDecoder((await import("three/addons/libs/meshopt_decoder.module.js")).MeshoptDecoder);
     const { animations, scene, scenes, parser, userData } = await loader.parseAsync(bytes, "");
     const { json } = parser;
-    if (!(scene ?? scenes[0])) throw new Error("It has no scene.");
+    if (scenes.length === 0) throw new Error("It has no scene.");
     if ((userData.sequences as unknown[] | undefined)?.length) lost.add("frames of sequences");
     if (scenes.length > 1) lost.add("other scenes");
     if (/color|texture/i.test(JSON.stringify(json.materials ?? []))) lost.add(MATERIALS);
     if (animations.length > 1) lost.add("other animations");
     if (json.cameras?.length) lost.add("cameras");
-    return { root: scene ?? scenes[0], clip: animations[0] };
+    const materials = new Map<number | undefined, Material>(); // of which three.js makes several, for colors and lines
+    const root = scene ?? scenes[0];
+    root.traverse((each) => {
+        const { material } = each as Mesh;
+        if (!(material instanceof Material)) return;
+        const number = parser.associations.get(material)?.materials;
+        materials.set(number, materials.get(number) ?? material);
+        (each as Mesh).material = materials.get(number)!;
+    });
+    return { root, clip: animations[0] };
 }
 
 /** Texture coordinates from the bottom, as streams have them; those of scenes are from the top. */
-function fromBottom(uv: BufferGeometry["attributes"][string]): BufferAttribute {
+function fromBottom(uv: PartAttribute): BufferAttribute {
     const values = new Float32Array(2 * uv.count);
     for (let i = 0; i < uv.count; i++) values.set([uv.getX(i), 1 - uv.getY(i)], 2 * i);
     return new BufferAttribute(values, 2);
 }
 
-/** What a scene draws, with the attributes that streams of files have. */
-function drawnOf(root: Object3D, lost: Set<string>): Group {
-    const drawn = new Group();
+/** Give parts what others have: colors white, texture coordinates zero. Normals that not all have are left out. */
+function fillIn(parts: BufferGeometry[], name: string, notes: string[]): void {
+    const own = parts.flatMap(({ attributes }) => (attributes[name] as PartAttribute | undefined) ?? []);
+    const width = Math.max(...own.map(({ itemSize }) => itemSize));
+    const lacking = parts.length - own.length;
+    if (/^(normal|position)$/.test(name)) return;
+    const [what, filling] = name.startsWith("color") ? ["colors", "white"] : ["texture coordinates", "zeros"];
+    const called = /\d$/.test(name) ? name : what;
+    if (lacking > 0) notes.push(`parts without ${called} were given ${filling}: ${lacking}`);
+    for (const part of parts) {
+        const { count } = part.attributes.position;
+        const given = part.attributes[name] as PartAttribute | undefined;
+        if (given?.itemSize === width) continue;
+        const values = new Float32Array(width * count).fill(filling === "white" ? 1 : 0);
+        for (let i = 0; given && i < count; i++) values.set([given.getX(i), given.getY(i), given.getZ(i)], width * i);
+        part.setAttribute(name, new BufferAttribute(values, width));
+    }
+}
+
+/** The rows of attributes that a part uses of a table, which other parts use as well. */
+function ownRows({ index, attributes, groups }: BufferGeometry): BufferGeometry {
+    const rows = Uint32Array.from(new Set(index!.array)).sort();
+    const places = new Map(Array.from(rows, (row, place) => [row, place]));
+    const own = new BufferGeometry().setIndex(Array.from(index!.array, (row) => places.get(row)!));
+    for (const [name, given] of Object.entries(attributes)) {
+        const values = new (given.array.constructor as Float32ArrayConstructor)(given.itemSize * rows.length);
+        const made = new BufferAttribute(values, given.itemSize, given.normalized);
+        for (let i = 0; i < values.length; i++)
+            made.setComponent(
+                Math.floor(i / given.itemSize),
+                i % given.itemSize,
+                given.getComponent(rows[Math.floor(i / given.itemSize)], i % given.itemSize),
+            );
+        own.setAttribute(name, made);
+    }
+    return Object.assign(own, { groups });
+}
+
+/** What a scene draws, with the attributes that streams of files have; copies are parts of their own. */
+function drawnOf(root: Object3D, lost: Set<string>, notes: string[], isPosed: boolean): Group {
+    const [drawn, users] = [new Group(), new Map<PartAttribute, Set<BufferGeometry>>()];
     root.updateMatrixWorld(true);
+    root.traverse((each) => {
+        const { geometry } = each as Mesh;
+        if (geometry)
+            users.set(
+                geometry.attributes.position,
+                (users.get(geometry.attributes.position) ?? new Set()).add(geometry),
+            );
+    });
     root.traverse((each) => {
         const { geometry, isMesh, material, name, matrixWorld } = each as Mesh;
         if (geometry && !isMesh) return void lost.add("points and lines");
         if (!geometry) return;
-        if ((each as InstancedMesh).isInstancedMesh) lost.add("copies of parts");
-        const plain = Object.assign(new BufferGeometry().setIndex(geometry.index), { groups: geometry.groups });
-        for (const [own, attribute] of Object.entries(geometry.attributes)) {
-            if (own !== "position" && !NAMES[own]) lost.add(own);
-            else plain.setAttribute(NAMES[own] ?? own, own === "uv" ? fromBottom(attribute) : attribute);
+        const { count = 1, isInstancedMesh } = each as InstancedMesh;
+        const vertices = (geometry.attributes.position as PartAttribute | undefined)?.count ?? 0;
+        const outside = geometry.index?.array.find((vertex) => vertex >= vertices);
+        if (outside !== undefined) throw new Error(`a face of this glTF refers to vertex ${outside} of ${vertices}`);
+        if (isInstancedMesh && isPosed) lost.add("copies of parts");
+        const isShared = !isPosed && geometry.index !== null && users.get(geometry.attributes.position)!.size > 1;
+        const { attributes, groups, index } = isShared ? ownRows(geometry) : geometry;
+        const plain = Object.assign(new BufferGeometry().setIndex(index), { groups });
+        for (const [own, attribute] of Object.entries(attributes)) {
+            const [, normal, uv, color = ""] = DRAWN.exec(own) ?? [];
+            if (own === "position" || normal) plain.setAttribute(own, attribute);
+            else if (uv !== undefined) plain.setAttribute(`texcoord${uv}`, fromBottom(attribute));
+            else if (own.startsWith("color")) plain.setAttribute(`color${color}`, attribute);
+            else if (!own.startsWith("skin")) lost.add(`${own.replace(/^_/, "").toUpperCase()} of attributes`);
         }
-        const mesh = Object.assign(new Mesh(plain, material as Material), { name, matrixAutoUpdate: false });
-        mesh.matrix.copy(matrixWorld);
-        drawn.add(mesh);
+        for (let copy = 0; copy < (isPosed ? 1 : count); copy++) {
+            const mesh = Object.assign(new Mesh(plain, material as Material), { name, matrixAutoUpdate: false });
+            if (isInstancedMesh && !isPosed) (each as InstancedMesh).getMatrixAt(copy, mesh.matrix);
+            mesh.matrix.premultiply(matrixWorld);
+            drawn.add(mesh);
+        }
     });
+    const parts = (drawn.children as Mesh[]).filter(({ geometry }) => geometry.attributes.position?.count > 0);
+    const own = [...new Set(parts.map(({ geometry }) => geometry))];
+    for (const name of new Set(own.flatMap(({ attributes }) => Object.keys(attributes)))) fillIn(own, name, notes);
+    if (parts.length > 1) notes.push(`${parts.length} parts were joined to one mesh`);
     return drawn;
 }
 
@@ -161,16 +240,33 @@ export async function readMesh(given: Given, beside: Given[] = [], pool?: Pool):
     }
     if (!/^gl(b|tf)$/.test(suffix))
         throw new Error("Only PLY, OBJ, STL, GLB and glTF files are read here, PC2 and MDD with their mesh.");
-    const { root, clip } = await readScene(bytes, beside, used, lost, pool);
-    const said: string[] = [];
-    let mesh = meshOf(drawnOf(root, lost), (note) => said.push(note)) as Reading["mesh"];
+    const { root, clip } = await readScene(bytes, beside, used, lost, pool).catch(inWords);
+    const [said, changes]: string[][] = [[], []];
+    const moves = new Set(clip ? ["animations"] : []);
+    root.traverse((each) => {
+        if ((each as SkinnedMesh).isSkinnedMesh) moves.add("skins");
+        if ((each as Mesh).geometry?.morphAttributes.position) moves.add("morph targets");
+    });
+    const isMoved = moves.size > 0;
+    let mesh = meshOf(drawnOf(root, lost, changes, isMoved), (note) => said.push(note)) as Reading["mesh"];
     Object.assign(mesh.metadata!, { up: "y", unit: "meters" });
-    if (clip || isPosed(root)) {
+    if (isMoved) {
         const { positions, frames, rate } = posesOf(root, clip);
-        const isMoving = frames > 1;
-        mesh = isMoving ? moving(mesh, positions, frames, rate) : { ...mesh, positions, attributes: still(mesh) };
+        if (frames === 1) for (const what of moves) lost.add(what);
+        const isTurned = frames > 1 || positions.some((number, i) => Math.abs(number - mesh.positions[i]) > TURNED);
+        const attributes = isTurned ? still(mesh) : mesh.attributes;
+        if (attributes!.length < mesh.attributes!.length) changes.push("left out, for they move: normals");
+        mesh = frames > 1 ? moving(mesh, positions, frames, rate) : { ...mesh, positions, attributes };
     }
-    return readingOf(mesh, said, lost, used, said.length > 0);
+    requireFinite(mesh.positions);
+    return readingOf(mesh, [...changes, ...said], lost, used, said.length > 0);
+}
+
+/** What programs say of scenes that are none, for people. */
+function inWords(error: Error): never {
+    const isFault = [TypeError, RangeError, SyntaxError].some((kind) => error instanceof kind);
+    const message = error.message.replace(/^THREE\.GLTFLoader: /, "");
+    throw isFault || message !== error.message ? new Error(`this is no valid glTF: ${message}`) : error;
 }
 
 function readingOf(mesh: Reading["mesh"], said: string[], lost: Set<string>, used: string[], less: boolean): Reading {

@@ -21,6 +21,7 @@ await build({
     logLevel: "error",
 });
 const { readMesh } = await import(pathToFileURL(outfile));
+globalThis.ProgressEvent ??= class extends Event {}; // which three.js sends for data in addresses, and Node lacks
 const hashed = (values) => createHash("sha256").update(Float64Array.from(values, (value) => value + 0)).digest("hex");
 
 function areaOf({ positions, faces }) {

@@ -272,6 +272,101 @@ def test_garbage(kind, tmp_path):
     require_same(written(tmp_path, files))
 
 
+def scene(*primitives, nodes=None, **more):
+    """A GLB of meshes, each with one primitive: arrays by the names of its attributes, and its `indices`."""
+    views, accessors, body = [], [], b""
+    kinds = {"float32": 5126, "uint8": 5121, "uint16": 5123, "uint32": 5125}
+
+    def placed(values):
+        nonlocal body
+        values = np.asarray(values)
+        views.append({"buffer": 0, "byteOffset": len(body), "byteLength": values.nbytes})
+        body += values.tobytes() + bytes(-values.nbytes % 4)
+        kind = {
+            "componentType": kinds[values.dtype.name],
+            "type": "SCALAR" if values.ndim == 1 else f"VEC{values.shape[1]}",
+        }
+        limits = {"min": values.min(0).tolist(), "max": values.max(0).tolist()} if values.ndim == 2 else {}
+        whole = {"normalized": True} if values.ndim == 2 and values.dtype.kind == "u" else {}
+        accessors.append({"bufferView": len(views) - 1, "count": len(values), **kind, **limits, **whole})
+        return len(accessors) - 1
+
+    shared = {}
+    meshes = []
+    for given in primitives:
+        numbers = {
+            name: shared.setdefault(id(a), placed(a)) if id(a) not in shared else shared[id(a)]
+            for name, a in given.items()
+        }
+        indices = {"indices": numbers.pop("indices")} if "indices" in numbers else {}
+        meshes.append({"name": f"mesh{len(meshes)}", "primitives": [{"attributes": numbers, **indices}]})
+    nodes = nodes or [{"mesh": i} for i in range(len(meshes))]
+    tree = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [*range(len(nodes))]}], "nodes": nodes}
+    tree |= {
+        "meshes": meshes,
+        "accessors": accessors,
+        "bufferViews": views,
+        "buffers": [{"byteLength": len(body)}],
+        **more,
+    }
+    text = json.dumps(tree).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(body), b"BIN\0") + body
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def test_scenes(tmp_path):
+    """Parts that lack what others have, tables that parts share, copies, and what no mesh can have."""
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], np.float32)
+    faces = np.array([0, 1, 2, 0, 3, 1], np.uint16)
+    plain = {"POSITION": corners, "indices": faces}
+    flat, bytes_ = np.linspace(0, 1, 8, dtype=np.float32).reshape(4, 2), np.arange(16, dtype=np.uint8).reshape(4, 4)
+    full = {
+        **plain,
+        "TEXCOORD_0": flat,
+        "TEXCOORD_1": flat[::-1].copy(),
+        "COLOR_0": bytes_,
+        "TANGENT": np.eye(4, dtype=np.float32),
+    }
+    narrow = {**plain, "COLOR_0": bytes_[:, :3].astype(np.float32) / 255}
+    shared = {"POSITION": np.tile(corners, (30, 1)), "NORMAL": np.tile(corners, (30, 1))}
+    parts = [{**shared, "indices": np.array([4 * k, 4 * k + 1, 4 * k + 2], np.uint16)} for k in (7, 3)]
+    places = np.array([[5, 0, 0], [0, 5, 0], [0, 0, 5]], np.float32)
+    copies = [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 2}}}}]
+    instanced = scene({**plain, "_PLACES": places}, nodes=copies, extensionsUsed=["EXT_mesh_gpu_instancing"])
+    files = {
+        "lacking": scene(full, plain, narrow),
+        "shared": scene(*parts),
+        "copies": instanced.replace(b', "_PLACES": 2', b"              "),
+        "turned": scene(plain, nodes=[{"mesh": 0, "scale": [1, -2, 1], "rotation": [0.5, 0.5, 0.5, 0.5]}]),
+        "outside": scene({**plain, "indices": faces + np.uint16(2)}, plain),
+        "infinite": scene({**plain, "POSITION": np.where(corners > 0, np.float32(np.inf), corners)}),
+        "old": scene(plain).replace(b'"2.0"', b'"1.0"'),
+        "older": scene(plain)[:4] + b"\1" + scene(plain)[5:],
+        "circle": scene(plain, nodes=[{"mesh": 0, "children": [1]}, {"children": [0]}]),
+        "nothing": b"",
+        "cut": scene(plain)[:100],
+    }
+    paths = written(tmp_path, {f"{name}.glb": data for name, data in files.items()})
+    read = 0
+    for path, theirs in zip(paths, by_javascript(paths), strict=True):
+        ours = by_python(path)
+        assert ("error" in ours) == ("error" in theirs), f"{path}: {ours.get('error')} {theirs.get('error')}"
+        if "error" in ours:
+            assert not re.search("THREE|undefined", theirs["error"])
+            continue
+        read += 1
+        for key in ("counts", "positions", "faces"):
+            assert ours[key] == theirs[key], path
+        shown = [[(a["name"], a["semantic"], a["shape"]) for a in each["attributes"]] for each in (ours, theirs)]
+        assert sorted(shown[0]) == sorted(shown[1]), path
+        assert {note for note in ours["notes"] if "parts" in note} <= {*theirs["notes"]}, path
+        assert all("TANGENT of attributes" in "".join(each["notes"]) for each in (ours, theirs)) == (
+            path.stem == "lacking"
+        )
+    assert read == 4
+
+
 @pytest.mark.real
 def test_assets():
     folder = Path(os.environ.get("BSM_MESHES", ROOT.parent / "shared/meshes"))

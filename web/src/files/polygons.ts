@@ -59,9 +59,7 @@ export function meshOfPolygons(polygons: Polygons): { mesh: PlainMesh; notes: st
     for (let i = 0; i < corners.length; i++)
         if (!(corners[i] >= 0 && corners[i] < count))
             throw new Error(`a face refers to vertex ${corners[i]}, outside 0..${count - 1}`);
-    const infinite = positions.findIndex((number) => !Number.isFinite(number));
-    if (infinite >= 0)
-        throw new Error(`vertex ${Math.floor(infinite / 3)} has a coordinate that is not finite; remove or repair it`);
+    requireFinite(positions);
     const [thin, large] = [every.filter((size) => size < 3).length, every.filter((size) => size > 3).length];
     if (thin > 0) dropped.push(`faces with fewer than three corners (${thin})`);
     if (large > 0) notes.push(`polygons were cut into triangles: ${large}`);
@@ -92,6 +90,12 @@ export function meshOfPolygons(polygons: Polygons): { mesh: PlainMesh; notes: st
     const isSingle = single.every((number, i) => number === positions[i]);
     const mesh = { positions: isSingle ? single : positions, faces, attributes, metadata };
     return { mesh, notes, dropped: [...dropped, ...refused.map(([name]) => name)] };
+}
+
+export function requireFinite(positions: Float32Array | Float64Array): void {
+    const infinite = positions.findIndex((number) => !Number.isFinite(number));
+    if (infinite >= 0)
+        throw new Error(`vertex ${Math.floor(infinite / 3)} has a coordinate that is not finite; remove or repair it`);
 }
 
 /** Why a column cannot be an attribute of triangles whose corners are those at some places; undefined: it can. */
