@@ -13,6 +13,7 @@ if (process.argv.includes("--help") || process.argv.includes("-h")) {
     console.log(USAGE);
     process.exit(0);
 }
+const MOST_BITS = 20;
 const FILES = /\.(obj|ply|stl|glb)$/i;
 const [source = "", target, bits = "14", rate = "24", ...more] = process.argv.slice(2);
 const isFolder = statSync(source, { throwIfNoEntry: false })?.isDirectory() ?? false;
@@ -21,7 +22,6 @@ if (
     /\.(?!bsm$)[a-z]\w*$/i.test(target) ||
     more.length > 0 ||
     !(isFolder ? /^\d+$/ : /^(\d+|lossless)$/).test(bits) ||
-    !(isFolder || FILES.test(source)) ||
     !(Number(rate) > 0)
 ) {
     console.error(USAGE);
@@ -32,6 +32,9 @@ if (
 const fileAt = (path) => new File([readFileSync(path)], basename(path));
 
 try {
+    if (!isFolder && !FILES.test(source))
+        throw new Error("only OBJ, PLY, STL and GLB files are read here, and folders of these");
+    if (Number(bits) < 1 || Number(bits) > MOST_BITS) throw new Error(`BITS are from 1 to ${MOST_BITS}, not ${bits}`);
     globalThis.ProgressEvent ??= class extends Event {}; // which three.js sends for data in addresses, and Node lacks
     const { readFrames, readMesh, inSingle, encodeHere } = await import("./built/reading.js");
     const files = isFolder
@@ -46,6 +49,7 @@ try {
         bits === "lossless" ? encodeHere(inSingle(mesh), { lossless: true }) : encodeHere(mesh, { bits: Number(bits) });
     writeFileSync(target === "-" ? 1 : target, await encoded);
 } catch (error) {
-    console.error(`bsm-encode: ${source}: ${error.message}`);
+    const absent = `no such file or folder: ${error.path}`;
+    console.error(`bsm-encode: ${source}: ${error.code === "ENOENT" ? absent : error.message}`);
     process.exit(1);
 }

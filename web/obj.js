@@ -175,8 +175,7 @@ try {
     if (left.size > 0) console.error(`bsm-decoder: ${path}: left out: ${[...left].join(", ")}; bsm decode writes them`);
 } catch (error) {
     if (error.code === "EPIPE") process.exit(0); // nobody reads on
-    console.error(
-        `bsm-decoder: ${path}: ${error.code === "ENOENT" ? `no such file or folder: ${error.path}` : error.message}`,
-    );
+    const known = { ENOENT: `no such file or folder: ${error.path}`, EISDIR: "this is a folder; name a .bsm file" };
+    console.error(`bsm-decoder: ${path}: ${known[error.code] ?? error.message}`);
     process.exit(1);
 }

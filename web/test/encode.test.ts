@@ -229,8 +229,10 @@ describe("encoding", () => {
         }
         writeFileSync(source, "v 0 0 0\n");
         assert.match(String(run(source, target).stderr), /two\.obj: the file has no faces that can be read/);
-        assert.equal(run(join(folder, "a.step"), target).status, 2);
-        assert.equal(run(join(folder, "none.ply"), target).status, 1);
+        assert.match(String(run(join(folder, "a.step"), target).stderr), /only OBJ, PLY, STL and GLB/);
+        assert.match(String(run(join(folder, "none.ply"), target).stderr), /no such file or folder/);
+        for (const bits of ["0", "21"]) assert.match(String(run(source, target, bits).stderr), /from 1 to 20/);
+        assert.equal(run(source, target, "many").status, 2);
     });
 
     test("the command makes a sequence of a folder, which comes back within half a cell", (context) => {
