@@ -76,6 +76,8 @@ class Played {
     }
 }
 
+type Loading = glTF.GLTFLoader["_loadMeshPrimitiveAsync"];
+
 /** Streams are decoded in threads, each once; meshes that say so play the frames of theirs. */
 class BabylonBSMExtension implements glTF.IGLTFLoaderExtension {
     readonly name = EXTENSION;
@@ -95,16 +97,10 @@ class BabylonBSMExtension implements glTF.IGLTFLoaderExtension {
     }
 
     /** A mesh, which plays if it says so; null: it does not. */
-    _loadMeshPrimitiveAsync(
-        context: string,
-        name: string,
-        node: glTF.INode,
-        mesh: glTF.IMesh,
-        primitive: glTF.IMeshPrimitive,
-        assign: (mesh: AbstractMesh) => void,
-    ): Promise<AbstractMesh> | null {
+    _loadMeshPrimitiveAsync(...given: Parameters<Loading>): ReturnType<Loading> | null {
+        const [context, , , mesh] = given;
         const moving = mesh.extensions?.[EXTENSION] as { stream: number } | undefined;
-        const loading = moving && this.loader._loadMeshPrimitiveAsync(context, name, node, mesh, primitive, assign);
+        const loading = moving && this.loader._loadMeshPrimitiveAsync(...given);
         const play = (made: AbstractMesh): AbstractMesh => {
             this.sequences.get(placeOf(this.viewOf(context, moving!.stream)))?.playOn(made);
             return made;
@@ -113,18 +109,15 @@ class BabylonBSMExtension implements glTF.IGLTFLoaderExtension {
     }
 
     /** The bytes of a bufferView that a stream holds; null: it is a plain one. */
-    loadBufferViewAsync(
-        context: string,
-        { extensions, byteLength, index }: glTF.IBufferView,
-    ): Promise<ArrayBufferView> | null {
-        const coded = extensions?.[EXTENSION] as Coded | undefined;
-        return coded ? this.decoded(context, coded, byteLength, index) : null;
+    loadBufferViewAsync(context: string, view: glTF.IBufferView): Promise<ArrayBufferView> | null {
+        const coded = view.extensions?.[EXTENSION] as Coded | undefined;
+        return coded ? this.decoded(context, coded, view) : null;
     }
 
     /** An own function, since what it throws shall reject the promise. */
-    private async decoded(context: string, coded: Coded, byteLength: number, index: number): Promise<ArrayBufferView> {
+    private async decoded(context: string, coded: Coded, view: glTF.IBufferView): Promise<ArrayBufferView> {
         const from = this.viewOf(context, coded.stream);
-        const made = this.streams.made(from, coded, byteLength, index, () => this.decode(context, from));
+        const made = this.streams.made(from, coded, view.byteLength, view.index, () => this.decode(context, from));
         return new Uint8Array(await made);
     }
 

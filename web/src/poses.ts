@@ -21,7 +21,8 @@ function meshesIn(root: Object3D): Mesh[] {
     return found;
 }
 
-type Poses = { positions: Float64Array; frames: number; rate: number };
+/** Positions of all vertices in each frame, the frames, and how many there are in a second. */
+export type Poses = { positions: Float32Array | Float64Array; frames: number; rate: number };
 
 /** Positions of all vertices in each frame of a clip, from its first key to its last; one frame if nothing moves. */
 export function posesOf(root: Object3D, clip?: AnimationClip): Poses {

@@ -24,7 +24,7 @@ import { meshOfPolygons, requireFinite } from "./files/polygons";
 import { readStl } from "./files/stl";
 import { unmarked } from "./files/text";
 import type { Pool } from "./pool";
-import { posesOf } from "./poses";
+import { posesOf, type Poses } from "./poses";
 import { EXTENSION } from "./views";
 
 /** A file by its name or its path in a folder. */
@@ -251,12 +251,13 @@ export async function readMesh(given: Given, beside: Given[] = [], pool?: Pool):
     let mesh = meshOf(drawnOf(root, lost, changes, isMoved), (note) => said.push(note)) as Reading["mesh"];
     Object.assign(mesh.metadata!, { up: "y", unit: "meters" });
     if (isMoved) {
-        const { positions, frames, rate } = posesOf(root, clip);
+        const poses = posesOf(root, clip);
+        const { positions, frames } = poses;
         if (frames === 1) for (const what of moves) lost.add(what);
         const isTurned = frames > 1 || positions.some((number, i) => Math.abs(number - mesh.positions[i]) > TURNED);
         const attributes = isTurned ? still(mesh) : mesh.attributes;
         if (attributes!.length < mesh.attributes!.length) changes.push("left out, for they move: normals");
-        mesh = frames > 1 ? moving(mesh, positions, frames, rate) : { ...mesh, positions, attributes };
+        mesh = frames > 1 ? moving(mesh, poses) : { ...mesh, positions, attributes };
     }
     requireFinite(mesh.positions);
     return readingOf(mesh, [...changes, ...said], lost, used, said.length > 0);
@@ -278,11 +279,6 @@ function readingOf(mesh: Reading["mesh"], said: string[], lost: Set<string>, use
 const still = ({ attributes }: MeshInput): MeshInput["attributes"] =>
     attributes?.filter(({ semantic }) => semantic !== "normal");
 
-export function moving(
-    mesh: MeshInput,
-    positions: Reading["mesh"]["positions"],
-    frames: number,
-    rate: number,
-): Reading["mesh"] {
+export function moving(mesh: MeshInput, { positions, frames, rate }: Poses): Reading["mesh"] {
     return { ...mesh, positions, frames, attributes: still(mesh), metadata: { ...mesh.metadata, frame_rate: rate } };
 }

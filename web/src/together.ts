@@ -59,7 +59,7 @@ export async function readFrames(
         positions.set(mesh.positions, frame * size);
         report?.((frame + 1) / files.length);
     }
-    const mesh = inSingle(moving(first.mesh, positions, files.length, rate));
+    const mesh = inSingle(moving(first.mesh, { positions, frames: files.length, rate }));
     return { ...first, mesh, used: ordered.map(({ name }) => name) };
 }
 
@@ -85,6 +85,6 @@ async function readCache(cache: Given, meshes: Given[]): Promise<Reading> {
         throw new Error(`${name} has ${points} points, and ${given.name} has ${vertices} vertices`);
     const positions = new Float32Array(3 * points * frames);
     for (let i = 0; i < positions.length; i++) positions[i] = view.getFloat32(start + 4 * i, isPc2);
-    const mesh = moving(reading.mesh, positions, frames, isPc2 ? RATE : rateOf(times));
+    const mesh = moving(reading.mesh, { positions, frames, rate: isPc2 ? RATE : rateOf(times) });
     return { ...reading, mesh, used: [name, ...reading.used] };
 }

@@ -121,8 +121,7 @@ export class EXTBSMCompression extends Extension {
         const meshes = this.document.getRoot().listMeshes();
         for (const primitive of meshes.flatMap((mesh) => mesh.listPrimitives())) {
             try {
-                if (!coded.has(primitive))
-                    coded.set(primitive, this.codePrimitive(primitive, encoder, decoder, context));
+                if (!coded.has(primitive)) coded.set(primitive, this.codePrimitive(primitive, context));
             } catch (error) {
                 if (!(error instanceof EncodeError)) throw error;
                 context.logger.warn(`[${EXTENSION}] a primitive stays as it is: ${error.message}`);
@@ -137,14 +136,9 @@ export class EXTBSMCompression extends Extension {
     }
 
     /** Encode a primitive, and declare the accessors of what a decoder makes of it. */
-    private codePrimitive(
-        primitive: Primitive,
-        encoder: SceneEncoder,
-        decoder: SceneDecoder,
-        context: WriterContext,
-    ): CodedPrimitive {
-        const stream = encoder(meshOf(primitive), primitive.getAttribute("JOINTS_0") !== null); // joints open faces without area
-        const shape = decoder(stream);
+    private codePrimitive(primitive: Primitive, context: WriterContext): CodedPrimitive {
+        const stream = this.encoder!(meshOf(primitive), primitive.getAttribute("JOINTS_0") !== null); // joints open faces without area
+        const shape = this.decoder!(stream);
         const { json } = context.jsonDoc;
         const accessors: Record<string, number> = {};
         const declare = (name: string, accessor: GLTF.IAccessor): void => {

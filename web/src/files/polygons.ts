@@ -211,11 +211,7 @@ export function named(names: string[], what: string): Record<string, string> {
 }
 
 /** The groups of faces: numbers if there are several, and their names as metadata; `ofFace` counts the names so far. */
-export function grouped(
-    what: string,
-    names: string[],
-    ofFace: number[],
-): { columns: Column[]; metadata: Record<string, string> } {
+export function grouped(what: string, names: string[], ofFace: number[]): Pick<Polygons, "columns" | "metadata"> {
     const used = [...new Set(ofFace)].sort((a, b) => a - b);
     const numbers = new Map<string, number>();
     for (const change of used) if (!numbers.has(names[change])) numbers.set(names[change], numbers.size);
