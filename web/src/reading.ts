@@ -163,12 +163,8 @@ function ownRows({ index, attributes, groups }: BufferGeometry): BufferGeometry 
     for (const [name, given] of Object.entries(attributes)) {
         const values = new (given.array.constructor as Float32ArrayConstructor)(given.itemSize * rows.length);
         const made = new BufferAttribute(values, given.itemSize, given.normalized);
-        for (let i = 0; i < values.length; i++)
-            made.setComponent(
-                Math.floor(i / given.itemSize),
-                i % given.itemSize,
-                given.getComponent(rows[Math.floor(i / given.itemSize)], i % given.itemSize),
-            );
+        for (const [row, of] of rows.entries())
+            for (let d = 0; d < given.itemSize; d++) made.setComponent(row, d, given.getComponent(of, d));
         own.setAttribute(name, made);
     }
     return Object.assign(own, { groups });
@@ -180,11 +176,8 @@ function drawnOf(root: Object3D, lost: Set<string>, notes: string[], isPosed: bo
     root.updateMatrixWorld(true);
     root.traverse((each) => {
         const { geometry } = each as Mesh;
-        if (geometry)
-            users.set(
-                geometry.attributes.position,
-                (users.get(geometry.attributes.position) ?? new Set()).add(geometry),
-            );
+        const place = geometry?.attributes.position;
+        if (geometry) users.set(place, (users.get(place) ?? new Set()).add(geometry));
     });
     root.traverse((each) => {
         const { geometry, isMesh, material, name, matrixWorld } = each as Mesh;
