@@ -241,15 +241,12 @@ static bool read_cells(bsmdec *decoder, bsmdec_changes *answer) {
     if (changes->blocks == mesh->next_block) n = 0;
     Ints vertices;
     Doubles2 positions = {NULL, 0, 3};
-    if (!take_ints(&changes->answer, n, &vertices) || (n > 0 && !place_base(decoder, &changes->answer, &positions)))
-        return false;
+    if (!take_ints(&changes->answer, n, &vertices)) return false;
+    for (int64_t v = 0; v < n; v++)
+        if (is_placed(mesh, v)) vertices.data[count++] = (int32_t)v;
+    vertices.size = count;
+    if (n > 0 && !place_some(decoder, const_ints(vertices), &changes->answer, &positions)) return false;
     if (n > 0) changes->blocks = mesh->next_block;
-    for (int64_t v = 0; v < n; v++) {
-        if (!is_placed(mesh, v)) continue;
-        for (int d = 0; d < 3; d++) positions.data[3 * count + d] = positions.data[3 * v + d];
-        vertices.data[count++] = (int32_t)v;
-    }
-    vertices.size = positions.rows = count;
     return into_unit(&decoder->context, &mesh->header, positions)
         && answer_with(decoder, const_ints(vertices), const_doubles2(positions), over ? 0 : count, answer);
 }

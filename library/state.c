@@ -81,17 +81,34 @@ bool build(bsmdec *decoder) {
     return mesh->has_chains && announce(decoder);
 }
 
-bool place_base(bsmdec *decoder, Arena *arena, Doubles2 *positions) {
+/* Places of all cells; unknown ones are near known ones. */
+static bool place_cells(bsmdec *decoder, Arena *arena, Doubles2 *places) {
     Mesh *mesh = &decoder->mesh;
     const Assembly *assembly = &mesh->assembly;
     Arena *scratch = &decoder->scratch;
-    Doubles2 places = mesh->cell_layer.positions;
-    if (!has_base(mesh)) return blend_all(assembly, &mesh->header, &mesh->graph, arena, scratch, positions);
-    if (!mesh->has_cell_layer && !blend_all(assembly, &mesh->header, &mesh->cells.graph, arena, scratch, &places))
-        return false;
-    return fill_unknown(&mesh->cells.graph, const_doubles(assembly->blend.weights), scratch, places)
+    *places = mesh->cell_layer.positions;
+    return (mesh->has_cell_layer
+               || blend_all(assembly, &mesh->header, &mesh->cells.graph, arena, scratch, places))
+        && fill_unknown(&mesh->cells.graph, const_doubles(assembly->blend.weights), scratch, *places);
+}
+
+bool place_base(bsmdec *decoder, Arena *arena, Doubles2 *positions) {
+    Mesh *mesh = &decoder->mesh;
+    Arena *scratch = &decoder->scratch;
+    Doubles2 places;
+    if (!has_base(mesh)) return blend_all(&mesh->assembly, &mesh->header, &mesh->graph, arena, scratch, positions);
+    return place_cells(decoder, arena, &places)
         && prolong_cells(&mesh->cells, &mesh->graph, const_doubles2(places), mesh->header.base.rounds, arena, scratch,
             positions);
+}
+
+bool place_some(bsmdec *decoder, ConstInts vertices, Arena *arena, Doubles2 *positions) {
+    Mesh *mesh = &decoder->mesh;
+    Doubles2 places;
+    if (vertices.size == mesh->graph.size) return place_base(decoder, arena, positions);
+    return place_cells(decoder, arena, &places)
+        && prolong_some(&mesh->cells, &mesh->graph, const_doubles2(places), mesh->header.base.rounds, vertices, arena,
+            &decoder->scratch, positions);
 }
 
 bool mark_base(bsmdec *decoder, int beyond, Arena *arena, Bytes *whole) {

@@ -162,6 +162,8 @@ bool graph_of(bsmdec *decoder);
 bool build(bsmdec *decoder);
 /* Where all blocks, and levels of cells, bring the vertices; unknown ones are anywhere. */
 bool place_base(bsmdec *decoder, Arena *arena, Doubles2 *positions);
+/* The same of some vertices alone, in their order, where blocks are on cells. */
+bool place_some(bsmdec *decoder, ConstInts vertices, Arena *arena, Doubles2 *positions);
 /* Mark the vertices that they bring where the encoder had them, they and those at most `beyond` edges away. */
 bool mark_base(bsmdec *decoder, int beyond, Arena *arena, Bytes *whole);
 /* What levels of vertices refine. */

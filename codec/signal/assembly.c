@@ -79,6 +79,27 @@ bool prolong_cells(const CellMesh *cells, const Graph *graph, ConstDoubles2 plac
     return done;
 }
 
+bool prolong_some(const CellMesh *cells, const Graph *graph, ConstDoubles2 places, int rounds, ConstInts vertices,
+    Arena *arena, Arena *scratch, Doubles2 *positions) {
+    int64_t n = graph->size;
+    Mark mark = mark_of(scratch);
+    Singles room;
+    Ints number, rows;
+    Longs ends;
+    bool done = take_doubles2(arena, vertices.size, 3, positions) && take_singles(scratch, 8 * n, &room)
+        && take_ints(scratch, n, &number) && take_ints(scratch, n, &rows) && take_longs(scratch, rounds + 1, &ends);
+    if (done) {
+        memset(number.data, -1, (size_t)n * sizeof *number.data);
+        rows.size = find_rings(graph->offsets, graph->neighbors, number, vertices, rows, ends);
+        const FourSingles *found = prolong_rows(graph->offsets, graph->neighbors, cells->own, places, rounds,
+            const_ints(rows), (ConstLongs){ends.data, ends.size}, room);
+        for (int64_t i = 0; i < vertices.size; i++)
+            for (int d = 0; d < 3; d++) positions->data[3 * i + d] = (double)found[vertices.data[i]][d];
+    }
+    release_to(scratch, mark);
+    return done;
+}
+
 bool mark_prolonged(const CellMesh *cells, const Graph *graph, ConstBytes marked, int rings, Arena *arena,
     Arena *scratch, Bytes *whole) {
     *whole = (Bytes){NULL, 0};

@@ -109,6 +109,9 @@ bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scratch);
 /* Places of cells spread to vertices, in BSM units (M 18.7). */
 bool prolong_cells(const CellMesh *cells, const Graph *graph, ConstDoubles2 places, int rounds, Arena *arena,
     Arena *scratch, Doubles2 *positions);
+/* The same of some vertices alone. */
+bool prolong_some(const CellMesh *cells, const Graph *graph, ConstDoubles2 places, int rounds, ConstInts vertices,
+    Arena *arena, Arena *scratch, Doubles2 *positions);
 /* Marks of the vertices whose cells, and those at most `rings` edges away, are marked; no array if all cells are. */
 bool mark_prolonged(const CellMesh *cells, const Graph *graph, ConstBytes marked, int rings, Arena *arena,
     Arena *scratch, Bytes *whole);

@@ -19,6 +19,10 @@ int64_t smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2 positio
     Doubles2 smoothed);
 /* A position in single precision, and a number more. */
 typedef float FourSingles __attribute__((vector_size(16), aligned(4), may_alias));
+/* Places of cells after rounds of smoothing, at rows of rings (`find_rings`): each round leaves out one ring more. All
+ * vertices take part in each round where `rows` has no array. `scratch` has eight numbers a vertex. */
+const FourSingles *prolong_rows(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstDoubles2 places,
+    int64_t rounds, ConstInts rows, ConstLongs ends, Singles scratch);
 int64_t prolong(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstDoubles2 places, int64_t rounds,
     Singles scratch, Doubles2 positions);
 /* What the filter sums (M 12.3): p_2 to p_5. */

@@ -9,7 +9,7 @@
  * time is that of the whole renderer. STATES names some of the states. MESHES is a folder with static/*.ply; PYTHON names a Python that has bsm[eval].
  */
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import { extname, join } from "node:path";
@@ -128,6 +128,11 @@ const bodyOf = (path) => {
     if (!compressed.has(path)) compressed.set(path, brotliCompressSync(readFileSync(join(root, ...rest))));
     return compressed.get(path);
 };
+
+// No page waits until a file is compressed: servers have done that before.
+for (const name of readdirSync(join(WEB, "built"))) bodyOf(`/bsm/${name}`);
+for (const name of ["draco_decoder.wasm", "draco_wasm_wrapper.js"]) bodyOf(BASE + name);
+for (const name of ["loaders/DRACOLoader.js", "libs/meshopt_decoder.module.js"]) bodyOf(`/three/examples/jsm/${name}`);
 
 let rate = Infinity; // bits in a millisecond
 let free = 0; // when the link has sent all that waits

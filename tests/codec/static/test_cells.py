@@ -5,9 +5,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from bsm import BlockEvent, Decoder, EndEvent, LossEvent, RefinementEvent, TriangleMesh, decode, encode
+from bsm import BlockEvent, Decoder, EndEvent, Limits, LossEvent, RefinementEvent, TriangleMesh, decode, encode
+from bsm._core import Decoder as Engine
 from bsm.bitstream.container.wire import FrameType
-from bsm.codec.decoding import Event
+from bsm.codec.decoding import BLOCK, REFINEMENT, Event, mask_of
 from tests.shapes import torus
 from tools.surgery import spans_of, with_header
 
@@ -46,6 +47,18 @@ def test_a_scan_is_on_cells_and_shown_as_a_whole_early() -> None:
     assert np.array_equal(shown, whole.positions)
     base = events_of(stream(), layers=1)
     assert isinstance(base[-1], EndEvent) and not any(isinstance(event, RefinementEvent) for event in base)
+
+
+def test_some_vertices_come_where_all_are_that_blocks_bring() -> None:
+    """What is asked of a block is spread to the vertices that have come alone."""
+    engine, counts = Engine(Limits()), []
+    engine.push(np.frombuffer(stream(), np.uint8))
+    engine.finish()
+    while engine.next(mask_of(BLOCK, REFINEMENT))[0] == BLOCK:
+        vertices, places, _ = engine.changes()
+        counts.append(len(vertices))
+        assert np.array_equal(places, engine.positions(len(scan().positions))[vertices])
+    assert 0 < counts[0] < counts[-1] == len(scan().positions)
 
 
 @pytest.mark.parametrize(
