@@ -6,6 +6,7 @@
  * key. It stops when its last waiting load is cancelled.
  */
 import { Cache } from "three";
+import { resolved } from "./fetched";
 
 /** What is heard of a request: pieces, how much of how much was received (0: not known), and the end. */
 export interface Passenger {
@@ -23,16 +24,15 @@ interface Flight {
 }
 
 const flights = new Map<string, Flight>();
-const keyOf = (address: URL): string => `file:${address.href}`;
 
 /** Fetch what is at an address; resolves when all of it has come, though a signal may have stopped this load. */
-export async function fetchPieces(address: URL, request: RequestInit, passenger: Passenger): Promise<void> {
-    const cached: unknown = Cache.enabled ? Cache.get(keyOf(address)) : undefined;
+export async function fetchPieces(address: string, request: RequestInit, passenger: Passenger): Promise<void> {
+    const cached: unknown = Cache.enabled ? Cache.get(`file:${address}`) : undefined;
     if (cached instanceof ArrayBuffer) {
         passenger.onPiece(new Uint8Array(cached));
         return passenger.onProgress?.(cached.byteLength, cached.byteLength);
     }
-    const key = JSON.stringify([address.href, request.credentials, request.headers]);
+    const key = JSON.stringify([resolved(address), request.credentials, request.headers]);
     const flight = flights.get(key) ?? begun(key, address, request);
     for (const piece of flight.pieces) passenger.onPiece(piece);
     flight.passengers.add(passenger);
@@ -43,7 +43,7 @@ export async function fetchPieces(address: URL, request: RequestInit, passenger:
     await flight.over.finally(leave);
 }
 
-function begun(key: string, address: URL, request: RequestInit): Flight {
+function begun(key: string, address: string, request: RequestInit): Flight {
     const flight: Flight = { pieces: [], passengers: new Set(), stop: new AbortController(), over: Promise.resolve() };
     flight.over = received(flight, address, request).finally(() => flights.delete(key));
     flight.stop.signal.addEventListener("abort", () => flights.delete(key));
@@ -58,8 +58,8 @@ function totalOf({ headers }: Response): number {
     return Number(headers.get("x-file-size") ?? length ?? 0);
 }
 
-async function received(flight: Flight, address: URL, request: RequestInit): Promise<void> {
-    const response = await fetch(address, { ...request, signal: flight.stop.signal });
+async function received(flight: Flight, address: string, request: RequestInit): Promise<void> {
+    const response = await fetch(resolved(address), { ...request, signal: flight.stop.signal });
     if (!response.ok || !response.body) throw new Error(`${response.status} ${response.statusText}`);
     const total = totalOf(response);
     const reader = response.body.getReader();
@@ -72,5 +72,5 @@ async function received(flight: Flight, address: URL, request: RequestInit): Pro
             onProgress?.(loaded, loaded <= total ? total : 0);
         }
     }
-    if (Cache.enabled) Cache.add(keyOf(address), await new Blob(flight.pieces).arrayBuffer());
+    if (Cache.enabled) Cache.add(`file:${address}`, await new Blob(flight.pieces).arrayBuffer());
 }

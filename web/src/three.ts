@@ -1,7 +1,7 @@
 /** BSM streams in three.js: a loader that is used as DRACOLoader is, and one of whole scenes. */
 import { type Group, Loader } from "three";
 import { BsmError, errorLike } from "./errors";
-import { messageOf, resolved } from "./fetched";
+import { messageOf } from "./fetched";
 import { fetchPieces } from "./flights";
 import { BSMGeometry, type Progress } from "./geometry";
 import type { Limits } from "./index";
@@ -138,7 +138,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
         };
         const give = async (stream: StreamDecoding, signal: AbortSignal): Promise<void> => {
             const credentials = this.withCredentials ? "include" : "same-origin";
-            const address = resolved(this.manager.resolveURL(this.path + url));
+            const address = this.manager.resolveURL(this.path + url);
             await fetchPieces(
                 address,
                 { headers: this.requestHeader, credentials },

@@ -25,9 +25,10 @@ import {
     Texture,
 } from "three";
 import { encodeHere, EncodeError, type EncodeOptions, type Drawn, type MeshInput } from "../src/encode";
-import type { BSMGeometry } from "../src/geometry";
+import { BSMGeometry } from "../src/geometry";
 import { decode, type Attribute } from "../src/index";
 import { materialsOf } from "../src/materials";
+import { factsOf } from "../src/viewer/facts";
 import { numbersOf } from "../src/parting";
 import { kernels, WEB } from "./shared";
 
@@ -279,4 +280,21 @@ test("black beside an image is no color, and MTL has colors of screens", async (
     ]);
     const [{ color, emissive }] = await materialsOf({ metadata, pieces: [] } as unknown as BSMGeometry);
     assert.deepEqual([color.getHexString(), emissive.getHexString()], ["ffffff", "808080"]);
+});
+
+test("what of a file is left out and cannot be seen hides no sizes", () => {
+    const layers = [1000, 100].map((size) => ({ title: "", detail: "", size }));
+    const sizesWith = (note: string): number | undefined =>
+        factsOf({ name: "a", main: 1, layers, facts: { less: true, notes: [note] } }, 100, new BSMGeometry()).plain;
+    const header = "the number of triangles in the header (0; by its size, the file has 12)";
+    for (const what of [
+        "comments amid the data (2)",
+        header,
+        "TANGENT of attributes, skins",
+        "cameras",
+        "7 bytes after the last triangle",
+    ])
+        assert.equal(sizesWith(`left out: ${what}`), 1000, what);
+    for (const what of ["points and lines", "COLOR_1 of attributes, cameras", "colors in comments (#MRGB)"])
+        assert.equal(sizesWith(`left out: ${what}`), undefined, what);
 });

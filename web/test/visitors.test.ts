@@ -123,7 +123,7 @@ describe("visitors", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM
         const page = await opened();
         site.asked.length = 0;
         const shares = await page.evaluate(async (name) => {
-            const { Cache } = await import("three" as string);
+            const { Cache, FileLoader } = await import("three" as string);
             const { BSMLoader } = await import("bsm-decoder/three" as string);
             const [loader, stop] = [new BSMLoader(), new AbortController()];
             const load = (more = {}): Promise<unknown> => loader.loadAsync(`/stream/${name}.bsm`, undefined, more);
@@ -132,6 +132,7 @@ describe("visitors", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM
             stop.abort();
             await Promise.all([stopped, ...loads]);
             Cache.enabled = true;
+            await new FileLoader().setResponseType("arraybuffer").loadAsync(`/stream/${name}.bsm`);
             for (let i = 0; i < 3; i++) await load();
             const shares: number[] = [];
             await loader.loadAsync(`/gzip/${name}.bsm`, (event: ProgressEvent) => {

@@ -7,8 +7,11 @@ const SECOND = 1000;
 const CLOSE = 2; // look distance up to which two meshes are close
 const MOST_NAMES = 6;
 /** Invisible contents of a file, as notes name them. */
-const UNSEEN =
-    /^(cameras?|(punctual )?lights?|(other )?(scenes|animations)|extras|comments?|.*metadata.*)( of .*)?( \(.*\))?$/i;
+const SCENERY =
+    "cameras?|(punctual )?lights?|(other )?(scenes|animations)|skins|morph targets|tangent|extras|comments?";
+const OF_FILES =
+    "the number of triangles in the header|\\d+ bytes after the last triangle|.*(metadata|mesh_features).*";
+const UNSEEN = new RegExp(`^((${SCENERY})( (of|amid) .*)?|${OF_FILES})( \\(.*\\))?$`, "i");
 const PIXEL = 1e-3; // of the diagonal: what a pixel is of a mesh that fills a large picture
 
 /** A mesh: its stream or pictures, the size of the file, and the error of each vertex, if it is known. */
@@ -123,7 +126,7 @@ function verdictOf(
 /** The names in notes of what is left out. */
 function leftOut(notes: string[]): string[] {
     const found = notes.flatMap((note) => /^(?:.*: )?left out: (.*?)(?:\.( |$)|$)/i.exec(note)?.[1] ?? []);
-    return [...new Set(found.flatMap((names) => names.split(/, (?!because)/)))];
+    return [...new Set(found.flatMap((names) => names.split(/, (?!because)(?![^(]*\))/)))];
 }
 
 /** Those whose absence can be seen; notes that name nothing may mean anything. */

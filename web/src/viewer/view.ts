@@ -119,7 +119,7 @@ export class View {
         streams.selectedIndex = index;
         form.part("name").hidden = index >= 0 && streams.length > 1;
         form.say("name", content.name);
-        const player = `<bsm-player src="${encodeURI(stemOf(content.name))}.bsm" autoplay loop></bsm-player>`;
+        const player = `<bsm-player src="${encodeURIComponent(stemOf(content.name))}.bsm" autoplay loop></bsm-player>`;
         form.say("embed", `<script type="module">import "bsm-decoder/player";</script>\n${player}`);
         form.part("invite").hidden = true;
         form.part("arrival").hidden = form.part("colors").hidden = content.tiles !== undefined;
