@@ -18,7 +18,7 @@ export interface Passenger {
 
 interface Flight {
     pieces: Uint8Array<ArrayBuffer>[];
-    passengers: Set<Passenger>;
+    passengers: Set<(piece: Uint8Array, loaded: number, total: number) => void>;
     stop: AbortController;
     over: Promise<void>;
 }
@@ -35,12 +35,23 @@ export async function fetchPieces(address: string, request: RequestInit, passeng
     const key = JSON.stringify([resolved(address), request.credentials, request.headers]);
     const flight = flights.get(key) ?? begun(key, address, request);
     for (const piece of flight.pieces) passenger.onPiece(piece);
-    flight.passengers.add(passenger);
+    let fall: (error: unknown) => void;
+    const fallen = new Promise<never>((_, fail) => (fall = fail));
+    const hear = (piece: Uint8Array, loaded: number, total: number): void => {
+        try {
+            passenger.onPiece(piece);
+            passenger.onProgress?.(loaded, total);
+        } catch (error) {
+            fall(error); // other loads go on
+            leave();
+        }
+    };
+    flight.passengers.add(hear);
     const leave = (): void => {
-        if (flight.passengers.delete(passenger) && flight.passengers.size === 0) flight.stop.abort();
+        if (flight.passengers.delete(hear) && flight.passengers.size === 0) flight.stop.abort();
     };
     passenger.signal?.addEventListener("abort", leave, { once: true });
-    await flight.over.finally(leave);
+    await Promise.race([flight.over, fallen]).finally(leave);
 }
 
 function begun(key: string, address: string, request: RequestInit): Flight {
@@ -67,10 +78,7 @@ async function received(flight: Flight, address: string, request: RequestInit): 
     for (let piece; !(piece = await reader.read()).done;) {
         loaded += piece.value.length;
         flight.pieces.push(piece.value);
-        for (const { onPiece, onProgress } of [...flight.passengers]) {
-            onPiece(piece.value);
-            onProgress?.(loaded, loaded <= total ? total : 0);
-        }
+        for (const hear of [...flight.passengers]) hear(piece.value, loaded, loaded <= total ? total : 0);
     }
     if (Cache.enabled) Cache.add(`file:${address}`, await new Blob(flight.pieces).arrayBuffer());
 }

@@ -29,6 +29,7 @@ const TAP = 6; // pixels that a finger may move while it taps
 const NEAR = { rootMargin: "20%" };
 /** From where it is looked at first, in front and a little above, and how much farther away than would do. */
 const [FRONT, ROOM] = [new Vector3(0.4, 0.3, 1).normalize(), 1.02];
+const REFLECTED = ["src", "poster", "loop", "controls", "autoplay"];
 /** Without a document, the class can still be imported. */
 const Base = (globalThis.HTMLElement ?? Object) as typeof HTMLElement;
 
@@ -132,6 +133,12 @@ export class BSMPlayer extends Base {
 
     connectedCallback(): void {
         const { camera, canvas, scene } = this;
+        for (const name of [...REFLECTED, "rate"] as "src"[]) {
+            if (!Object.hasOwn(this, name)) continue; // a page set it before there was this class
+            const value = this[name];
+            Reflect.deleteProperty(this, name);
+            this[name] = value;
+        }
         canvas.setAttribute("aria-label", this.getAttribute("aria-label") ?? LABEL);
         this.orbit = new OrbitControls(camera, canvas);
         this.orbit.addEventListener("change", () => this.redraw());
@@ -363,14 +370,14 @@ function steerBy(bar: HTMLElement, player: BSMPlayer): () => void {
 }
 
 /** Properties that are attributes. */
-for (const name of ["src", "poster", "loop", "controls", "autoplay"]) {
+for (const name of REFLECTED) {
     const isText = name === "src" || name === "poster";
     Object.defineProperty(BSMPlayer.prototype, name, {
         get(this: BSMPlayer): unknown {
             return isText ? (this.getAttribute(name) ?? "") : this.hasAttribute(name);
         },
         set(this: BSMPlayer, value: unknown) {
-            if (isText) this.setAttribute(name, `${value}`);
+            if (isText && value !== undefined && value !== null) this.setAttribute(name, `${value}`);
             else this.toggleAttribute(name, Boolean(value));
         },
     });

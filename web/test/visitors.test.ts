@@ -130,6 +130,10 @@ describe("visitors", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM
             const stopped = load({ signal: stop.signal }).catch(() => "stopped");
             const loads = [load(), load()];
             stop.abort();
+            const fault = (): never => {
+                throw new Error("a fault of the page");
+            };
+            loads.push(loader.loadAsync(`/stream/${name}.bsm`, fault).catch(() => "failed alone"));
             await Promise.all([stopped, ...loads]);
             Cache.enabled = true;
             await new FileLoader().setResponseType("arraybuffer").loadAsync(`/stream/${name}.bsm`);
@@ -188,6 +192,22 @@ describe("visitors", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM
         });
         assert.deepEqual(found, []);
         await page.waitForFunction(() => document.querySelector("bsm-player")!.ended);
+        await page.context().close();
+    });
+
+    test("see what a page asked for before the player was there, and nothing once it asks for nothing", async () => {
+        const page = await opened();
+        const found = await page.evaluate(async (name) => {
+            const player = document.body.appendChild(document.createElement("bsm-player"));
+            [player.src, player.controls] = [`/stream/${name}.bsm`, true];
+            const loaded = new Promise((go) => player.addEventListener("load", go));
+            await import("bsm-decoder/player" as string);
+            await loaded;
+            const before = [player.hasAttribute("src"), player.hasAttribute("controls")];
+            [player.src, player.controls] = [undefined, undefined] as unknown as [string, boolean];
+            return [...before, player.hasAttribute("src"), player.hasAttribute("controls")];
+        }, STREAM);
+        assert.deepEqual(found, [true, true, false, false]);
         await page.context().close();
     });
 
