@@ -196,7 +196,8 @@ function drawnOf(root: Object3D, lost: Set<string>, notes: string[], isPosed: bo
             if (own === "position" || normal) plain.setAttribute(own, attribute);
             else if (uv !== undefined) plain.setAttribute(`texcoord${uv}`, fromBottom(attribute));
             else if (own.startsWith("color")) plain.setAttribute(`color${color}`, attribute);
-            else if (!/^(skin|joints|weights)/.test(own)) lost.add(`${own.replace(/^_/, "").toUpperCase()} of attributes`);
+            else if (!/^(skin|joints|weights)/.test(own))
+                lost.add(`${own.replace(/^_/, "").toUpperCase()} of attributes`);
         }
         for (let copy = 0; copy < (isPosed ? 1 : count); copy++) {
             const mesh = Object.assign(new Mesh(plain, material as Material), { name, matrixAutoUpdate: false });
