@@ -8,7 +8,7 @@ import numpy.typing as npt
 from bsm._core import codec as _kernels
 from bsm._core.bitstream import constant
 from bsm.codec.arrays import Faces, Levels, Matrix
-from bsm.codec.geometry.mesh import extent_of
+from bsm.codec.geometry.mesh import extent_of, squares_of
 from bsm.codec.geometry.turns import Turn, cross_of, quaternion_of, turned_by
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.targets import SLACK
@@ -24,9 +24,28 @@ def transforms_of(prepared: Prepared, grid: Raster) -> Levels:
     return coded_transforms(turns, (turns @ origin + shifts - origin) / grid.step, grid.largest)
 
 
-def lattice(prepared: Prepared, origin: Matrix, step: float, least: float, turn: Turn) -> tuple[float, Matrix]:
+def planes_of(positions: Matrix, faces: Faces) -> list[Matrix]:
+    """Of each axis: where the longest edges at right angles to it lie, and their lengths over the extent: (k, 2)."""
+    sides = (positions[np.roll(faces, 1, axis=1)] - positions[faces]).reshape(-1, 3)
+    extent, lengths = float(extent_of(positions).max()), np.sqrt(squares_of(sides))
+    found = []
+    for axis in range(3):
+        flat = np.flatnonzero(np.abs(sides[:, axis]) <= 1e-6 * extent)
+        values = positions[faces.reshape(-1)[flat], axis]
+        order = np.argsort(values)
+        starts = np.flatnonzero(np.diff(values[order], prepend=-np.inf) > 1e-6 * extent)
+        sums = np.add.reduceat(lengths[flat][order] / extent, starts) if len(starts) else np.empty(0)
+        most = np.argsort(-sums, kind="stable")[:8]  # of axes with many, none fits well
+        found.append(np.column_stack([values[order][starts[most]], sums[most]]))
+    return found
+
+
+def lattice(
+    prepared: Prepared, origin: Matrix, step: float, least: float, turn: Turn, planes: list[Matrix]
+) -> tuple[float, Matrix]:
     """The step of single precision near a wanted one, and the origin, at most a cell lower, for which transforms take
-    most places to places: those that exchange axes or turn them back, all at once."""
+    most places to places, those that exchange axes or turn them back, all at once; and for which planes are at places:
+    where a long edge moves, a row of samples changes, and a picture shows it."""
     turns, shifts, shares = motions_of(prepared, step, turn)
     own = np.abs(turns - np.rint(turns)).max(axis=(1, 2)) * extent_of(prepared.mesh.positions).max() < step / 4.0
     nearness = np.linspace(-0.5, 0.5, 241)
@@ -40,6 +59,15 @@ def lattice(prepared: Prepared, origin: Matrix, step: float, least: float, turn:
             cells = (np.linalg.pinv(back) @ shift - origins) / steps[:, None]
             origins[:, axes] -= ((np.ceil(cells - 1e-6) - cells) * steps[:, None])[:, axes]
             left &= ~axes
+    for axis, (values, lengths) in enumerate(plane.T for plane in planes):
+        if not len(values):
+            continue
+        cells = (values[:, None] - (values if left[axis] else origins[:, axis, None, None])) / steps[:, None, None]
+        off = np.einsum("i,sij->sj", lengths, np.abs(cells - np.rint(cells)))  # where plane j is at a place
+        score -= off.min(axis=1)
+        if left[axis]:
+            cells = (values[off.argmin(axis=1)] - origins[:, axis]) / steps
+            origins[:, axis] -= (np.ceil(cells - 1e-6) - cells) * steps
     for turned, shift, share in rigid:
         cells = (shift - origins @ (np.eye(3) - turned).T) / steps[:, None]
         off = np.abs(cells - np.rint(cells)).max(axis=1)

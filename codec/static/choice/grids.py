@@ -16,7 +16,7 @@ from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.geometry.mesh import box_around, extent_of, squares_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
 from bsm.codec.static.choice.bounds import COARSEST, SEEN, SPIKE, Bounds, Trial
-from bsm.codec.static.choice.congruence import lattice, motions_of, transforms_of
+from bsm.codec.static.choice.congruence import lattice, motions_of, planes_of, transforms_of
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import SLACK
 from bsm.codec.static.units import single
@@ -182,6 +182,11 @@ class Gridded:
         worths = (0.0, 1.0) if spacing > 2.0 * SLACK * self.first else ()
         return [Gridded(self._prepared, self._bounds, worth, self.turn, spacing) for worth in worths]
 
+    @cached_property
+    def _planes(self) -> list[Matrix]:
+        own = turned_by(self._prepared.mesh.positions, self.turn, back=True)
+        return planes_of(own, self._prepared.mesh.faces)
+
     def _made(self, step: float, mirrored: bool = True) -> Trial:
         unit = self._prepared.units.scale
         step = float(self.dividing(step))
@@ -189,7 +194,7 @@ class Gridded:
         if mirrored and not self.spacing and may_repeat(self._prepared):
             if not self._prepared.motions:  # the same ladder for all looks
                 motions_of(self._prepared, max(self._bounds.usual_step, self.least) * unit, self.turn)
-            held, moved = lattice(self._prepared, origin, held, self.least * unit, self.turn)
+            held, moved = lattice(self._prepared, origin, held, self.least * unit, self.turn, self._planes)
             origin = np.array([self._hold(value) for value in moved])
         low = self._prepared.units.into(origin)
         places = np.floor((self._positions - low) / (held / unit) + 0.5).astype(np.int32)

@@ -15,7 +15,7 @@ from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.turns import UNTURNED
 from bsm.codec.static.choice.bounds import Bounds, Measures
-from bsm.codec.static.choice.congruence import coded_transforms, lattice, transforms_of
+from bsm.codec.static.choice.congruence import coded_transforms, lattice, planes_of, transforms_of
 from bsm.codec.static.choice.grids import Gridded, _rounded, grid_draft, paying, rounded
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
@@ -253,12 +253,51 @@ def test_steps_divide_shifts_that_repeat():
     row = copies(small, np.array([np.eye(3)] * 4), 7.77)
     prepared = prepared_of(row, 10)
     step = float(np.ptp(row.positions, axis=0).max()) / 1100
-    found, origin = lattice(prepared, row.positions.min(axis=0), step, 0.0, UNTURNED)
+    found, origin = lattice(prepared, row.positions.min(axis=0), step, 0.0, UNTURNED, [])
     assert abs(math.log(found / step)) <= 0.016 and found == float(np.float32(found))
     cells = (row.positions[len(small.positions)] - row.positions[0])[0] / found
     assert abs(cells - round(cells)) < 0.05
     assert (origin <= row.positions.min(axis=0)).all()
     alone = prepared_of(bumpy(13), 10)
     low = alone.mesh.positions.min(axis=0)
-    held, kept = lattice(alone, low, float(np.float32(0.01)), 0.0, UNTURNED)
+    held, kept = lattice(alone, low, float(np.float32(0.01)), 0.0, UNTURNED, [])
     assert held == float(np.float32(0.01)) and (kept == low).all(), "without symmetries nothing moves"
+
+
+def plates(at: tuple[float, ...]) -> TriangleMesh:
+    """Bumpy sheets between planes at right angles to x, on which their long sides lie."""
+    rng, rows = np.random.default_rng(5), 24
+    positions, faces = [], []
+    for number, x in enumerate(at):
+        y, z = np.full(rows, 0.31 * number + 0.1234), np.linspace(0.0, 4.0, rows)
+        ends = np.column_stack([np.full(rows, x), y, z])
+        middle = np.column_stack([np.full(rows, x + 0.3), y + 0.2, z]) + rng.normal(0.0, 0.03, (rows, 3))
+        positions.append(np.concatenate([ends, middle]))
+        first, second = np.arange(rows - 1) + 2 * rows * number, np.arange(rows - 1) + 2 * rows * number + rows
+        faces += [np.column_stack([first, second, first + 1]), np.column_stack([first + 1, second, second + 1])]
+    return TriangleMesh(np.concatenate(positions), np.concatenate(faces).astype(np.int32))
+
+
+def test_planes_are_where_the_longest_edges_lie():
+    mesh = plates((0.0, 0.777, 2.345))
+    along, across, up = planes_of(mesh.positions, mesh.faces)
+    assert np.allclose(np.sort(along[:3, 0]), (0.0, 0.777, 2.345)) and np.allclose(along[:3, 1], 1.0, atol=0.02)
+    assert np.allclose(np.sort(across[:3, 0]), 0.1234 + 0.31 * np.arange(3))
+    assert np.allclose(across[:3, 1], 1.0, atol=0.02)
+    assert up[:, 1].sum() < 0.2, "edges are level by chance alone"
+    assert [len(found) for found in planes_of(bumpy(13).positions, bumpy(13).faces)] == [0, 0, 0]
+
+
+@pytest.mark.parametrize("at", [(0.0, 0.777, 2.345), (0.1, 1.0, 1.9031), (0.0, 1.2347)])
+def test_planes_come_to_lie_at_places(at: tuple[float, ...]):
+    mesh = plates(at)
+    prepared, low, step = prepared_of(mesh, 10), mesh.positions.min(axis=0), 0.0123
+    planes = planes_of(mesh.positions, mesh.faces)
+
+    def off(held: float, origin: np.ndarray) -> float:
+        cells = (np.array(at) - origin[0]) / held
+        return float(np.abs(cells - np.rint(cells)).max())
+
+    found, origin = lattice(prepared, low, step, 0.0, UNTURNED, planes)
+    assert off(found, origin) < 0.13 < off(*lattice(prepared, low, step, 0.0, UNTURNED, []))
+    assert abs(math.log(found / step)) <= 0.016 and (origin <= low).all() and (origin > low - found).all()

@@ -86,8 +86,8 @@ def test_targets_are_met_by_what_the_decoder_sees(kind, value):
 
 def test_blocks_get_no_room_that_only_grids_give_back() -> None:
     mesh = torus(48, 32)  # of which congruent parts save 3 of 12 bits of a vertex
-    options = EncodeOptions(block_size=200, contract=None, target=Target("bpv", 9.0))
-    assert 8 * Encoder(mesh, options).result().size >= 0.75 * 9.0 * len(mesh.positions)
+    options = EncodeOptions(block_size=200, contract=None, target=Target("bpv", 5.5))  # more is unseen
+    assert 8 * Encoder(mesh, options).result().size >= 0.75 * 5.5 * len(mesh.positions)
 
 
 def test_what_repeats_is_mapped_or_scanned_looks_as_good_at_its_size_by_default() -> None:
