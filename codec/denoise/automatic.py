@@ -41,12 +41,13 @@ def sample(faces: Faces, levels: Floats) -> tuple[Order, Faces]:
 
 
 CANDIDATES = (
-    Filter("normals", 0.2, 0.35, "patches"),
+    Filter("normals", 0.2, 0.35, "patches"),  # makes the first guess
     Filter("normals", 0.2, 0.25),
     Filter("heights", 0.2, 0.4),
     Filter("heights", 0.1, 0.55),
 )
-"""The first one makes the first guess."""
+# Noise along an axis slides vertices, which then go back along it.
+AXIAL = (*CANDIDATES[:2], *(Filter("positions", keep, width) for keep, width in ((0.4, 0.4), (0.2, 0.25), (0.1, 0.55))))
 SEEN = tuple(Filter(RAYS, keep, sigma_r) for keep, sigma_r in ((0.3, 0.4), (1.0, 0.4), (0.3, 0.25), (1.0, 0.55)))
 """For scans of one view."""
 FUSED = tuple(Filter(BENDS, weight, 0.3) for weight in (0.15, 0.3, 0.6))
@@ -126,18 +127,16 @@ def choose(positions: Positions, finding: Finding, surface: Filters, goal: str, 
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0)
     if finding.kind == "cells" or finding.uneven > EVEN:
         return _by_cause(finding)
-    filters = {"view": SEEN, "fused": FUSED}.get(finding.kind, CANDIDATES)
-    along = finding.kind == "axis"  # along which vertices then go back
+    filters = {"view": SEEN, "axis": AXIAL, "fused": FUSED}.get(finding.kind, CANDIDATES)
     learnt = len(positions) <= MOST_TAUGHT or finding.kind not in ("white", "unsteady")
     members, part = sample(surface.topology.faces, finding.levels)
     chosen = positions
     if len(members) < len(positions):
         surface, chosen = Filters(part, len(members)), positions[members]
     level = estimate_noise(chosen, surface.smooth(chosen, filters[0]), surface.probe)
-    across = filters is CANDIDATES and level.tangential > 0.0 and not along
+    across = filters is CANDIDATES and level.tangential > 0.0
     if across and _gains_by_sliding(chosen, finding.on(members), level, surface):
         level = NoiseLevel(level.normal, level.across, level.across, slides=True)
-    if level.slides or along:  # noise has moved vertices along the surface, too
         filters = tuple(replace(each, hand_over=each.hand_over.replace("heights", "positions")) for each in filters)
     known = finding.on(members).reaching(surface.topology, level.slides)
     mesh = surface.filtered(chosen, known)

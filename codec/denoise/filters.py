@@ -92,7 +92,7 @@ class DenoiseOptions:
         check_options(self, choices, {"iterations": (0, 1 << 20), "keep": (1e-6, 1.0), "block_size": (1, 1 << 20)})
 
 
-LEARNT, MOST_KEPT = 0.6, 0.2  # share of learnt normals; and of frequencies that a coarse step keeps at most
+LEARNT, USUAL_KEPT = 0.6, 0.2  # share of learnt normals; and of frequencies that most coarse steps keep at most
 
 
 @dataclass(frozen=True)
@@ -122,14 +122,16 @@ class Filters:
         self.topology = Topology(faces, n)
         self.probe = Probe(self.topology)
         self._last: Filtered | None = None
-
-    @cached_property
-    def _coarse(self) -> CoarseFilter:
-        return CoarseFilter(self.topology.faces, self.topology.n, MOST_KEPT, BLOCK_SIZE)
+        self._coarse: dict[float, CoarseFilter] = {}
 
     def smooth(self, positions: Positions, filter_: Filter) -> Positions:
         """The coarse mesh, shape (n, 3), that a filter needs; `positions` if it needs none."""
-        return self._coarse(positions, filter_.keep) if filter_.needs_coarse else positions
+        if not filter_.needs_coarse:
+            return positions
+        kept = max(filter_.keep, USUAL_KEPT)
+        if kept not in self._coarse:
+            self._coarse[kept] = CoarseFilter(self.topology.faces, self.topology.n, kept, BLOCK_SIZE)
+        return self._coarse[kept](positions, filter_.keep)
 
     def filtered(self, positions: Positions, finding: Finding) -> "Filtered":
         """Return the filtered `positions`, shape (n, 3), and keep them until others are asked for; thread-safe."""

@@ -153,8 +153,7 @@ def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:
 SIGMA_R, RADIUS, VERTEX_ITERATIONS = 0.35, 2.0, 10
 """The authors' defaults; with half or twice as many vertex iterations, 1.4 and 0.9 % more of the angle is left."""
 
-Guide = Callable[[FaceGeometry, Topology], Floats]
-"""From the mesh as it is to the unit normals, shape (m, 3), that the range kernel compares."""
+Guide = Callable[[FaceGeometry, Topology], Floats]  # to the unit normals, shape (m, 3), that the range kernel compares
 
 
 class GuidedFilter:
@@ -207,6 +206,5 @@ def bilateral_normals(positions: Positions, topology: Topology, sigma_r: float) 
         geometry = geometry._replace(normals=filter_normals(geometry, geometry.normals, near, sigma_s, sigma_r))
 
 
-FineStep = Callable[..., Positions]
-"""From positions (n, 3), faces (m, 3) and a number of iterations, whose default is the method's own."""
+FineStep = Callable[..., Positions]  # from positions (n, 3), faces (m, 3) and iterations, by default the method's own
 FINE_STEPS: dict[str, FineStep] = {"guided": guided_normal_filtering, "bilateral-normal": bilateral_normal_filtering}
