@@ -11,7 +11,7 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.signal.transform import smallest_step
-from bsm.codec.static.choice.bounds import COARSEST, LEAST, SPIKE, Bounds, Trial, unfolded
+from bsm.codec.static.choice.bounds import COARSEST, LEAST, SEEN, SPIKE, Bounds, Trial, unfolded
 from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
@@ -22,7 +22,6 @@ from bsm.codec.static.ways.in_cells import SPREADS, InCells
 
 BROADEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost decoders more time than their bytes are worth."""
-SPARSE = 0.08  # the step, in mean edges, from which on most levels are 0
 BASE = 0.36  # the step of blocks on all vertices below a layer, over the square root of the layer's step
 APART = 4.0  # steps with other blocks, over one another
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
@@ -40,7 +39,7 @@ class OnCells:
 
     def __call__(self, step: float) -> RefinementBase:
         within, layer = self._measures.near.within(), Layer(single(step), RATIO)
-        many = step > SPARSE * self._measures.shaper.mean_edge
+        many = step > 2.0 * SEEN * self._measures.shaper.mean_edge  # most levels are 0
         found, *others = (base for spread in self._spread[: None if many else 1] for base in spread.bases(step, within))
         return min([found, *others], key=lambda base: base.about(layer)) if others else found
 

@@ -18,7 +18,6 @@ from bsm.codec.static.choice.settling import PULL
 
 RATES = np.log1p(np.arange(4096.0))
 """Bits, but for a factor, of a place on a grid that is so far from where a parallelogram would have it."""
-FOLDED = 0.2  # edges folded over, for each face, above which mending takes long and is of no use
 
 
 class Shaper:
@@ -62,19 +61,16 @@ class Shaper:
         return chosen
 
     def unfold(self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix) -> Levels | None:
-        """Levels, shape (n, 3), that fold fewer edges, along `directions`, shape (n or 1, 9); None: few or most are."""
-        if self.folded(positions) > FOLDED * len(self._original.faces):
-            return None
+        """Levels, shape (n, 3), that fold fewer edges, along `directions`, shape (n or 1, 9); None: few are folded."""
         chosen, most = np.array(levels, np.int32, order="C"), -(-len(self._original.faces) // 10_000)
         given = (np.array(positions), chosen, self._open), np.ascontiguousarray(directions), self._flaps, most
         wrong = np.empty(len(self._flaps[0]), np.uint8)
         return chosen if _kernels.unfold_levels(self._wanted, reach, *given, wrong) else None
 
     def over(self, positions: Positions) -> Indices:
-        """The vertices of edges that are folded over and were not; none if few edges are folded, or most."""
-        if not self.most_folded < self.folded(positions) <= FOLDED * len(self._original.faces):
-            return np.empty(0, np.int32)
-        return np.unique(self._flaps[0][self._over(positions)[1] & ~self._were])
+        """The vertices of edges that are folded over and were not; none if few edges are folded."""
+        count, folded = self._over(positions)
+        return np.unique(self._flaps[0][folded & ~self._were & (count > self.most_folded)])
 
     @cached_property
     def _were(self) -> npt.NDArray[np.bool_]:
