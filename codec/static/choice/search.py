@@ -155,19 +155,14 @@ class Search:
         """Find the widest steps that keep the bounds, for each way, until finer ones take more bytes than another."""
         sizes: dict[Trial, float] = {}
         promise: dict[Way, float] = {}
-        tried: dict[Way, tuple[float, float, float]] = {}
 
         def excess(way: Way, step: float) -> float:
             made = way.at(step)
-            hoped, over = aim.bytes(way, made), aim.error(made)
-            promise.setdefault(way, hoped + max(over, 0.0))
+            size, over = aim.bytes(way, made), aim.error(made)
+            promise.setdefault(way, size + max(over, 0.0))
             if over <= 0.0 and not aim.finer(made):
-                sizes[made] = hoped
-            (before, size, far), tried[way] = tried.get(way, (step, 0.0, 0.0)), (step, hoped, over)
-            if before > step and far > over and not isinstance(way, Gridded):  # whose bytes depend on luck
-                # What the line through both trials takes at the bound.
-                hoped += (hoped - size) * over / (far - over)
-            return over if over <= 0.0 or hoped < min(sizes.values(), default=math.inf) else -SLACK / 4.0
+                sizes[made] = size
+            return over if over <= 0.0 or size < min(sizes.values(), default=math.inf) else -SLACK / 4.0
 
         for tries in (1, TRIES):
             for way in sorted(ways, key=lambda way: promise.get(way, 0.0)):
