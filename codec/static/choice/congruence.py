@@ -25,7 +25,7 @@ def transforms_of(prepared: Prepared, grid: Raster) -> Levels:
 
 
 def planes_of(positions: Matrix, faces: Faces) -> list[Matrix]:
-    """Of each axis: where the longest edges at right angles to it lie, and their lengths over the extent: (k, 2)."""
+    """Places on each axis of the longest edges at right angles to it, and their lengths over the extent: (k, 2)."""
     sides = (positions[np.roll(faces, 1, axis=1)] - positions[faces]).reshape(-1, 3)
     extent, lengths = float(extent_of(positions).max()), np.sqrt(squares_of(sides))
     found = []
