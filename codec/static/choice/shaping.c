@@ -12,6 +12,7 @@
 enum { FAN = 32, LANES = 8 }; /* faces of one vertex that are looked at, and how many of them at once */
 enum { UNFOLDING = 8 };                   /* sweeps over what is turned over */
 #define FOLD 0.1   /* what a fold costs, over turning a face of mean area by a radian */
+#define SQUARE 0.030153689607045807 /* of the cosine of 100 degrees: rounding turns right angles by less */
 
 /* The faces at a vertex, `padded` with some of no weight: twice the area times the normal, in coordinates along the
  * wanted normal and across it, in some unit of the vertex; and what a step in each direction adds to that, which is the
@@ -249,16 +250,17 @@ INLINE double folded_by(const Fan *fan, const float *by, double over) {
     return sum;
 }
 
-/* Whether an edge between two faces is folded by more than 90 degrees. The vertex `v` lies `there`. */
+/* Whether an edge between two faces is folded by more than 100 degrees. The vertex `v` lies `there`. */
 INLINE bool is_folded(const double *positions, const int32_t *flap, int32_t v, const double *there) {
     const double *at[4];
     for (int k = 0; k < 4; k++) at[k] = flap[k] == v ? there : positions + 3 * (int64_t)flap[k];
     double n[3], m[3];
     cross3(at[0], at[1], at[2], n), cross3(at[1], at[0], at[3], m);
-    return dot3(n, m) < 0.0;
+    double along = dot3(n, m);
+    return along < 0.0 && along * along > SQUARE * dot3(n, n) * dot3(m, m);
 }
 
-/* How many edges between faces are folded by more than 90 degrees, and which. */
+/* How many edges between faces are folded by more than 100 degrees, and which. */
 int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps, Bytes folded) {
     int64_t count = 0;
     if (positions.columns != 3 || flaps.columns != 4 || folded.size != flaps.rows) return MISUSED;

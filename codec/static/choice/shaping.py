@@ -77,11 +77,11 @@ class Shaper:
         return self._over(self._original.positions)[1]
 
     def folded(self, positions: Positions) -> int:
-        """How many edges are folded by more than 90 degrees."""
+        """How many edges are folded by more than 100 degrees."""
         return self._over(positions)[0]
 
     def _over(self, positions: Positions) -> tuple[int, npt.NDArray[np.bool_]]:
-        """How many edges between faces are folded by more than 90 degrees, and which, shape (k,)."""
+        """How many edges between faces are folded by more than 100 degrees, and which, shape (k,)."""
         folded = np.empty(len(self._flaps[0]), np.uint8)
         return _kernels.count_folds(positions, self._flaps[0], folded), folded.view(np.bool_)
 
