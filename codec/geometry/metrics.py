@@ -210,8 +210,7 @@ def face_normals(positions: Positions, faces: Faces) -> Floats:
 
 
 def folded_edges(positions: Positions, faces: Faces) -> int:
-    """How many edges that two faces share are folded by more than 100 degrees, which rounding makes of no right angle;
-    faces without area fold none."""
+    """How many edges that two faces share are folded by more than 90 degrees; faces without area fold none."""
     normals = face_normals(positions, faces)
     _, edge, uses = edges_of(faces)
     paired = np.flatnonzero(uses == 2)
@@ -221,7 +220,7 @@ def folded_edges(positions: Positions, faces: Faces) -> int:
     # Two faces run along a common edge in opposite directions, unless one of them is turned over. Its normal then
     # counts with the other sign.
     same_way = faces.ravel()[first] == faces.ravel()[second]  # faces of two orientations
-    return int(np.count_nonzero(np.where(same_way, -turned, turned) < math.cos(math.radians(100.0))))
+    return int(np.count_nonzero(np.where(same_way, -turned, turned) < 0.0))
 
 
 def geometric_laplacian(positions: Positions, neighbors: Lists) -> Floats:

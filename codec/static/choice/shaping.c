@@ -12,7 +12,7 @@
 enum { FAN = 32, LANES = 8 }; /* faces of one vertex that are looked at, and how many of them at once */
 enum { UNFOLDING = 8 };                   /* sweeps over what is turned over */
 #define FOLD 0.1   /* what a fold costs, over turning a face of mean area by a radian */
-#define SQUARE 0.030153689607045807 /* of the cosine of 100 degrees: rounding turns right angles by less */
+#define SQUARE 0.03 /* of the cosine of 100 degrees: rounding turns right angles by less */
 
 /* The faces at a vertex, `padded` with some of no weight: twice the area times the normal, in coordinates along the
  * wanted normal and across it, in some unit of the vertex; and what a step in each direction adds to that, which is the
@@ -250,23 +250,23 @@ INLINE double folded_by(const Fan *fan, const float *by, double over) {
     return sum;
 }
 
-/* Whether an edge between two faces is folded by more than 100 degrees. The vertex `v` lies `there`. */
-INLINE bool is_folded(const double *positions, const int32_t *flap, int32_t v, const double *there) {
+/* Whether an edge between two faces is folded by more than 90 degrees (1), or 100 (2). The vertex `v` lies `there`. */
+INLINE int folded_at(const double *positions, const int32_t *flap, int32_t v, const double *there) {
     const double *at[4];
     for (int k = 0; k < 4; k++) at[k] = flap[k] == v ? there : positions + 3 * (int64_t)flap[k];
     double n[3], m[3];
     cross3(at[0], at[1], at[2], n), cross3(at[1], at[0], at[3], m);
     double along = dot3(n, m);
-    return along < 0.0 && along * along > SQUARE * dot3(n, n) * dot3(m, m);
+    return (along < 0.0) + (along < 0.0 && along * along > SQUARE * dot3(n, n) * dot3(m, m));
 }
 
-/* How many edges between faces are folded by more than 100 degrees, and which. */
+/* How many edges between faces are folded by more than 90 degrees, and how far each is: 0, 1 or 2. */
 int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps, Bytes folded) {
     int64_t count = 0;
     if (positions.columns != 3 || flaps.columns != 4 || folded.size != flaps.rows) return MISUSED;
     for (int64_t f = 0; f < flaps.rows; f++) {
-        folded.data[f] = is_folded(positions.data, flaps.data + 4 * f, -1, positions.data);
-        count += folded.data[f];
+        folded.data[f] = (uint8_t)folded_at(positions.data, flaps.data + 4 * f, -1, positions.data);
+        count += folded.data[f] > 0;
     }
     return count;
 }
@@ -277,7 +277,7 @@ INLINE int wrong_around(
     int count = 0;
     for (int32_t i = edges->starts.data[v]; i < edges->starts.data[v + 1]; i++) {
         int64_t f = edges->members.data[i] >> 1;
-        count += !wrong[f] && is_folded(positions, edges->rows.data + 4 * f, v, there);
+        count += !wrong[f] && folded_at(positions, edges->rows.data + 4 * f, v, there) > 1;
     }
     return count;
 }
@@ -303,8 +303,8 @@ KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Shaped shaped, C
     for (int64_t v = 0; v < open.size; v++) open.data[v] = 0;
     for (int64_t f = 0; f < flaps.rows; f++) {
         const int32_t *flap = flaps.data + 4 * f;
-        int then = is_folded(wanted.positions.data, flap, -1, moved.data);
-        int now = is_folded(moved.data, flap, -1, moved.data);
+        int then = folded_at(wanted.positions.data, flap, -1, moved.data) > 0;
+        int now = folded_at(moved.data, flap, -1, moved.data) > !then;
         more += now - then;
         wrong.data[f] = (uint8_t)then;
         for (int k = 0; k < 4 && now && !then; k++) open.data[flap[k]] = 1;

@@ -74,16 +74,22 @@ class Shaper:
 
     @cached_property
     def _were(self) -> npt.NDArray[np.bool_]:
-        return self._over(self._original.positions)[1]
+        return self._far(self._original.positions) > 0
 
     def folded(self, positions: Positions) -> int:
-        """How many edges are folded by more than 100 degrees."""
+        """How many edges are folded: by more than 90 degrees, or 100 where they were not, which spares right angles."""
         return self._over(positions)[0]
 
     def _over(self, positions: Positions) -> tuple[int, npt.NDArray[np.bool_]]:
-        """How many edges between faces are folded by more than 100 degrees, and which, shape (k,)."""
-        folded = np.empty(len(self._flaps[0]), np.uint8)
-        return _kernels.count_folds(positions, self._flaps[0], folded), folded.view(np.bool_)
+        """How many edges between faces are folded, and which, shape (k,)."""
+        folded = self._far(positions) > ~self._were
+        return int(folded.sum()), folded
+
+    def _far(self, positions: Positions) -> npt.NDArray[np.uint8]:
+        """How far edges between faces are folded, shape (k,): 1, by more than 90 degrees; 2, by more than 100."""
+        far = np.empty(len(self._flaps[0]), np.uint8)
+        _kernels.count_folds(positions, self._flaps[0], far)
+        return far
 
     @cached_property
     def most_folded(self) -> int:

@@ -9,9 +9,8 @@ from hypothesis import strategies as st
 from scipy.optimize import minimize
 
 from bsm import MeshError
-from bsm.codec.geometry.graph import graph_of_faces, vertex_neighbors
+from bsm.codec.geometry.graph import vertex_neighbors
 from bsm.codec.geometry.metrics import (
-    Original,
     Reference,
     compare,
     distances_to_surface,
@@ -21,7 +20,6 @@ from bsm.codec.geometry.metrics import (
     surface_distance,
 )
 from bsm.codec.sequence.targets import compare_sequences
-from bsm.codec.static.choice.shaping import Shaper
 from tests.shapes import mnd, theta
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
@@ -109,16 +107,6 @@ def test_kg_error_is_relative_to_the_extent() -> None:
 def test_wrong_shapes_are_refused() -> None:
     with pytest.raises(MeshError, match="shape"):
         Reference(SQUARE, TWO).compare(SQUARE[:3])
-
-
-@pytest.mark.parametrize(("degrees", "folded"), [(0, 0), (95, 0), (105, 1), (175, 1)])
-def test_right_angles_that_rounding_turns_are_no_folds(degrees: float, folded: int) -> None:
-    bent, angle = SQUARE.copy(), np.radians(degrees)
-    bent[3] = np.array([0.5, 0.5, 0.0]) + np.cos(angle) * np.array([-0.5, 0.5, 0.0])
-    bent[3, 2] = np.sqrt(0.5) * np.sin(angle)
-    assert folded_edges(bent, TWO) == folded
-    # The encoder mends what the judge counts.
-    assert Shaper(Original(SQUARE, TWO), graph_of_faces(TWO, 4)).folded(bent) == folded
 
 
 def test_folded_edges_are_counted_whatever_the_orientation() -> None:
