@@ -243,7 +243,7 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
         return everywhere, ""  # within the bound of the cause
     unsure = finding.kind == "unknown" and bool(windows.valid.any())
     if not finding.noisy and not unsure:
-        # No statistics here: they may be what is missing.
+        # This check uses no statistics, because their absence may be why no noise was found.
         if np.linalg.norm(noisy - result, axis=1).max(initial=0.0) <= FAINTEST * finding.edge:
             return everywhere, ""
         return ~everywhere, f"{finding.reason}, and the result moves vertices nevertheless"

@@ -164,7 +164,7 @@ class FrameDenoiser:
             result = step(start(noisy, smooth, GuidedFilter(noisy, topology)), topology.faces, **iterations)
             if self._force:
                 return given, result
-            # Options are the user's, and may be wrong for this mesh: what is lost is measured first.
+            # The user chose the options, and they may be wrong for this mesh, so measure first what they destroy.
             good, reason = judge(noisy, result, find_noise(noisy, self._surface.probe), self._surface.probe)
             if reason:
                 raise HarmError(f"{reason}; nothing is written unless it is forced", frame=number)

@@ -5,9 +5,9 @@
     python -m tools.measure denoising --goals MESH...
 
 MESHES is a folder of meshes, as for `tools.replicate`; rows are chosen by parts of their names. With `--draws`, the
-table shows what is left in so many draws of white noise on flat shapes, meshes and made shapes, and the largest over
-the least of it. Beside that stands how much the best that is possible varies on shapes of few planes: least squares
-with the faces of each plane known, which leaves a tenth to a third of a degree by chance. With `--goals`, the table
+table shows the error that is left in that many draws of white noise on flat shapes, meshes and made shapes, and the
+largest over the least of them. For shapes of few planes, the next column shows the same ratio for least squares with
+the faces of each plane known, which leaves a tenth to a third of a degree by chance. With `--goals`, the table
 shows what each goal and strength leaves of white noise, on clean meshes of yours and on made shapes.
 """
 

@@ -39,7 +39,7 @@ export type EventOf<Type> = Extract<Event, { type: Type }>;
 
 /** What a decoder is asked for beside the mesh. */
 export interface Wishes {
-    /** Report damage behind the faces as a loss, and go on with all that does not depend on it. */
+    /** Report damage after the connectivity as a loss, and go on with what does not depend on it. */
     tolerant?: boolean;
     /** Tell positions of a static mesh at its end, all at once, and not what each block changes: that is less work. */
     whole?: boolean;

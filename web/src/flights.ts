@@ -25,7 +25,7 @@ interface Flight {
 
 const flights = new Map<string, Flight>();
 
-/** Fetch what is at an address; resolves when all of it has come, though a signal may have stopped this load. */
+/** Fetch an address. The promise resolves with the last byte, even if a signal has stopped this load. */
 export async function fetchPieces(address: string, request: RequestInit, passenger: Passenger): Promise<void> {
     const cached: unknown = Cache.enabled ? Cache.get(`file:${address}`) : undefined;
     if (cached instanceof ArrayBuffer) {

@@ -188,7 +188,7 @@ export class GridDecoder {
         this.offset += count;
     }
 
-    /** Read frames up to one that tells something; returns what is to be done with it, or what the stream waits for. */
+    /** Read frames until one has news; return what to do with it, or what the stream waits for. */
     private nextFrame(): (() => void) | Signal {
         if (!this.started && !this.start()) return this.incomplete();
         while (this.last !== "end") {
