@@ -20,13 +20,11 @@ void keep_value(const Values *g, int32_t v, int j, int32_t value) {
 
 /* What is known around a vertex before its values (specification, A 2). */
 
-int64_t square_root(uint64_t x) { /* rounded down */
-    uint64_t root = 0;
-    for (uint64_t bit = UINT64_C(1) << 62; bit != 0; bit >>= 2) {
-        bool fits = x >= root + bit;
-        if (fits) x -= root + bit;
-        root = (root >> 1) + (fits ? bit : 0);
-    }
+/* The square root of x, below 2^62, rounded down. */
+int64_t square_root(uint64_t x) {
+    uint64_t root = (uint64_t)__builtin_sqrt((double)x);
+    while (root * root > x) root--; /* a double has 53 bits of x */
+    while ((root + 1) * (root + 1) <= x) root++;
     return (int64_t)root;
 }
 
