@@ -110,7 +110,8 @@ static void find_levels(Ahead *ahead, int64_t next_block) {
     LevelsAhead *levels = &ahead->levels;
     const Header *header = &decoder->mesh.header;
     double n = (double)header->vertices, m = (double)decoder->mesh.faces.rows;
-    int64_t place = 0, capacity = 0, vertex = 0, cells = header->base.cells;
+    int64_t place = 0, capacity = 0, cells = header->base.cells;
+    Grammar grammar = reader->grammar;
     Packet packet;
     const Context *context = &decoder->context;
     levels->moves = reader->moves;
@@ -118,10 +119,10 @@ static void find_levels(Ahead *ahead, int64_t next_block) {
         || layer_memory(n, m) > memory_left(context))
         return;
     for (; next_block < header->blocks; next_block++)
-        if (!peek_packet(reader, &place, &packet) || packet.type != BLOCK_FRAME || packet.index != next_block) return;
-    while (vertex < levels_size(header) && peek_packet(reader, &place, &packet) && packet.type == REFINEMENT_FRAME
-           && packet.first == vertex && packet.count > 0 && packet.count <= levels_size(header) - vertex) {
-        vertex += packet.count;
+        if (!peek_packet(reader, &place, &grammar, &packet) || packet.type != BLOCK_FRAME || packet.index != next_block)
+            return;
+    while (grammar.next_vertex < levels_size(header) && peek_packet(reader, &place, &grammar, &packet)
+           && packet.type == REFINEMENT_FRAME) {
         packet.first -= cells;
         if (packet.first < 0) continue;
         if (levels->count == capacity) {
@@ -238,10 +239,11 @@ static int64_t find_chains(Ahead *ahead, const Packet *first, int64_t most) {
     int64_t length = chain_length(&ahead->decoder->mesh.header),
             end = least(first->index + most * length, blocks->count);
     int64_t place = 0, rows = 0, whole = 0;
+    Grammar grammar = reader->grammar;
     Packet packet = *first;
     if (!TAKE(&ahead->arena, end - first->index, ahead->ready)) return 0;
     for (int64_t i = first->index; i < end; i++) {
-        if (i > first->index && !peek_packet(reader, &place, &packet)) break;
+        if (i > first->index && !peek_packet(reader, &place, &grammar, &packet)) break;
         if (packet.type != BLOCK_FRAME || packet.index != i) break;
         ahead->ready[i - first->index] = (ReadyBlock){
             .index = i, .coefficients = packet.coefficients, .end = reader->offset + place, .data = packet.data};

@@ -280,6 +280,7 @@ void end_reader(Reader *reader);
 bool receive(Reader *reader, Span bytes);
 /* What comes next; an error is the context's. */
 Arrival next_packet(Reader *reader, Packet *packet);
-/* Look at the frame that starts `*place` bytes after the last packet and move `*place` to its end: true if all of it
- * has come and it is a sound frame of blocks or refinements. Nothing else changes, and nothing is charged. */
-bool peek_packet(Reader *reader, int64_t *place, Packet *packet);
+/* Look at the frame that starts `*place` bytes after the last packet: true if all of it has come, and it is a sound
+ * frame of blocks or refinements that may follow by a copy of the grammar. Then move `*place` to its end and advance
+ * the copy. Nothing else changes, and nothing is charged. */
+bool peek_packet(Reader *reader, int64_t *place, Grammar *grammar, Packet *packet);

@@ -322,14 +322,18 @@ static Arrival next_whole(Reader *reader, Packet *packet) {
     return reader->finished ? NO_MORE : NO_MORE_YET;
 }
 
-bool peek_packet(Reader *reader, int64_t *place, Packet *packet) {
+bool peek_packet(Reader *reader, int64_t *place, Grammar *grammar, Packet *packet) {
     Section frame = {0};
     Span present = waiting(reader);
     if (failed(reader->context)) return false;
     bool sound = read_frame(reader, (Span){present.data + *place, present.size - *place}, &frame) && frame.size > 0
-        && (frame.type == BLOCK_FRAME || frame.type == REFINEMENT_FRAME) && read_payload(reader, frame, packet);
+        && (frame.type == BLOCK_FRAME || frame.type == REFINEMENT_FRAME) && announces(grammar, frame.type)
+        && read_payload(reader, frame, packet) && check_packet(reader->context, grammar, packet);
     if (failed(reader->context)) take_error(reader->context);
-    if (sound) *place += frame.size;
+    if (sound) {
+        *place += frame.size;
+        advance_grammar(grammar, packet, NULL);
+    }
     return sound;
 }
 

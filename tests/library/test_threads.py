@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from tools.amalgamate import ROOT, amalgamated, interface
+from tools.attack.threads import decoded, difference, streams
 from tools.bsmdec import Decoded, Event, Limits, Options, Parallel, decode
 
 VECTORS = ROOT / "spec/vectors"
@@ -45,6 +46,26 @@ def test_damage_is_the_same_in_threads(library: ctypes.CDLL, name: str) -> None:
     for mutant in damaged(stream, max(len(stream) // 24, 1)):
         ours = decode(library, mutant, tolerant=True)
         assert same(ours, decode(library, mutant, tolerant=True, parallel=Parallel(3)))
+
+
+ACROSS = bytes.fromhex(
+    "8942534d12f1088b01ccee02cd01a00301041e050307ca3f0000000893ca3f000000ca3f266666cabbac142709ca3fd3cfef"
+    "0aca410000000b92cb3f70624dd2f1a9fcca412000001b941e020103a394c301a59f645f3bd5bd525da3666f0483a6010003"
+    "fffffffea4fc8b13c9fc3d001dfcd34e3d1dea0105fb4d870205f9a453dd011e0534cda9a1d7f38cd820c21d43d85f078c32"
+    "1c94af6e"
+)
+"""Levels of all cells but the last; of that one and vertices, which is refused; of the last vertices; of the first."""
+
+
+def test_levels_that_are_refused_are_not_read_ahead() -> None:
+    assert difference(ACROSS) == ""
+    assert b"RefinementEvent" in decoded(ACROSS, 4, True)[-2]
+
+
+@pytest.mark.slow
+def test_damaged_streams_are_decoded_alike_by_one_thread_and_by_four() -> None:
+    problems = list(filter(None, map(difference, streams(2000, seed=0))))
+    assert problems == []
 
 
 @pytest.mark.slow

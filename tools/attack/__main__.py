@@ -13,13 +13,14 @@ costly   small files of meshes that take long to encode, found by a search
 manifests  manifests and indexes of tiles, mutated by their grammar
 doors    files of others, read by other libraries and compared with what comes back from a stream
 meshes   random meshes by the encoder in C, with sanitizers
+threads  damaged streams by one thread and by four, strict and tolerant
 figures  odd meshes, whose figures in results `bsm compare` must find as they were stated
 proof    mutants and random streams by all decoders, on all processors, in all environments
 """
 
 from tools.command import dispatch
 
-ALIKE = "sweep readers calls answers growth proof costly manifests uses doors meshes figures"
+ALIKE = "sweep readers calls answers growth proof costly manifests uses doors meshes figures threads"
 COMMANDS = {name: f"{name}:main" for name in ALIKE.split()}
 COMMANDS |= {name: f"bombs:{name}" for name in ("bombs", "charges", "walk")}
 
