@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from tools.measure.house import long_functions, many_parameters
+from tools.measure.density import measure_density
+from tools.measure.house import function_lengths
 from tools.measure.tokens import comment_lines, count_python, count_scanned, count_tokens
 
 PYTHON = """def area(a, b):
@@ -44,15 +45,17 @@ def test_tables_count_their_data(tmp_path: Path) -> None:
     assert [count_tokens(tmp_path / name) for name in ("a.csv", "a.json", "a.txt")] == [4, 4, 0]
 
 
-def test_long_functions_and_many_parameters_are_found() -> None:
-    body = "    x = 1\n" * 39
-    assert long_functions(f'def f():\n    """Say\n    it."""\n{body}') == 0
-    assert long_functions(f"def f():\n    x = 0\n{body}    return x\n") == 1
-    assert long_functions(f"def f():\n{body[10:]}    # why\n    return x\n") == 0
-    assert many_parameters("static int f(int a, int b, int c, int d, int e, int f, int g, int h, int i) {\n}\n") == 1
-    assert (
-        many_parameters(
-            "int f(int a, int b) {\n}\nint g(int a, int b, int c, int d, int e, int f, int g, int h, int i);\n"
-        )
-        == 0
-    )
+def test_lengths_of_functions_leave_docstrings_and_comments_out() -> None:
+    assert function_lengths('def f():\n    """Say\n    it."""\n    x = 1\n    # why\n    return x\n') == [3]
+
+
+def test_density_counts_what_stands_in_lines_of_code() -> None:
+    text = '"""A module."""\n\n# why\nfound = [given if given else 0 for given in values]\n'
+    density = measure_density(text)
+    assert density.lines == 1
+    assert (density.conditionals, density.comprehensions) == (1, 1)
+    # The docstring is a statement and a string; then the assignment, its two sides, and the parts of the comprehension.
+    assert density.nodes == 2 + 1 + 2 + 1 + 3 + 2
+    nodes, conditionals, comprehensions, participles = density.figures
+    assert (nodes, conditionals, comprehensions) == (11, 1000, 1000)
+    assert participles == pytest.approx(1000 * 4 / 5)

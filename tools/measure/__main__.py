@@ -5,7 +5,7 @@ speed       what encoding and decoding take, over Draco's and a file of figures;
 targets     bytes by each kind of target, and how much of it is used, of made meshes or of MESHes
 fields      colors and fields that change in moving meshes, against zstd and Draco frame by frame
 denoising   how denoising does on noise of known cause, beside Taubin's filter
-house       how large the repository is, beside its limits
+house       how large the repository is and how it reads, beside the last release
 """
 
 from tools.command import dispatch
