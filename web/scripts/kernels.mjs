@@ -197,7 +197,7 @@ void make_priors(void) {
 /** Compare the priors that the kernels make with those of the repository. */
 function checkPriors(clang, object, priors, target) {
     const exported = ["make_priors", "PRIORS"].map((name) => `-Wl,--export=${name}`);
-    clang(TARGET, "-nostdlib", object, "-Wl,--no-entry", "-Wl,--initial-memory=1048576", ...exported, "-o", target);
+    clang(TARGET, "-nostdlib", object, "-Wl,--no-entry", "-Wl,--initial-memory=2097152", ...exported, "-o", target);
     const { exports } = new WebAssembly.Instance(new WebAssembly.Module(readFileSync(target)));
     exports.make_priors();
     const made = new Uint8Array(exports.memory.buffer, exports.PRIORS.value, priors.length);
