@@ -7,7 +7,7 @@ from itertools import islice
 
 import numpy as np
 
-from bsm.bitstream.errors import public
+from bsm.bitstream.errors import OptionError, public
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import check_options
@@ -17,11 +17,13 @@ from bsm.codec.denoise.learnt import Learnt, joined, learnt
 from bsm.codec.denoise.noise.causes import FARTHEST, Cells, Spacing
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.paper import POWER, ROUNDS
 from bsm.codec.denoise.planes import Planes, find_planes
 from bsm.codec.denoise.surface import FINE_STEPS, Guide, GuidedFilter, Topology, patch_guidance, surface_normals
 from bsm.codec.geometry.metrics import face_normals
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}
+METHODS = ("spectral", "oi")  # of options; without options, the data choose
 RAYS = "rays"  # the hand-over of scans of one view, see `View.flattened`; what is kept is its strength then
 BENDS = "bends"  # of thick slices, see `Cells.flattened`, and of fused views, where `keep` is the weight of bends
 
@@ -52,10 +54,16 @@ HAND_OVERS: dict[str, HandOver] = {
 @public
 @dataclass(frozen=True, kw_only=True)
 class DenoiseOptions:
-    """Options of denoising. The defaults are the paper's coarse-to-fine scheme.
+    """Options of denoising by a coarse spectral step and a fine step on face normals.
 
     Parameters
     ----------
+    method : str
+        Basis of the coarse step. "spectral": of one mesh, exact eigenvectors of a Laplacian whose edges weigh one over
+        their length; this is not the paper's. Frames of a sequence share bases by orthogonal iterations without
+        weights. "oi" (the paper's): orthogonal iterations without weights, in one chain of blocks.
+    power, rounds : int
+        With "oi", z of the iterated matrix R^z, and the iterations of each block but the first.
     hand_over : str
         "positions" (the paper's: the fine step sees the coarse mesh), "heights" (the same, but no vertex slides
         along the surface), "normals" (the noisy mesh, after a pass guided by the coarse mesh's normals) or "none" (no
@@ -81,6 +89,9 @@ class DenoiseOptions:
     >>> clean = bsm.denoise("scan.ply", own)
     """
 
+    method: str = METHODS[0]
+    power: int = POWER
+    rounds: int = ROUNDS
     hand_over: str = "positions"
     fine: str = "guided"
     iterations: int | None = None
@@ -88,8 +99,11 @@ class DenoiseOptions:
     block_size: int = BLOCK_SIZE
 
     def __post_init__(self) -> None:
-        choices = {"hand_over": tuple(HAND_OVERS), "fine": tuple(FINE_STEPS)}
-        check_options(self, choices, {"iterations": (0, 1 << 20), "keep": (1e-6, 1.0), "block_size": (1, 1 << 20)})
+        choices = {"method": METHODS, "hand_over": tuple(HAND_OVERS), "fine": tuple(FINE_STEPS)}
+        counts = {"power": (1, 255), "rounds": (1, 255), "iterations": (0, 1 << 20), "block_size": (1, 1 << 20)}
+        check_options(self, choices, {**counts, "keep": (1e-6, 1.0)})
+        if self.method != "oi" and (self.power, self.rounds) != (POWER, ROUNDS):
+            raise OptionError(f"power and rounds are for method oi, not for {self.method}")
 
 
 LEARNT, USUAL_KEPT = 0.6, 0.2  # share of learnt normals; and of frequencies that most coarse steps keep at most

@@ -17,6 +17,7 @@ from bsm.codec.denoise.noise.causes import weld_seams
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import calm
 from bsm.codec.denoise.noise.search import FAINTEST, find_noise
+from bsm.codec.denoise.paper import oi_rules
 from bsm.codec.denoise.rehearsal import GOALS, Progress
 from bsm.codec.denoise.surface import FINE_STEPS, GuidedFilter
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
@@ -153,8 +154,13 @@ class FrameDenoiser:
         iterations = {} if options.iterations is None else {"iterations": options.iterations}
         coarse, first = None, list(islice(frames, 2))
         if options.hand_over != "none":
-            # Weights by lengths differ from frame to frame, and would need dictionaries of their own for each.
-            rules = RULES if len(first) != 1 else by_lengths(first[0][self._members])  # frames share dictionaries
+            if options.method == "oi":
+                rules = oi_rules(options.power, options.rounds)
+            elif len(first) == 1:
+                rules = by_lengths(first[0][self._members])
+            else:
+                # Weights by lengths differ from frame to frame, and would need dictionaries of their own for each.
+                rules = RULES
             coarse = CoarseFilter(topology.faces, topology.n, options.keep, options.block_size, rules)
 
         def finish(task: tuple[int | None, Positions]) -> Pair:

@@ -560,7 +560,7 @@ def denoise(
     options : DenoiseOptions, optional
         Instead of keywords.
     **keywords
-        Fields of `DenoiseOptions`. Without any, the function chooses the method by the noise of the mesh.
+        Fields of `DenoiseOptions`. Without any, or with method="auto", the noise of the mesh decides the method.
     goal : str
         Aim of this choice: "shading" (normals close to the true ones) or "shape" (vertices).
     strength : float

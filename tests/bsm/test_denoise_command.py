@@ -123,9 +123,13 @@ def test_harm_has_an_exit_code_of_its_own_and_writes_nothing_unless_forced(tmp_p
 
 def test_every_option_reaches_the_library(noisy_file, tmp_path):
     given = ("--fine", "bilateral-normal", "--hand-over", "normals", "--keep", "0.2", *FEW)
+    given = (*given, "--method", "oi", "--power", "2", "--rounds", "3")
     ran = bsm("denoise", noisy_file, "-o", tmp_path / "out.ply", "--json", "-q", *given)
     assert ran.returncode == 0 and ran.stderr == ""
     assert json.loads(ran.stdout)["options"] == {
+        "method": "oi",
+        "power": 2,
+        "rounds": 3,
         "fine": "bilateral-normal",
         "hand_over": "normals",
         "keep": 0.2,

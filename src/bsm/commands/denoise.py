@@ -65,8 +65,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     ways = parser.add_argument_group(
         "instead of the automatic mode",
         "Without these options, bsm chooses the method by the noise of the mesh, or of the first frame.\n"
-        "If you give one, the others have the values of the paper. A result that loses detail is written\n"
-        "only with --force.",
+        "If you give one, the others have their defaults. The scheme of the paper is --method oi. A result\n"
+        "that loses detail is written only with --force.",
     )
     add_flags(ways, "denoise method")
 

@@ -96,11 +96,16 @@ def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keyword
 
 
 def denoise_options(**keywords: Any) -> Any:
-    """The options for denoising that keywords ask for; None without any: everything is chosen by the data."""
+    """The options for denoising that keywords ask for; None without any, or for method auto: the data choose."""
     # Imported on demand, like all that loads scipy.
     from bsm.codec.denoise import DenoiseOptions  # needs scipy
 
-    return DenoiseOptions(**_fields("denoising", _names(DenoiseOptions), keywords, {})) if keywords else None
+    fields_given = _fields("denoising", _names(DenoiseOptions), keywords, {})
+    if fields_given.get("method") == "auto":
+        del fields_given["method"]
+        if fields_given:
+            raise OptionError(f"method auto chooses {next(iter(fields_given))} itself; leave it out, or name a method")
+    return DenoiseOptions(**fields_given) if fields_given else None
 
 
 def _names(*kinds: Any) -> set[str]:
