@@ -57,6 +57,7 @@ def test_info_adds_up(folder, capsys, mesh):
     assert len(info["coefficients"]) == info["blocks"] > 1
     sizes = info["bytes"]
     total = sizes.pop("total")
+    assert sizes["coefficients"] == sum(info["positions"].values())
     assert total == (folder / "sample.bsm").stat().st_size == sum(sizes.values())
     assert all(size >= 0 for size in sizes.values())
     assert info["bpv_total"] == pytest.approx(8 * total / info["vertices"])
@@ -68,8 +69,10 @@ def test_info_adds_up(folder, capsys, mesh):
     ("options", "expected", "absent"),
     [
         (["--grid", "8"], "positions on a grid of ", "blocks"),
+        (["--grid", "8"], "\n    grid  ", "levels of"),
         (["--quick"], "positions on a grid of ", "blocks"),
         (["--set", "step=0.004"], " blocks of ", "paper"),
+        (["--set", "step=0.004"], "\n    blocks  ", "grid"),
         (["--set", "bits=12"], " by the paper's formula\n", "refinement"),
         (["--preset", "paper"], "\npreset paper: R^2, iterations 1, 12 bits a coefficient, METIS", "refinement"),
     ],

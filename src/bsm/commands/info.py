@@ -72,6 +72,7 @@ def summarize(info: StreamInfo) -> dict[str, Any]:
         "block_size": header.block_size,
         "coefficients": list(info.coefficients),
         "bytes": info.sizes,
+        "positions": info.positions,
         "checksum": None if info.checksum is None else f"{info.checksum:08x}",
         "frames": info.frames,
         "gops": [asdict(gop) for gop in info.gops],
@@ -98,9 +99,15 @@ def _worded(summary: Facts) -> str:
         head = f"scene of {summary['primitives']} primitives, {len(summary['streams'])} streams"
         return "\n\n".join([head, *(f"bufferView {n}: {_worded(found)}" for n, found in summary["streams"].items())])
     total = summary["bytes"]["total"]
-    sizes = {("positions" if name == "coefficients" else name): size for name, size in summary["bytes"].items()}
+    shares = list[str]()
     # Bytes of all parts add up to the file, framing included, so that nothing stays unexplained.
-    shares = [f"  {name:<13}{size:>12}  {100 * size / total:5.1f} %" for name, size in sizes.items()]
+    for name, size in summary["bytes"].items():
+        if name != "coefficients":
+            shares.append(_share_line(f"  {name}", size, total))
+            continue
+        shares.append(_share_line("  positions", size, total))
+        kinds = {kind: count for kind, count in summary["positions"].items() if count}
+        shares += [_share_line(f"    {kind.replace('_', ' ')}", count, total) for kind, count in kinds.items()]
     rates = []
     if not summary["frames"]:
         rates = [f"bits per vertex: {summary['bpv_total']:.3f} in total, {summary['bpv_geometry']:.3f} for positions"]
@@ -131,6 +138,10 @@ def _worded(summary: Facts) -> str:
         *(["metadata:", *entries] if entries else []),
     ]
     return "\n".join(lines)
+
+
+def _share_line(name: str, size: int, total: int) -> str:
+    return f"{name:<22}{size:>12}  {100 * size / total:5.1f} %"
 
 
 def _paper_lines(summary: Facts) -> list[str]:

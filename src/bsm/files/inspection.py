@@ -58,6 +58,7 @@ class StreamInfo:
     gops: tuple[GopInfo, ...]
     attributes: tuple[AttributeInfo, ...]
     sizes: dict[str, int]  # bytes by what they carry, "framing" nothing of all that; "total" is the whole
+    positions: dict[str, int]  # bytes of positions by their kind, see `KINDS_OF_POSITIONS`; they add up to "coefficients"
     runs: tuple[RunInfo, ...]
     checksum: int | None  # of decoded positions
     version: int
@@ -95,11 +96,21 @@ class StreamInfo:
         return 3 * (bits or mean) * count / self.header.vertices
 
 
+POSITIONS = {
+    FrameType.BLOCK: "blocks",
+    FrameType.GRID: "grid",
+    FrameType.GOP: "frames",
+    FrameType.REFINEMENT: "levels_of_vertices",
+}
+LEVELS_OF_CELLS = "levels_of_cells"
+KINDS_OF_POSITIONS = ("grid", "frames", "blocks", LEVELS_OF_CELLS, "levels_of_vertices")
+"""Names of the kinds of positions. Cells have lower numbers than vertices, and no REFINEMENT has levels of both."""
+
 _CARRIED = {
     FrameType.CONNECTIVITY: "connectivity",
     FrameType.PARTITION: "partition",
     FrameType.ORDER: "order",
-    **dict.fromkeys((FrameType.BLOCK, FrameType.GOP, FrameType.GRID, FrameType.REFINEMENT), "coefficients"),
+    **dict.fromkeys(POSITIONS, "coefficients"),
 }
 
 
@@ -129,9 +140,10 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     skimmer, headers = Skimmer(limits), list[Header]()
     runs, gops, coefficients = list[RunInfo](), list[GopInfo](), list[int]()
     sizes = dict.fromkeys((*dict.fromkeys(_CARRIED.values()), "attributes", "metadata"), 0)
+    positions = dict.fromkeys(KINDS_OF_POSITIONS, 0)
     declared, lengths = list[SkimmedPacket](), Counter[int]()
     checksum: int | None = None
-    total = entries = version = 0
+    total = entries = version = levels = 0
     brief = False
     for packet in (packet for chunk in chain(chunks, (None,)) for packet in skimmer.receive(chunk)):
         total, version = packet.offset + packet.length, packet.version
@@ -154,6 +166,12 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
             case carried:
                 brief |= packet.length == 0
                 sizes[_CARRIED[FrameType(carried)]] += packet.data
+                if carried in POSITIONS:
+                    cells, *_ = headers[0].base or (0,)
+                    of_cells = carried == FrameType.REFINEMENT and levels < cells
+                    positions[LEVELS_OF_CELLS if of_cells else POSITIONS[FrameType(carried)]] += packet.data
+        if packet.type == FrameType.REFINEMENT:
+            levels += packet.count
         if packet.type == FrameType.BLOCK:
             coefficients.append(packet.count)
         if packet.type == FrameType.GOP:
@@ -165,7 +183,19 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     sizes["attributes"] = sum(attribute.bytes for attribute in attributes)
     sizes |= {"framing": total - sum(sizes.values()), "total": total}
     numbers, known = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
-    return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known, checksum, version, brief)
+    return StreamInfo(
+        headers[0],
+        metadata,
+        numbers,
+        tuple(gops),
+        attributes,
+        sizes,
+        positions,
+        known,
+        checksum,
+        version,
+        brief,
+    )
 
 
 def _attribute_info(packet: SkimmedPacket, size: int) -> AttributeInfo:

@@ -9,8 +9,9 @@ from bsm import BlockEvent, Decoder, EndEvent, Limits, LossEvent, RefinementEven
 from bsm._core import Decoder as Engine
 from bsm.bitstream.container.wire import FrameType
 from bsm.codec.decoding import BLOCK, REFINEMENT, Event, mask_of
+from bsm.files.inspection import inspect_stream
 from tests.shapes import torus
-from tools.surgery import spans_of, with_header
+from tools.surgery import Cursor, spans_of, with_header
 
 KINDS = FrameType.BLOCK, FrameType.REFINEMENT
 
@@ -107,3 +108,19 @@ def test_another_number_of_cells_is_refused() -> None:
     base = events_of(stream())[0].header.base
     with pytest.raises(ValueError, match="cells where the header has"):
         decode(with_header(stream(), base=[base[0] - 1, *base[1:]]))
+
+
+def test_positions_are_counted_by_blocks_levels_of_cells_and_levels_of_vertices() -> None:
+    """Against a walk over the frames: every frame of both kinds begins with two numbers, and data follow."""
+    info = inspect_stream(iter([stream()]))
+    expected = dict.fromkeys(("blocks", "levels_of_cells", "levels_of_vertices"), 0)
+    for span in spans_of(stream()):
+        if span.type not in KINDS:
+            continue
+        cursor = Cursor(span.payload)
+        first, _ = cursor.varint(), cursor.varint()
+        levels = "levels_of_cells" if first < info.header.base[0] else "levels_of_vertices"
+        expected["blocks" if span.type == FrameType.BLOCK else levels] += len(cursor.rest())
+    assert min(expected.values()) > 0
+    assert {kind: size for kind, size in info.positions.items() if size} == expected
+    assert sum(info.positions.values()) == info.sizes["coefficients"]
