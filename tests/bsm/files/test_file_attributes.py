@@ -167,7 +167,6 @@ def test_metadata_that_are_too_large_are_left_out_and_reported(tmp_path):
     (tmp_path / "a.mtl").write_text("newmtl m\nmap_Kd a.png\nmap_Bump b.png\n")
     (tmp_path / "a.png").write_bytes(png() + bytes(900))
     (tmp_path / "b.png").write_bytes(png() + bytes(5000))
-    (tmp_path / "a.obj").write_text(f"mtllib a.mtl\nusemtl m\n{TRIANGLE}f 1 2 3\n")
     (tmp_path / "a.obj").write_text(f'# meta story: "{"long " * 300}"\nmtllib a.mtl\nusemtl m\n{TRIANGLE}f 1 2 3\n')
     source = read_mesh(tmp_path / "a.obj", limits=Limits(metadata_bytes=1000))
     assert {"image.0.data", "image.1.data"} <= source.mesh.metadata.keys(), "images do not count"
