@@ -58,7 +58,7 @@ class StreamInfo:
     gops: tuple[GopInfo, ...]
     attributes: tuple[AttributeInfo, ...]
     sizes: dict[str, int]  # bytes by what they carry, "framing" nothing of all that; "total" is the whole
-    positions: dict[str, int]  # bytes of positions by their kind, see `KINDS_OF_POSITIONS`; they add up to "coefficients"
+    positions: dict[str, int]  # bytes of positions by kind, see `KINDS_OF_POSITIONS`; they add up to "coefficients"
     runs: tuple[RunInfo, ...]
     checksum: int | None  # of decoded positions
     version: int
