@@ -184,17 +184,7 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     sizes |= {"framing": total - sum(sizes.values()), "total": total}
     numbers, known = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
     return StreamInfo(
-        headers[0],
-        metadata,
-        numbers,
-        tuple(gops),
-        attributes,
-        sizes,
-        positions,
-        known,
-        checksum,
-        version,
-        brief,
+        headers[0], metadata, numbers, tuple(gops), attributes, sizes, positions, known, checksum, version, brief
     )
 
 
