@@ -2,6 +2,10 @@
 #include "bitstream/kernel.hpp"
 #include "codec/guards.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 extern "C" {
 #include "codec/basis/basis.h"
 #include "codec/blocks/blocks.h"
@@ -42,6 +46,12 @@ void bind_codec(nb::module_ &m) {
     GUARDED(couple_cells) GUARDED(level_cells)
     m.attr("BATCH") = static_cast<int>(BATCH);
     m.attr("LEAST_KEPT") = static_cast<int>(LEAST_KEPT);
+    // Freed arrays stay with the process, in glibc those below 32 MiB: this returns their pages to the system.
+    m.def("return_free_memory", [] {
+#ifdef __GLIBC__
+        malloc_trim(0);
+#endif
+    }, nb::call_guard<nb::gil_scoped_release>());
     m.def("frames_kept", &frames_kept, "vertices"_a);
     GUARDED(label_components) GUARDED(weighted_angle)
     GUARDED(local_frames) GUARDED(tangent_steps) CHECKED(add_heights) CHECKED(add_slides)

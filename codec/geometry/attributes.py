@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, MeshError, public
-from bsm.codec.arrays import Faces, Indices, Matrix, Order, as_array
+from bsm.codec.arrays import Faces, Indices, Matrix, Order, as_array, sealed
 
 Domain = Literal["vertex", "corner", "face"]
 Semantic = Literal["generic", "color", "normal", "texcoord"]
@@ -94,13 +94,10 @@ class Attribute:
             # Kernels and viewers index with these.
             if indices.size and not (indices.min() >= 0 and indices.max() < len(values)):
                 raise MeshError(f"an index of {what} is outside 0..{len(values) - 1}")
-            indices = indices.astype(np.int32)
-            indices.setflags(write=False)
-            object.__setattr__(self, "indices", indices)
+            object.__setattr__(self, "indices", sealed(indices.astype(np.int32, copy=False)))
         elif self.indices is not None:
             raise MeshError(f"{what} has indices, but is not of corners")
-        values.setflags(write=False)
-        object.__setattr__(self, "values", values)
+        object.__setattr__(self, "values", sealed(values))
 
     @property
     def components(self) -> int:

@@ -54,6 +54,8 @@ def vertex_faces(faces: Faces, n: int) -> Lists:
     """Faces, or longer rows of vertices, around each vertex; one that names a vertex twice is listed once."""
     starts, members = np.empty(n + 1, np.int64), np.empty(faces.size, np.int32)
     _kernels.vertex_faces(np.ascontiguousarray(faces, np.int32), starts, members)
+    if starts[n] == len(members):
+        return Lists(starts, members)
     return Lists(starts, members[: starts[n]].copy())
 
 

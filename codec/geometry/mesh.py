@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from bsm.bitstream.errors import ArgumentError, MeshError, public
-from bsm.codec.arrays import Faces, Matrix, Order, Positions, as_array
+from bsm.codec.arrays import Faces, Matrix, Order, Positions, as_array, sealed
 from bsm.codec.geometry.attributes import Attribute
 
 Metadata = Mapping[str, str | int | float | bytes]  # whatever an author wants to say of a mesh
@@ -82,11 +82,9 @@ class TriangleMesh:
         if bad.any():
             row = int(np.argmax(bad.any(axis=1)))
             raise MeshError(f"face {row} refers to vertex {faces[row].tolist()}, outside 0..{len(positions) - 1}")
-        faces = faces.astype(np.int32)
-        positions.setflags(write=False)
-        faces.setflags(write=False)
-        object.__setattr__(self, "positions", positions)
-        object.__setattr__(self, "faces", faces)
+        faces = faces.astype(np.int32, copy=False)
+        object.__setattr__(self, "positions", sealed(positions))
+        object.__setattr__(self, "faces", sealed(faces))
         object.__setattr__(self, "attributes", tuple(self.attributes))
         # numpy's scalars are not JSON, and not msgpack.
         plain = {k: value.item() if isinstance(value, np.generic) else value for k, value in self.metadata.items()}

@@ -105,7 +105,10 @@ class Reference:
         # All relative errors are over the diagonal. A mesh of one point has none, and its errors stay as they are.
         self.scale = float(np.linalg.norm(extent_of(self.positions))) or 1.0
         self.by_area = Original(self.positions, self.faces)
-        self.alike = self.by_area.alike()
+
+    @cached_property
+    def alike(self) -> Original:
+        return self.by_area.alike()
 
     @cached_property
     def _neighbors(self) -> Lists:

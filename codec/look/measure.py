@@ -86,13 +86,18 @@ class Gallery:
     """Pictures of an original; each is drawn when it is first looked at."""
 
     def __init__(self, cameras: Sequence[Matrix], positions: Positions, faces: Faces, normals: Normals) -> None:
-        self._cameras, self._mesh = cameras, (positions, faces, normals)
+        self._cameras = cameras
+        self._mesh: tuple[Positions, Faces, Normals] | None = (positions, faces, normals)
         self._pictures: dict[int, Picture] = {}
 
     def picture(self, canvas: Canvas, side: int) -> Picture:
         """Return the picture from one side; draw it on this canvas the first time."""
-        if side not in self._pictures:
-            self._pictures[side] = canvas.draw(*self._mesh, self._cameras[side], owned=False)
+        mesh = self._mesh
+        if side not in self._pictures and mesh is not None:
+            self._pictures[side] = canvas.draw(*mesh, self._cameras[side], owned=False)
+        # After the last picture, nothing needs the mesh, which is as large as all others together.
+        if len(self._pictures) == len(self._cameras):
+            self._mesh = None
         return self._pictures[side]
 
 

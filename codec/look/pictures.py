@@ -64,12 +64,18 @@ class Shape:
         index = group_rows(np.rint(positions * _GRID))
         # Grouped on a grid of 2^-24 of the diagonal: finer distances are rounding.
         joined = index[faces]
+        if np.array_equal(joined, faces):
+            joined = faces  # one array instead of two
         # Nearly always the same: lists of faces around vertices take longer than the comparison.
         if known is not None and np.array_equal(joined, known.joined):
             return known
         counted, places = np.flatnonzero(~degenerate(joined)).astype(np.int32), int(index.max()) + 1
-        around = vertex_faces(joined if len(counted) == len(joined) else joined[counted], places)
-        return cls(np.ascontiguousarray(faces, np.int32), joined, Lists(around.starts, counted[around.members]))
+        if len(counted) == len(joined):
+            around = vertex_faces(joined, places)
+        else:
+            around = vertex_faces(joined[counted], places)
+            around = Lists(around.starts, counted[around.members])
+        return cls(np.ascontiguousarray(faces, np.int32), joined, around)
 
     def normals(self, positions: Positions) -> Normals:
         """Normals of corners as viewers make them, shape (m, 9), for `positions`, shape (n, 3)."""
@@ -92,10 +98,12 @@ class Canvas:
 
     def draw(self, positions: Positions, faces: Faces, normals: Normals, camera: Matrix, owned: bool = True) -> Picture:
         """Draw a mesh, lit alike on both sides; if `owned`, `owner` is the face that each sample shows, or -1."""
-        self._placed = np.empty(positions.shape)
+        placed = np.empty(positions.shape)
         self.owner = np.empty(self.samples.shape if owned else (0, 0), np.int32)
         room, on = np.empty(len(faces), np.int32), (self._depth, self._tiles, self.samples, self.owner, self._drawn)
-        _kernels.draw_shaded(positions, faces, normals, camera, self._placed, room, on)
+        _kernels.draw_shaded(positions, faces, normals, camera, placed, room, on)
+        if owned:
+            self._placed = placed  # colors are painted from the owners and these places
         return averaged(self.samples)
 
     def in_colors(self, faces: Faces, colors: Matrix) -> list[Picture]:

@@ -14,7 +14,7 @@ from bsm.bitstream.container.header import EXACT, Header
 from bsm.bitstream.errors import OptionError, TargetError, public
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Order
+from bsm.codec.arrays import Order, end_phase
 from bsm.codec.blocks import overlap
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference, decibel
@@ -198,7 +198,7 @@ class Encoder:
     def _begun(self, progress: Progress | None) -> Nearing:
         """Prepare, and return what reports the rest."""
         near = Nearing(progress)
-        _ = self._input.prepared
+        end_phase(self._input.prepared.graph.size)
         near.by()
         return near
 
@@ -317,14 +317,17 @@ class Encoder:
     def _verified(self, draft: Draft, near: Nearing, contract: Contract | None = None) -> Draft:
         """Return the draft, after the decoder has returned the same mesh and it keeps the contract."""
         near.by()
-        original = AsGiven(self._input.given, self._input.joined, self._input.prepared)
-        with as_of_decoders(self.options.limits):
-            limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
-            self.decoded = verify(draft, original, self._input.carried, self._input.given.metadata, limits, threads)
         broken = ""
         if contract is not None:
             broken, self.look, self.binding = self._input.measured(draft, contract)
-            self.unseen = self._input.measures.unseen if contract.look < math.inf else ""
+            if contract.look < math.inf:
+                self.unseen = self._input.measures.unseen
+                self._input = self._input.rested()  # pictures would lie beside the decoder
+        original = AsGiven(self._input.given, self._input.joined, self._input.prepared)
+        end_phase(draft.header.vertices)
+        with as_of_decoders(self.options.limits):
+            limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
+            self.decoded = verify(draft, original, self._input.carried, self._input.given.metadata, limits, threads)
         require(not broken, f"{contract} was promised, and the decoded mesh has {broken}")
         self._kept_exactly = contract is not None and draft.header.light == EXACT
         near.to(1.0)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm._core import Cut, Field, GivenMesh
 from bsm._core.bitstream import constant
@@ -17,7 +18,7 @@ from bsm.bitstream.container.packets import Packet, SectionWriter, write_brief
 from bsm.bitstream.container.wire import FrameType, write_frame
 from bsm.bitstream.errors import MeshError, OptionError, TargetError, counted
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions
+from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions, sealed
 from bsm.codec.blocks import overlap
 from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import Graph, components, graph_of_faces
@@ -40,8 +41,14 @@ class JoinedMesh:
     kept: Order
     splits: Order | None  # the given vertices that come back; None: the joined ones do
     notes: tuple[str, ...]
-    coder: GivenMesh
+    coder: GivenMesh | None  # None: nothing is coded from it anymore
     given: Positions
+
+    @property
+    def coding(self) -> GivenMesh:
+        """The coder, where something is still coded from it."""
+        assert self.coder is not None
+        return self.coder
 
     @property
     def losses(self) -> tuple[str, ...]:
@@ -73,7 +80,11 @@ def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool =
         notes.append(f"left out {counted(faces=collapsed)} without area")
     if loose and not (keep and keep_loose):
         notes.append(f"left out {counted(vertices=loose)} that no face uses")
-    whole = TriangleMesh(mesh.positions[first], index[mesh.faces[kept]])
+    unchanged = len(first) == len(mesh.positions) and len(kept) == len(mesh.faces) and bool((np.diff(first) > 0).all())
+    if unchanged:
+        whole = TriangleMesh(mesh.positions, mesh.faces)  # which share the arrays
+    else:
+        whole = TriangleMesh(sealed(mesh.positions[first]), sealed(index[mesh.faces[kept]]))
     places, faces = first.astype(np.int64), kept.astype(np.int64)
     return JoinedMesh(whole, index, places, faces, splits, tuple(notes), coder, mesh.positions)
 
@@ -128,7 +139,7 @@ class Prepared:
     vertex_order: Order
     face_order: Order
     coding_faces: Order
-    first_corners: Order
+    first_corners: npt.NDArray[np.uint8]
     joined_faces: Faces
     light: bool
     congruence: bool
@@ -237,10 +248,11 @@ def prepare(
     joined: JoinedMesh, parts: Parts, *, keep_order: bool, light: bool = False, congruence: bool = False
 ) -> Prepared:
     """Code the connectivity of a mesh."""
-    mesh, connectivity = joined.mesh, EncodedConnectivity(*joined.coder.code())
+    mesh, connectivity = joined.mesh, EncodedConnectivity(*joined.coding.code())
     coding_order = connectivity.vertex_order.astype(np.int64)
-    ordered = TriangleMesh(mesh.positions[coding_order], connectivity.faces)
-    order = (packets.Order(joined.coder.order(joined.given)),) if keep_order else ()
+    coding_faces = connectivity.face_order.astype(np.int64)
+    ordered = TriangleMesh(sealed(mesh.positions[coding_order]), sealed(connectivity.faces))
+    order = (packets.Order(joined.coding.order(joined.given)),) if keep_order else ()
     return Prepared(
         mesh=ordered,
         graph=graph_of_faces(ordered.faces, len(coding_order)),
@@ -251,9 +263,9 @@ def prepare(
         coding_order=coding_order,
         # A stream with an order is decoded in the given one, so for callers nothing has moved.
         vertex_order=np.arange(len(coding_order)) if keep_order else coding_order,
-        face_order=np.arange(len(mesh.faces)) if keep_order else connectivity.face_order.astype(np.int64),
-        coding_faces=connectivity.face_order.astype(np.int64),
-        first_corners=connectivity.first_corners.astype(np.int64),
+        face_order=np.arange(len(mesh.faces)) if keep_order else coding_faces,
+        coding_faces=coding_faces,
+        first_corners=connectivity.first_corners,
         joined_faces=mesh.faces,
         light=light,
         congruence=congruence,

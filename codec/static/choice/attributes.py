@@ -44,20 +44,33 @@ class Sent:
         """Return an input with other values of some fields and results, and all else that was computed."""
         return with_results(self, **known)
 
-    @cached_property
+    @property
     def joined(self) -> JoinedMesh:
-        return join(self.given, keep=self.options.keep_order, exact=self.options.exact)
+        return self._begun[0]
+
+    @property
+    def prepared(self) -> Prepared:
+        return self._begun[1]
 
     @cached_property
-    def prepared(self) -> Prepared:
+    def _begun(self) -> tuple[JoinedMesh, Prepared]:
         options = self.options
-        return prepare(
-            self.joined,
+        joined = join(self.given, keep=options.keep_order, exact=options.exact)
+        prepared = prepare(
+            joined,
             Parts.of(options.block_size, options.growth, options.paper.partition),
             keep_order=options.keep_order,
             light=options.effort == "quick",
             congruence=options.congruence,
         )
+        if not self.given.attributes:
+            joined = replace(joined, coder=None)  # it is as large as ten meshes
+        return joined, prepared
+
+    def rested(self) -> Sent:
+        """Return the input without all that was measured for the search; it is measured again if it is needed."""
+        joined, prepared = self._begun
+        return replace(self).but(_begun=(joined, replace(prepared)), wanted=self.wanted, carried=self.carried)
 
     @cached_property
     def wanted(self) -> tuple[tuple[Attribute, Quality], ...]:
@@ -69,7 +82,7 @@ class Sent:
         return self.carry(self.wanted)
 
     def carry(self, wanted: Sequence[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
-        return carry(self.joined.coder, self.prepared.mesh.faces, wanted) if wanted else ()
+        return carry(self.joined.coding, self.prepared.mesh.faces, wanted) if wanted else ()
 
     def wanted_with(self, index: int, quality: Quality) -> tuple[tuple[Attribute, Quality], ...]:
         """All attributes, one of them with another quality."""

@@ -8,10 +8,10 @@ import numpy as np
 
 from bsm.bitstream.container.header import Layer
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.arrays import Levels, Matrix, end_phase
 from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.signal.transform import smallest_step
-from bsm.codec.static.choice.bounds import COARSEST, LEAST, SEEN, SPIKE, Bounds, Trial, unfolded
+from bsm.codec.static.choice.bounds import COARSEST, LEAST, SEEN, SPIKE, Bounds, Trial
 from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
@@ -24,6 +24,7 @@ BROADEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost decoders more time than their bytes are worth."""
 BASE = 0.36  # the step of blocks on all vertices below a layer, over the square root of the layer's step
 APART = 4.0  # steps with other blocks, over one another
+UNFOLDED = 4  # rounds in which edges that fold over are mended
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
 
 
@@ -40,8 +41,24 @@ class OnCells:
     def __call__(self, step: float) -> RefinementBase:
         within, layer = self._measures.near.within(), Layer(single(step), RATIO)
         many = step > 2.0 * SEEN * self._measures.shaper.mean_edge  # most levels are 0
-        found, *others = (base for spread in self._spread[: None if many else 1] for base in spread.bases(step, within))
-        return min([found, *others], key=lambda base: base.about(layer)) if others else found
+        spreads = self._spread if many else self._spread[:1]
+        best: RefinementBase | None = None
+        fewest = math.inf
+        for spread in spreads:
+            last = math.inf
+            # One after another, and only the best is kept: each holds arrays as large as several meshes.
+            for base in spread.bases(step, within):
+                end_phase(len(base.positions))
+                size = base.about(layer)
+                if size < fewest:
+                    best, fewest = base, size
+                # From the finest step of cells on, sizes fall to the best one and rise after it.
+                if size > last:
+                    break
+                last = size
+        assert best is not None  # each spread has at least one
+        end_phase(len(best.positions))
+        return best
 
 
 class OnVertices:
@@ -89,32 +106,43 @@ class Refined:
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
         self.least, self.most = LEAST, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), LEAST)
-        self.at, self._based = lru_cache(1)(self._made), lru_cache(2)(based)
+        self._based = lru_cache(2)(based)
+        self._last: tuple[float, Trial] | None = None
 
     @cached_property
     def first(self) -> float:
         # Of the look that a usual layer takes, steps along tangents take a little less than those along normals.
         return self._bounds.first_step / math.hypot(1.0, 0.93 * self.ratio / RATIO)
 
+    def at(self, step: float) -> Trial:
+        # Not by `lru_cache`: around a method, it is a cycle, which keeps all arrays until garbage is collected.
+        if self._last is None or self._last[0] != step:
+            self._last = step, self._made(step)
+        return self._last[1]
+
     def _made(self, step: float) -> Trial:
         base = self._base(step)
         if self._settled:
-            found = self._leveled(step, base, *self._nearer(base, *self._evened(step, base)))
-            return unfolded(found) or found
+            return self._unfolded(step, base, *self._nearer(base, *self._evened(step, base)))
         layer = Layer(single(step), RATIO)
         levels = self._shaped(base, layer)
         return self._leveled(step, base, layer, levels, base.known_steps(layer, levels))
 
+    def _unfolded(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Trial:
+        """These levels, but with fewer edges folded over; others may then need it."""
+        for _ in range(UNFOLDED):
+            positions = base.moved(layer, levels, known)
+            directions = base.directions(known).reshape(-1, 9)
+            other = self._bounds.measures.shaper.unfold(positions, levels, directions, self._near(known))
+            if other is None:
+                break
+            levels, known = other, base.known_steps(layer, other)
+        return self._leveled(step, base, layer, levels, known)
+
     def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Trial:
         positions = base.moved(layer, levels, known)
-
-        def unfold() -> Trial | None:
-            directions = base.wanted(known)[1].reshape(-1, 9)
-            other = self._bounds.measures.shaper.unfold(positions, levels, directions, self._near(known))
-            return None if other is None else self._leveled(step, base, layer, other, base.known_steps(layer, other))
-
         make = partial(base.refined, layer, levels, positions)
-        return Trial(step, positions, make, base.draft.size, unfold, self._settled)
+        return Trial(step, positions, make, base.draft.size, self._settled)
 
     def _near(self, steps: Matrix) -> Matrix:
         """How far vertices may be brought from their places by steps, shape (n, 3)."""

@@ -6,6 +6,7 @@ from copy import copy
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from typing import NamedTuple
+from weakref import ReferenceType
 
 import numpy as np
 
@@ -81,13 +82,12 @@ class Measures:
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """The result of a step: decoded positions, in BSM units, shape (n, 3), the stream, versions with fewer folds."""
+    """The result of a step: decoded positions, in BSM units, shape (n, 3), and the stream."""
 
     step: float
     positions: Matrix
     make: Callable[[], Draft]
     fixed: int  # bytes that are the same at all steps
-    unfold: Callable[[], "Trial | None"] = lambda: None
     settled: bool = False  # whether levels are kept within reach, whatever the step is
     repeating: Callable[[], Draft] | None = None  # the same positions, predicted by congruent parts
     decoded: Positions | None = None  # in the unit of the mesh, where `positions` are rounded
@@ -109,15 +109,6 @@ def trial_of(prepared: Prepared, draft: Draft) -> Trial:
     return Trial(0.0, prepared.units.into(draft.decoded), lambda: draft, 0, decoded=draft.decoded)
 
 
-def unfolded(candidate: Trial) -> Trial | None:
-    """The candidate with fewer edges folded over, None if few are; of blocks, others may need it again."""
-    found = last = candidate.unfold()
-    for _ in range(3):
-        last = last and last.unfold()
-        found = last or found
-    return found
-
-
 class Bounds:
     """Measures decoded positions, in BSM units, shape (n, 3), against a contract."""
 
@@ -127,7 +118,8 @@ class Bounds:
         self.reaches = measures.reaches(contract) * (1.0 - LEAST)
         self.gaps = measures.gaps(contract)
         self._best: tuple[float, ...] | None = None
-        self._last: tuple[Trial, tuple[float, float, float, float]] | None = None
+        # Weakly: trials know how they are made, and so these bounds; both would live until garbage is collected.
+        self._last: tuple[ReferenceType[Trial], tuple[float, float, float, float]] | None = None
 
     def excess(self, candidate: Trial) -> float:
         """The logarithm of the largest share of a bound that depends on the step."""
@@ -201,14 +193,14 @@ class Bounds:
 
     def _shares(self, candidate: Trial, look: float | None = None) -> tuple[float, float, float, float]:
         """Shares of the bounds on distances, on the angle of normals, on the visual error, and on the look."""
-        if look is None and self._last is not None and self._last[0] is candidate:
+        if look is None and self._last is not None and self._last[0]() is candidate:
             return self._last[1]
         seen, decoded = 0.0 if look is None else look, self._decoded(candidate)
         if look is None and self.metric is not None and (seen := self.metric.with_room(decoded)) <= self.contract.look:
             seen = max(seen, self.measures.painted(decoded))
         shares = (*self._measured(candidate.positions), seen / self.contract.look)
         if look is None:
-            self._last = candidate, shares
+            self._last = ReferenceType(candidate), shares
         if self._best is None or shares < self._best:
             self._best = shares
         return shares

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator
+from copy import copy
 from dataclasses import replace
 from functools import lru_cache, partial
 
@@ -162,7 +163,7 @@ class Gridded:
         self.least = max(float((self._positions - self._low).max()) / (MOST_GRID - 4), smallest)
         self.most = COARSEST
         self._bounds = bounds
-        self.at = lru_cache(1)(self._made)
+        self._last: tuple[float, Trial] | None = None
 
     @cached_property
     def first(self) -> float:
@@ -186,6 +187,11 @@ class Gridded:
     def _planes(self) -> list[Matrix]:
         own = turned_by(self._prepared.mesh.positions, self.turn, back=True)
         return planes_of(own, self._prepared.mesh.faces)
+
+    def at(self, step: float) -> Trial:
+        if self._last is None or self._last[0] != step:
+            self._last = step, self._made(step)
+        return self._last[1]
 
     def _made(self, step: float, mirrored: bool = True) -> Trial:
         unit = self._prepared.units.scale
@@ -241,7 +247,7 @@ class Gridded:
             made = self._made(first.step)
             self.repeats = made.draft.size < (1.0 - SLACK) * first.draft.size
             if self.repeats:
-                self.at.cache_clear()
+                self._last = None
                 return made
         return first
 
@@ -267,18 +273,20 @@ class Gridded:
 
     def _candidate(self, grid: Raster, places: Levels) -> Trial:
         prepared, may = self._prepared, may_repeat(self._prepared)
+        way = copy(self)  # as it is now, and without its last trial, which would keep itself
+        way._last = None
 
         @lru_cache
         def coded(repeats: bool) -> Draft:
             found = transforms_of(prepared, grid) if repeats else None
-            moves = self.repeats and not self.stays and found is not None and len(found) > 0
-            wanted = self._wanted(grid, places) if moves else None
+            moves = way.repeats and not way.stays and found is not None and len(found) > 0
+            wanted = way._wanted(grid, places) if moves else None
             whole = replace(grid, transforms=found)
             return grid_draft(prepared, whole, places, may and not prepared.light, wanted)
 
         def repeating() -> Draft:
-            if not may or self.repeats:
-                return coded(self.repeats)
+            if not may or way.repeats:
+                return coded(way.repeats)
             some, sized = transforms_of(prepared, grid), partial(sampled_size, prepared.mesh.faces, coded=places)
             if len(some) or prepared.light or len(places) <= SAMPLE:
                 return coded(len(some) > 0 or not prepared.light)

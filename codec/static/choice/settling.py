@@ -59,7 +59,7 @@ class Settler:
         unit = worth * float(steps[0, 0]) ** 2
         tangent = ASIDE / np.square(self._tangents(ratio))
         losses = np.column_stack([np.maximum(1.0 - tangent, 0.0), tangent]) / max(unit, 1e-300)
-        normals = in_frames(self._frames[:, 0], frames)
+        normals = in_frames(self._normals, frames)
         levels = np.rint(offsets / steps).astype(np.int32)
         creases = self._creases._replace(costs=self._creases.costs * (CREASED * count / max(worth, 1e-300)))
         axes = np.ascontiguousarray(frames)
@@ -76,8 +76,9 @@ class Settler:
         return creases_of(self._positions, self._faces)
 
     @cached_property
-    def _frames(self) -> Matrix:
-        return local_frames(self._positions, self._faces).reshape(-1, 3, 3)
+    def _normals(self) -> Matrix:
+        # A copy: a view would keep the tangents.
+        return local_frames(self._positions, self._faces)[:, :3].copy()
 
 
 def _bits(counts: Matrix) -> Matrix:

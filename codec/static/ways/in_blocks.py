@@ -1,7 +1,6 @@
 """Blocks, coded at a step as the options say, and a layer of levels on them."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
@@ -40,6 +39,8 @@ class RefinementBase:
     draft: Draft
     positions: Matrix
     coded: int  # bytes of the blocks, and of levels of cells
+    _last: list[tuple[Layer, Levels, Matrix]] = field(default_factory=list, init=False, repr=False)
+    """The last known steps, and the layer and heights that they follow from."""
 
     @cached_property
     def frames(self) -> Matrix:
@@ -49,7 +50,9 @@ class RefinementBase:
     @cached_property
     def offsets(self) -> Matrix:
         """The remaining error in these frames: along normals and tangents, shape (n, 3)."""
-        return in_frames(self.prepared.positions - self.positions, self.frames)
+        # Not the frames that are kept: a search drops most bases after a look at these.
+        frames = local_frames(self.positions, self.prepared.mesh.faces)
+        return in_frames(self.prepared.positions - self.positions, frames)
 
     def expected_steps(self, layer: Layer) -> Matrix:
         """About what levels of a layer move each vertex, shape (n, 3), before any is chosen."""
@@ -67,21 +70,23 @@ class RefinementBase:
 
     def known_steps(self, layer: Layer, levels: Levels) -> Matrix:
         """What levels of a layer move each vertex, shape (n, 3), if its heights are those of `levels`, shape (n, 3)."""
-        return self._known_steps(layer, levels[:, 0].tobytes())
+        heights = levels[:, :1]
+        # A search asks for the same heights several times in a row.
+        if self._last:
+            last_layer, last_heights, last_steps = self._last[0]
+            if layer == last_layer and np.array_equal(heights, last_heights):
+                return last_steps
+        steps = self._steps(raised(self.positions, self.frames, heights, layer.step), layer)
+        self._last[:] = [(layer, heights.copy(), steps)]
+        return steps
 
-    @cached_property
-    def _known_steps(self) -> Callable[[Layer, bytes], Matrix]:
-        def known(layer: Layer, heights: bytes) -> Matrix:
-            levels = np.frombuffer(heights, np.int32)[:, None]
-            return self._steps(raised(self.positions, self.frames, levels, layer.step), layer)
-
-        # A search asks for the same heights several times in a row, and the array is as large as the mesh.
-        return lru_cache(1)(known)
+    def directions(self, steps: Matrix) -> Matrix:
+        """What one level along each axis moves, for steps of shape (n, 3); shape (n, 3, 3)."""
+        return self.frames.reshape(-1, 3, 3) * steps[:, :, None]
 
     def wanted(self, steps: Matrix) -> tuple[Levels, Matrix]:
         """The nearest levels to steps, both of shape (n, 3), and what one of each moves, shape (n, 3, 3)."""
-        directions = self.frames.reshape(-1, 3, 3) * steps[:, :, None]
-        return np.rint(self.offsets / steps).astype(np.int32), directions
+        return np.rint(self.offsets / steps).astype(np.int32), self.directions(steps)
 
     def within(self, reaches: Matrix, layer: Layer, levels: Levels) -> tuple[Levels, Matrix]:
         """These levels, but the nearest ones where a vertex is farther off than it may be; and their known steps."""

@@ -90,7 +90,7 @@ class InCells:
         blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5), progress)
         farthest = float(np.abs(blocks.offsets).max(initial=0.0))
         finest, coarsest = (math.ceil(-math.log2(cells * apart)) for apart in (1.0 / APART, APART))
-        for halvings in range(coarsest, finest):
+        for halvings in reversed(range(coarsest, finest)):
             yield self._base(blocks, max(min(halvings, 40, int(math.log2(FARTHEST / max(farthest, LEAST)))), 1))
 
     def _base(self, blocks: RefinementBase, halvings: int) -> RefinementBase:
