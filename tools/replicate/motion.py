@@ -58,7 +58,7 @@ class Moving:
         """Frames of shape (T, n, 3), and faces."""
         if isinstance(self.origin, Source):
             mesh = self.origin.mesh()
-            return bent(mesh), mesh.faces
+            return bent(mesh, min(most, FRAMES)), mesh.faces
         if isinstance(self.origin, Path):
             arrays = np.load(self.origin)
             positions, faces = arrays["positions"], arrays["faces"]

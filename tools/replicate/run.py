@@ -12,13 +12,16 @@ from tools.replicate.fetch import Source, fetch_meshes, meshopt_package, own_mes
 from tools.replicate.motion import measure_motion, sequences
 from tools.replicate.outside import SEEN, measure_outside
 from tools.replicate.paper import TABLES, Job, make_tables
-from tools.replicate.paper.models import complete
+from tools.replicate.paper.models import NAMED, complete
 from tools.replicate.rates import Row, measure_mesh, time_mesh
 from tools.replicate.stages import run_stage
+from tools.replicate.verdicts import judge_mesh, mesh_jobs, quoted, written_table
 
 ABLATED = {(500, 4000): 30, (8000, 12_000): 4}
 """Meshes of the ablation, by how many vertices they have."""
 TIMED, QUICK_SIZE = 24, 4000
+COMPARING, MODELS = "coherence", 5
+"""The job that compares models: it takes those of the paper beside named ones."""
 STAGES = ("rates", "outside", "times", "ablation", "motion", "denoising", "paper")
 NOISED, NOISY = 12, (2000, 6000)
 """Meshes that are denoised, and of how many vertices."""
@@ -54,11 +57,13 @@ def measure_all(
 ) -> None:
     """Run the stages that are asked for, and write down what came of all that were run in this folder.
 
-    `named` meshes replace all others, and `job` is the only one of the paper's that is run.
+    `named` meshes replace all others, and `job` is the only one of the paper's that is run. A table that compares
+    models takes those of the paper beside named ones.
     """
-    own = Path(os.environ["BSM_MESHES"]) if os.environ.get("BSM_MESHES") and not named else None
+    alone = named and job != COMPARING
+    own = Path(os.environ["BSM_MESHES"]) if os.environ.get("BSM_MESHES") and not alone else None
     own_enough = set(minutes) == {"paper"} and complete(own)
-    sources = sources_of(named, "named") if named or own_enough else fetch_meshes(folder / "meshes", note)
+    sources = sources_of(named, NAMED) if named or own_enough else fetch_meshes(folder / "meshes", note)
     if own and not quick:
         sources = sorted([*sources, *own_meshes(own)], key=lambda source: (source.vertices, source.name))
     workers = max(1, len(os.sched_getaffinity(0)))
@@ -97,6 +102,18 @@ def measure_all(
         if "paper" in minutes:
             quotes.keep(read_stage(folder / "paper", TABLES))
             quotes.rewrite()
+
+
+def judge_all(folder: Path, minutes: float, named: Sequence[Path], *, docs: bool) -> None:
+    """Judge the claims of the paper on each named mesh, and write the table."""
+    workers = max(1, len(os.sched_getaffinity(0)))
+    jobs = mesh_jobs(sources_of(named, NAMED))
+    found = run_stage(judge_mesh, jobs, folder / "verdicts", minutes, note, workers=workers)
+    rows = [row for own in found for row in own]
+    note(str(written_table(rows, folder)))
+    if docs:
+        quotes.keep({"verdicts": [{"run": rows[0]["run"], "numbers": quoted(rows)}]})
+        quotes.rewrite()
 
 
 def read(folder: Path) -> dict[str, list[Row]]:

@@ -221,6 +221,8 @@ def dynamic(study: Study) -> Iterator[Row]:
             max(ours.spread, theirs.spread) < fixed.spread,
             f"spread {ours.spread:.3f} (codec), {theirs.spread:.3f} (Algorithm 2), not {fixed.spread:.3f}.",
             model,
+            value=max(ours.spread, theirs.spread) / fixed.spread,
+            unit="of the spread with one c",
         ),
         claim(
             "There are very few abrupt changes of c",
@@ -232,6 +234,8 @@ def dynamic(study: Study) -> Iterator[Row]:
             f"{BANDS[0]:g} eps_h and then {BANDS[1]:g}, the largest change is {worded[LIKE_TEXT]} by Algorithm 2. "
             f"It is {worded[CODEC]} by the codec's rule.",
             model,
+            value=100 * max(sudden[:2]) / max(1, len(cut.blocks) - 1),
+            unit="% of the changes by Algorithm 2",
         ),
         f"With eps_l = {BANDS[0]:g} eps_h, the codec's rule takes {price[BANDS[0]]:+.0f} % of Algorithm 2's "
         f"coefficients, with {BANDS[1]:g} {price[BANDS[1]]:+.0f} %. Algorithm 2 ran into its limit in {capped} of "

@@ -34,9 +34,9 @@ class Role(NamedTuple):
 ROLES = {
     "bunny": Role("the Bunny", "bunny_34834", "bunny_34834_noisy", 0.2, 34_817),
     "julio": Role("Julio", "julius_36201", "julius_36201_noisy", 0.2, 36_201),
-    "twelve": Role("Twelve", "twelve_dodecahedron", "twelve_dodecahedron_noisy", 0.3),
-    "fandisk": Role("Fandisk", "fandisk_6475", "fandisk_0.7_noisy", 0.7),
-    "fandisk 0.3": Role("Fandisk", "fandisk_6475", "fandisk_0.3_noisy", 0.3),
+    "twelve": Role("Twelve", "twelve_dodecahedron", "twelve_dodecahedron_noisy", 0.3, 4610),
+    "fandisk": Role("Fandisk", "fandisk_6475", "fandisk_0.7_noisy", 0.7, 6475),
+    "fandisk 0.3": Role("Fandisk", "fandisk_6475", "fandisk_0.3_noisy", 0.3, 6475),
     "armadillo": Role("the Armadillo", "armadillo_20002_derived", "", 0.2, 20_002),
     "hand": Role("the Hand", "dragon_437645", "", 0.2, 327_323),
     "sphere": Role("Sphere", "sharpsphere", "sharpsphere_noisy", 0.3),
@@ -44,6 +44,8 @@ ROLES = {
 }
 """The authors' Armadillo is not published: another reduction of the same scan to as many vertices. Nor is the Hand: a
 dragon of 437,645 vertices plays it, in blocks of the size that the Hand's had."""
+NAMED, QUICK_SIZE = "named", 1200
+"""The group of meshes that a user names, and vertices of stand-ins if few settings are tried."""
 SEGMENTS = {"armadillo": 20.0, "hand": 930 * 327_323 / 437_645}
 """The Armadillo's are the paper's; those of the Hand make 930 of the dragon, and n_d about 540."""
 
@@ -55,7 +57,10 @@ def complete(folder: Path | None) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """A model as it is used; `vertices` are the paper's, and `own` says whether it is the paper's, or plays it well."""
+    """A model as it is used; `vertices` are the paper's, and `own` says whether claims are judged on it.
+
+    They are on the paper's models, on those that play one well, and on meshes that a user names.
+    """
 
     name: str
     title: str
@@ -78,6 +83,13 @@ class Model:
     def segments(self, paper: float) -> int:
         """As many segments as make segments of the paper's size, where the paper has `paper` of them."""
         return max(2, round(paper * len(self.clean) / (self.vertices or len(self.clean))))
+
+    def counted(self, paper: float) -> str:
+        """The segments in words: a mesh of another size keeps the size of the paper's, and not their number."""
+        count = self.segments(paper)
+        if count == paper:
+            return f"{paper:g} segments"
+        return f"{count} segments, about as large as {paper:.4g} of {self.title}"
 
     def block(self, paper: float) -> int:
         """Vertices of a segment before overlap, where the paper has `paper` of them."""
@@ -122,21 +134,25 @@ class Study:
 
     def _made(self, role: Role) -> Model:
         path = self.folder and self.folder / "static" / f"{role.file}.ply"
-        own = path is not None and path.exists()
-        if own:
-            name, mesh = role.file, read_mesh(str(path)).mesh
+        taken = {model.name for model in self._models.values()}
+        free = [source for source in self.sources if source.name not in taken]
+        if path is not None and path.exists() and not any(source.group == NAMED for source in free):
+            return self._from_folder(role, read_mesh(str(path)).mesh)
+        wanted = min(role.vertices or 6000, QUICK_SIZE if self.quick else 12_000)
+        source = min(free or self.sources, key=lambda source: abs(source.vertices - wanted))
+        mesh = source.mesh()
+        noisy = gaussian_along_normals(mesh.positions, mesh.faces, role.sigma, seed=1)
+        own = source.group == NAMED
+        return Model(source.name, role.title, own, mesh.positions, noisy, mesh.faces, role.vertices)
+
+    def _from_folder(self, role: Role, mesh: TriangleMesh) -> Model:
+        assert self.folder is not None
+        path = self.folder / "noisy" / f"{role.noisy}.ply"
+        if role.noisy and path.exists():
+            noisy = read_mesh(str(path)).mesh.positions
         else:
-            wanted = min(role.vertices or 6000, 1200 if self.quick else 12_000)
-            taken = {model.name for model in self._models.values()}
-            free = [source for source in self.sources if source.name not in taken]
-            source = min(free or self.sources, key=lambda source: abs(source.vertices - wanted))
-            name, mesh = source.name, source.mesh()
-        noisy = self.folder and self.folder / "noisy" / f"{role.noisy}.ply"
-        if own and role.noisy and noisy and noisy.exists():
-            moved = read_mesh(str(noisy)).mesh.positions
-        else:
-            moved = gaussian_along_normals(mesh.positions, mesh.faces, role.sigma, seed=1)
-        return Model(name, role.title, own, mesh.positions, moved, mesh.faces, role.vertices)
+            noisy = gaussian_along_normals(mesh.positions, mesh.faces, role.sigma, seed=1)
+        return Model(role.file, role.title, True, mesh.positions, noisy, mesh.faces, role.vertices)
 
 
 def fastest(work: Callable[[], object], repeats: int) -> float:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from itertools import zip_longest
+from typing import Any, NamedTuple
 
 from tools.replicate.paper.models import Model
 from tools.replicate.rates import Row
@@ -10,8 +11,25 @@ Line = tuple[str, tuple[float, ...], tuple[float | None, ...]]
 """A label, our numbers, and those of the paper, as many as it prints."""
 
 
+class Claim(NamedTuple):
+    """Something that the paper says in words; `judged` is None on stand-ins, and `value` is what decides, in `unit`."""
+
+    says: str
+    judged: bool | None
+    words: str
+    value: float
+    unit: str
+
+    def row(self) -> dict[str, Any]:
+        return {"says": self.says, "holds": self.judged, "value": self.value, "unit": self.unit}
+
+
 def printed(
-    title: str, columns: Iterable[str], lines: Iterable[Line], *remarks: str, numbers: Mapping[str, str] | None = None
+    title: str,
+    columns: Iterable[str],
+    lines: Iterable[Line],
+    *remarks: str | Claim,
+    numbers: Mapping[str, str] | None = None,
 ) -> Row:
     """A table: our numbers, in brackets those of the paper; `numbers` are quoted by the documents."""
     rows = [
@@ -20,18 +38,22 @@ def printed(
     ]
     names = ["", *columns]
     rows = [row + [""] * (len(names) - len(row)) for row in rows]
-    note = " ".join(filter(None, remarks))
-    return {"title": title, "columns": names, "rows": rows, "note": note, "numbers": dict(numbers or {})}
+    claims = [remark for remark in remarks if isinstance(remark, Claim)]
+    words = [remark.words if isinstance(remark, Claim) else remark for remark in remarks]
+    table = {"title": title, "columns": names, "rows": rows, "note": " ".join(filter(None, words))}
+    return {**table, "claims": [each.row() for each in claims], "numbers": dict(numbers or {})}
 
 
-def claim(says: str, holds: bool, found: str, *models: Model) -> str:
-    """Something that the paper says in words, and whether it came out on these meshes; not judged on stand-ins."""
+def claim(says: str, holds: bool, found: str, *models: Model, value: float, unit: str) -> Claim:
+    """Judge something that the paper says in words on these meshes; not on stand-ins."""
     others = [model for model in models if not model.own]
     if others:
         names = ", ".join(dict.fromkeys(f"{model.name} stands in for {model.title}" for model in others))
-        return f'"{says}" is not judged: {names}.'
+        return Claim(says, None, f'"{says}" is not judged: {names}.', value, unit)
     names = " and ".join(dict.fromkeys(model.name for model in models))
-    return f'"{says}" {"holds" if holds else "does not hold"} on {names}. {found[:1].upper()}{found[1:]}'
+    verdict = "holds" if holds else "does not hold"
+    words = f'"{says}" {verdict} on {names}. {found[:1].upper()}{found[1:]}'
+    return Claim(says, bool(holds), words, value, unit)
 
 
 OVERLAPS = (1.0, 1.05, 1.10, 1.15, 1.20, 1.25)

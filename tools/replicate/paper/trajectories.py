@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 import bsm
+from bsm.codec.arrays import Faces, Positions
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.sequence import run_encoding, temporal
 from bsm.codec.sequence.encoder import SequenceEncoder
@@ -21,7 +22,7 @@ from tools.replicate.ablation import Tool
 from tools.replicate.motion import Moving, sequences
 from tools.replicate.paper.dictionaries import Floats
 from tools.replicate.paper.iterations import householder, span
-from tools.replicate.paper.models import Study
+from tools.replicate.paper.models import NAMED, Study
 from tools.replicate.paper.published import Line, printed
 from tools.replicate.rates import Row
 
@@ -70,9 +71,16 @@ class Followed:
             width *= 2
 
 
-def measured(moving: Moving, length: int, power: int) -> tuple[float, ...]:
+def moving_meshes(study: Study) -> list[Moving]:
+    """Named meshes, which bend; otherwise some sequences that are made, and those of the folder."""
+    named = [source for source in study.sources if source.group == NAMED]
+    if named:
+        return [Moving(f"{source.name}, bent", source) for source in named]
+    return sequences([], study.folder, quick=False)[-1 if study.quick else -4 :]
+
+
+def measured(frames: Positions, faces: Faces, length: int, power: int) -> tuple[float, ...]:
     """kB, KG error in percent, seconds of a thread for bases, and for the whole encoder."""
-    frames, faces = moving.frames(MOST)
     encoder = SequenceEncoder(faces, SequenceOptions(threads=1, gop=length, step=STEP), len(frames))
     followed, begin = Followed(power), time.thread_time()
     uncut = run_encoding, "lengths_of", lambda motion, _: [motion.shapes.shape[2]]
@@ -88,11 +96,12 @@ def measured(moving: Moving, length: int, power: int) -> tuple[float, ...]:
 def temporal_basis(study: Study) -> Iterator[Row]:
     """Bytes, error and time of sequences with either basis."""
     rows, more, slower, share = list[Line](), list[float](), list[float](), 0.0
-    for moving in sequences([], study.folder, quick=False)[-1 if study.quick else -4 :]:
+    for moving in moving_meshes(study):
+        frames, faces = moving.frames(2 * LENGTHS[0] if study.quick else MOST)
         for length in LENGTHS:
-            if 2 * length > min(MOST, len(moving.frames(MOST)[0])):
+            if 2 * length > len(frames):
                 continue
-            found = [measured(moving, length, power) for power in POWERS.values()]
+            found = [measured(frames, faces, length, power) for power in POWERS.values()]
             name = f"{moving.name}, GOPs of {length}"
             rows += [(f"{name}, {way}", own, ()) for way, own in zip(POWERS, found, strict=True)]
             exact, *others = found
