@@ -233,6 +233,33 @@ class TestCommands:
         points = list(found.values())
         assert [points_of(points, kind) for kind in kinds] == [[point] for point in points]
 
+    def test_our_curve_is_asked_for_the_errors_of_rivals(self):
+        errors = [-30.0, -30.1, -33.0, -47.0]
+        rival = {"points": [{"nmsve_db": level, "theta_deg": 10.0} for level in errors] + [{"nmsve_db": None}]}
+        asked = {}
+        for codec in our_curve([rival]).codecs:
+            asked.setdefault(codec.options.target.kind, []).append(codec.options.target.value)
+        assert asked["nmsve_db"] == [-30.0, -33.0, -40.0, -44.0, -47.0, -52.0, -56.0, -60.0, -64.0, -68.0]
+        assert 10.0 in asked["theta_deg"] and 11.0 not in asked["theta_deg"] and 15.0 not in asked["theta_deg"]
+        assert asked["theta_deg"] == sorted(asked["theta_deg"], reverse=True)
+
+    def test_each_point_of_a_rival_has_ours_beside_it(self, tmp_path, capsys):
+        pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
+        mesh, folder = tmp_path / "torus.npz", tmp_path / "out"
+        write_mesh(mesh, torus(20, 20, bumps=0.02))
+        (tmp_path / "mine.csv").write_text("label,bpv,nmsve_db\nmine,9,-41.3\nmine,12,-49.9\n")
+        assert (
+            main(["curve", str(mesh), "-o", str(folder), "--codecs", "ours", "-q", "--points", f"{tmp_path}/mine.csv"])
+            == 0
+        )
+        found = {result["codec"]: result["points"] for result in read_results(folder)}
+        reached = {
+            point["settings"]["target"]["value"]: point["nmsve_db"] for point in points_of(found["ours"], "nmsve_db")
+        }
+        assert {-41.3, -49.9} <= reached.keys()
+        assert all(level <= asked for asked, level in reached.items())
+        assert "mine" in capsys.readouterr().out
+
     def test_curve(self, tmp_path, capsys):
         for name in ("matplotlib", "pymetis", "zstandard"):
             pytest.importorskip(name, reason=f"needs {name} (extra eval)")

@@ -26,7 +26,8 @@ MINUTES = {
     "paper": 25.0,
 }
 QUICK = {"rates": 2.0, "outside": 1.0, "ablation": 1.5, "times": 0.5, "motion": 0.8, "denoising": 0.5, "paper": 4.0}
-VERDICT_MINUTES = 60.0
+LONGEST = 60.0
+"""Minutes that verdicts or shares may take."""
 STAGES = tuple(MINUTES)
 JOBS = {
     "basis": "8.1: orthogonal iterations and the exact basis, at 12 bits",
@@ -104,6 +105,8 @@ def main() -> None:
     parser.add_argument("--table", choices=PRINTED, metavar="NAME", help=about)
     judged = "of --figure paper, judge the claims on each MESH, with few settings: how many hold, and the spread"
     parser.add_argument("--verdicts", action="store_true", help=judged)
+    shared = "of --figure paper, count what blocks carry in default streams of each MESH, and do without them"
+    parser.add_argument("--shares", action="store_true", help=shared)
     parser.add_argument("--list", action="store_true", help="list the jobs of --figure paper")
     parser.add_argument("--docs", action="store_true", help="put the tables into docs/measured.md, too")
     args = parser.parse_args()
@@ -112,8 +115,9 @@ def main() -> None:
         return
     if args.table and args.figure != "paper":
         parser.error("--table is of the paper: add --figure paper")
-    if args.verdicts and (args.figure != "paper" or not args.meshes or args.table):
-        parser.error("--verdicts judges named meshes: add --figure paper and the meshes, without --table")
+    alone = args.verdicts or args.shares
+    if alone and (args.figure != "paper" or not args.meshes or args.table):
+        parser.error("--verdicts and --shares take named meshes: add --figure paper and the meshes, without --table")
     if args.meshes and args.figure not in (None, "rates", "paper"):
         parser.error(f"--figure {args.figure} takes no meshes; rates and paper do")
     too_few = 0 < len(args.meshes) < 5 and PRINTED.get(args.table) == "coherence"
@@ -123,10 +127,13 @@ def main() -> None:
         parser.error(f"no such file: {', '.join(missing)}")
     args.output.mkdir(parents=True, exist_ok=True)
     environment(args.output, FOR_PAPER if args.figure == "paper" else NEEDED)
-    from tools.replicate.run import judge_all, measure_all
+    from tools.replicate.run import judge_all, measure_all, share_all
 
     if args.verdicts:
-        judge_all(args.output, VERDICT_MINUTES, args.meshes, docs=args.docs)
+        judge_all(args.output, LONGEST, args.meshes, docs=args.docs)
+    if args.shares:
+        share_all(args.output, LONGEST, args.meshes, docs=args.docs)
+    if alone:
         return
     chosen = (args.figure,) if args.figure else ("rates",) if args.meshes else STAGES
     minutes = QUICK if args.quick else MINUTES

@@ -5,7 +5,7 @@ import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from tools.replicate import quotes, report
+from tools.replicate import quotes, report, shares
 from tools.replicate.ablation import ablate_mesh
 from tools.replicate.denoising import denoise_mesh, pairs
 from tools.replicate.fetch import Source, fetch_meshes, meshopt_package, own_meshes, sources_of
@@ -113,6 +113,22 @@ def judge_all(folder: Path, minutes: float, named: Sequence[Path], *, docs: bool
     note(str(written_table(rows, folder)))
     if docs:
         quotes.keep({"verdicts": [{"run": rows[0]["run"], "numbers": quoted(rows)}]})
+        quotes.rewrite()
+
+
+def share_all(folder: Path, minutes: float, named: Sequence[Path], *, docs: bool) -> None:
+    """Count what blocks carry in default streams of named meshes, and write the tables."""
+    workers, sources = max(1, len(os.sched_getaffinity(0))), sources_of(named, NAMED)
+    found = run_stage(shares.share_mesh, sources, folder / "shares", minutes, note, workers=workers)
+    rows = [row for own in found for row in own]
+    coded = {row["mesh"] for row in rows if row["base"]}
+    few = [source for source in sources if source.name in coded][:: max(1, len(coded) // shares.COARSE_MESHES)]
+    found = run_stage(shares.widths_of_mesh, few, folder / "widths", minutes, note, workers=workers)
+    widths = [row for own in found for row in own]
+    note(str(shares.written_tables(rows, widths, folder)))
+    if docs:
+        numbers = shares.quoted(rows, widths)
+        quotes.keep({"shares": [{"run": rows[0]["run"], "numbers": numbers}]})
         quotes.rewrite()
 
 

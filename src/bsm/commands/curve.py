@@ -11,6 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from bsm.bitstream.errors import DependencyError, OptionError, how_to_install
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import adder, within
 from bsm.evaluation import curve as rates
 from bsm.files.mesh import read_mesh
@@ -72,17 +73,21 @@ def run(args: argparse.Namespace, console: Console) -> None:
 def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -> None:
     # A run takes minutes to hours. It must not end at the last step, for want of a package.
     _refuse_missing(args.codecs if args.meshes else "ours")
-    # All meshes are read before the first is measured, for the same reason.
-    chosen = [(path, read_mesh(path).mesh.bare) for path in args.meshes]  # rates are those of the shape
-    for path, mesh in chosen:
-        for curve in _chosen(args.codecs, len(mesh.positions), args.blocks):
-            with console.progress(f"{Path(path).stem}, {curve.label}") as progress:
-                result = rates.run_curve(curve, mesh, Path(path).stem, args.repeat, progress, console.note)
-            # After each curve, so that a run that is stopped keeps its results.
-            rates.write_result(result, folder)
-    meshes = {result["mesh"]["name"]: result["mesh"] for result in rates.read_results(folder)}
-    for rival in (rival for path in args.points for rival in rates.read_points(path, meshes)):
+    # All meshes are read before the first is measured, for the same reason, and so are the points of others.
+    chosen = [(Path(path).stem, read_mesh(path).mesh.bare) for path in args.meshes]  # rates are those of the shape
+    facts = {result["mesh"]["name"]: result["mesh"] for result in rates.read_results(folder)}
+    facts |= {name: rates.mesh_facts(mesh, name) for name, mesh in chosen}
+    for rival in (rival for path in args.points for rival in rates.read_points(path, facts)):
         rates.write_result(rival, folder)
+    for name, mesh in chosen:
+        measure = partial(_measure, mesh, name, args.repeat, folder, console)
+        curves, ours = _chosen(args.codecs, len(mesh.positions), args.blocks)
+        for curve in curves:
+            measure(curve)
+        if ours:
+            # Last, since it is asked for the errors of the others' points.
+            found = rates.read_results(folder)
+            measure(rates.our_curve(r for r in found if r["mesh"]["name"] == name and r["codec"] != "ours"))
     results = list(rates.read_results(folder))
     if not results:
         raise OptionError(f"{folder} contains no results; name meshes to measure")
@@ -102,6 +107,13 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
                 )
                 console.note(f"{left} are larger and worse than another one")
     save(tables, rates.draw_all(results, args.codecs.split(",")))
+
+
+def _measure(mesh: TriangleMesh, name: str, repeats: int, folder: Path, console: Console, curve: rates.Curve) -> None:
+    with console.progress(f"{name}, {curve.label}") as progress:
+        result = rates.run_curve(curve, mesh, name, repeats, progress, console.note)
+    # After each curve, so that a run that is stopped keeps its results.
+    rates.write_result(result, folder)
 
 
 def _refuse_missing(codecs: str) -> None:
@@ -134,15 +146,16 @@ def _save(
             console.note(str(path))
 
 
-def _chosen(names: str, vertices: int, blocks: int | None) -> list[rates.Curve]:
+def _chosen(names: str, vertices: int, blocks: int | None) -> tuple[list[rates.Curve], bool]:
+    """The curves of other codecs, and whether ours is asked for, too."""
     # 500 vertices are the blocks of the paper's figures.
     paper = rates.paper_curves(round(vertices / blocks) if blocks else 500)
-    groups = {"ours": (rates.our_curve(),), "paper": paper, "draco": (rates.DRACO,)}
-    groups |= {line.name: (line,) for line in paper}
-    unknown = [name for name in names.split(",") if name not in groups]
+    groups = {"ours": (), "paper": paper, "draco": (rates.DRACO,)} | {line.name: (line,) for line in paper}
+    wanted = names.split(",")
+    unknown = [name for name in wanted if name not in groups]
     if unknown:
         raise OptionError(f"unknown codec {', '.join(unknown)} ({', '.join(groups)})")
-    return [curve for name in names.split(",") for curve in groups[name]]
+    return [curve for name in wanted for curve in groups[name]], "ours" in wanted
 
 
 def _measured(results: Sequence[dict[str, Any]]) -> Table:

@@ -178,7 +178,9 @@ OUR_TARGETS = {
     "theta_deg": (15.0, 11.0, 8.0, 6.0, 4.0, 3.0, 2.0, 1.2, 0.7, 0.4, 0.2),
     "nmsve_db": (-40.0, -44.0, -48.0, -52.0, -56.0, -60.0, -64.0, -68.0),
 }
-"""Mean angles of normals in degrees, and NMSVE, that the codec is asked for, each for the line of its own measure."""
+"""Mean angles of normals in degrees, and NMSVE, that the codec is asked for where no rival has a point nearby."""
+NEAR, FAR = 0.25, 2.0
+"""Decibels: targets that lie nearer are one; a target of `OUR_TARGETS` is kept if it is farther from all rivals'."""
 
 
 def paper_options(**changes: Any) -> EncodeOptions:
@@ -198,11 +200,32 @@ def paper_curves(block_size: int) -> tuple[Curve, ...]:
     return (*fixed, line("doi-r1", "DOI, R", dynamic), svd)
 
 
-def our_curve() -> Curve:
-    """The codec's choice for each target."""
-    targets = [Target(kind, value) for kind, values in OUR_TARGETS.items() for value in values]
+def our_curve(rivals: Iterable[Result] = ()) -> Curve:
+    """The codec's choice for the error of each point of rivals, and for others far from these."""
+    points = [point for rival in rivals for point in rival["points"]]
+    targets = [Target(kind, value) for kind in OUR_TARGETS for value in targets_beside(points, kind)]
     options = (EncodeOptions(threads=1, contract=None, target=target) for target in targets)
     return Curve("ours", "ours", tuple(map(Spectral, options)))
+
+
+def targets_beside(points: Iterable[Result], measure: str) -> list[float]:
+    """Errors of points by a measure, nearly equal ones once, and usual ones far from all of them; the largest first."""
+    errors = {point[measure] for point in points if point.get(measure) is not None}
+    beside = list[float]()
+    for value in sorted(errors, reverse=True):
+        if _distance(value, beside, measure) > NEAR:
+            beside.append(value)
+    usual = [value for value in OUR_TARGETS[measure] if _distance(value, beside, measure) > FAR]
+    return sorted([*beside, *usual], reverse=True)
+
+
+def _distance(value: float, others: Iterable[float], measure: str) -> float:
+    """Decibels from an error to the nearest of others; 0 if an exact result has none."""
+    height = scaled(value, measure)
+    if height is None:
+        return 0.0
+    heights = [own for own in (scaled(other, measure) for other in others) if own is not None]
+    return min((abs(height - own) for own in heights), default=math.inf)
 
 
 # ------------------------------------------------------------------------------------------------------------- running
@@ -255,8 +278,14 @@ def run_curve(
         points.append(measure(codec, mesh, reference, repeats))
         if progress:
             progress(len(points), len(curve.codecs))
-    facts = {"name": name, "vertices": len(mesh.positions), "faces": len(mesh.faces)}
+    facts = mesh_facts(mesh, name)
     return {"schema": SCHEMA, "codec": curve.name, "label": curve.label, "mesh": facts, "points": points}
+
+
+def mesh_facts(mesh: TriangleMesh, name: str) -> Result:
+    """What results say of a mesh; its faces without area are left out, as they are measured."""
+    joined = join(mesh, keep=False).mesh
+    return {"name": name, "vertices": len(joined.positions), "faces": len(joined.faces)}
 
 
 def write_result(result: Result, folder: Path) -> Path:
