@@ -1,12 +1,19 @@
-"""Running independent pieces of work on threads, results in order."""
+"""Running independent pieces of work on threads, results in order; and numpy's linear algebra on one thread."""
 
 from __future__ import annotations
 
+import ctypes
 import os
+import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, suppress
+from functools import lru_cache
 from itertools import chain, islice
-from typing import TYPE_CHECKING, TypeVar
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
 
 from bsm.bitstream.once import cached_property
 from bsm.codec.choices import checked_whole
@@ -52,6 +59,62 @@ def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: 
     finally:
         # Also when the caller stops taking results: unwanted work must end.
         pool.shutdown(cancel_futures=True)
+
+
+class _Blas:
+    """The number of threads of OpenBLAS, which numpy's wheels bring."""
+
+    def __init__(self, library: Any, read: str, write: str) -> None:
+        self._read, self._write = getattr(library, read), getattr(library, write)
+        self._lock, self._users, self._before = threading.Lock(), 0, 1
+
+    def enter(self) -> None:
+        """Take one thread; the number is common to the process, so the first of several users keeps it."""
+        with self._lock:
+            if not self._users:
+                self._before = self._read()
+                self._write(1)
+            self._users += 1
+
+    def leave(self) -> None:
+        """Give the threads back, as the last of several users."""
+        with self._lock:
+            self._users -= 1
+            if not self._users:
+                self._write(self._before)
+
+
+@lru_cache(1)
+def _blas() -> _Blas | None:
+    """Find numpy's OpenBLAS; None: numpy has another library."""
+    package = Path(np.__file__).parent
+    for path in [*package.parent.glob("numpy.libs/*openblas*"), *package.glob(".dylibs/*openblas*")]:
+        with suppress(OSError):
+            library = ctypes.CDLL(str(path))  # which is loaded already
+            for prefix in ("scipy_openblas", "openblas"):
+                for suffix in ("64_", ""):
+                    names = [f"{prefix}_{action}_num_threads{suffix}" for action in ("get", "set")]
+                    if all(hasattr(library, name) for name in names):
+                        return _Blas(library, *names)
+    return None
+
+
+@contextmanager
+def one_blas_thread() -> Iterator[None]:
+    """Compute with matrices on the caller's thread.
+
+    Those of an encoder are small. The threads of OpenBLAS wait for each other by spinning, which took two thirds of the
+    processor time of sequences, and ignores the number of threads that a caller asks for.
+    """
+    blas = _blas()
+    if blas is None:
+        yield
+        return
+    blas.enter()
+    try:
+        yield
+    finally:
+        blas.leave()
 
 
 class Crew:

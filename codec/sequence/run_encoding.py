@@ -23,6 +23,7 @@ from bsm.codec.static.coding import Adaptive, Scheme, rules_of
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Sizing, blended, encode_blocks, mesh_memory
+from bsm.codec.threads import one_blas_thread
 
 FIRST_STEP = 0.3
 """Of the first frame, in steps of the others, which follow from it; 0.4 costs 0.5 % more, with low delay 1 to 3 %."""
@@ -178,7 +179,8 @@ class RunEncoder:
         if promise is None:
             step = options.step if step is None else step
             every = np.ones(len(group))
-            return _encoded(begun(step, self._progress), step, every, (), group, number, self._progress)
+            with one_blas_thread():
+                return _encoded(begun(step, self._progress), step, every, (), group, number, self._progress)
         lengths: tuple[int, ...] = ()
         near = Nearing(self._progress)
 
@@ -196,7 +198,8 @@ class RunEncoder:
         # About what the bound leads to, for most motions. From the second GOP on, the one before is the better guess.
         first = step or min(0.45 * bound, 4.5e-3 * min(promise.look, 1e3))
         finest = finest_step(group.positions, options)
-        found = search.run(attempt, first, finest, weighed=not options.low_delay)
+        with one_blas_thread():
+            found = search.run(attempt, first, finest, weighed=not options.low_delay)
         near.to(1.0)
         return replace(found, worst_look=search.worst_look)
 

@@ -6,10 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bsm import END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, Encoder, TriangleMesh, decode, encode
+from bsm import END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, Encoder, TriangleMesh, decode, encode, encode_sequence
 from bsm._core import Decoder as Engine
 from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec import threads as codec_threads
 from bsm.codec.decoding import BLOCK, CONNECTIVITY
+from bsm.codec.sequence import temporal
 from bsm.codec.threads import Crew, ordered_map
 from bsm.encoding.options import encode_options
 from tests.shapes import patch, together, torus
@@ -210,3 +212,39 @@ def test_what_a_shared_engine_returns_stays_as_it_was():
     moved.append(vertices[final])
     assert len(loose[0]) == 5000 and not bad
     assert np.array_equal(np.sort(np.concatenate(moved)), np.arange(3600))
+
+
+def test_matrices_take_one_thread_until_the_last_user_has_left():
+    blas = codec_threads._blas()
+    if blas is None:
+        pytest.skip("numpy has no OpenBLAS of its own here")
+    before = blas._read()
+    blas._write(2)
+    try:
+        first, second = codec_threads.one_blas_thread(), codec_threads.one_blas_thread()
+        with pytest.raises(KeyError), first:
+            assert blas._read() == 1
+            second.__enter__()
+            raise KeyError
+        assert blas._read() == 1, "another user is still at work"
+        second.__exit__(None, None, None)
+        assert blas._read() == 2
+    finally:
+        blas._write(before)
+
+
+def test_a_sequence_is_encoded_without_the_threads_of_blas(monkeypatch):
+    blas = codec_threads._blas()
+    if blas is None:
+        pytest.skip("numpy has no OpenBLAS of its own here")
+    numbers, learn_basis = [], temporal.learn_basis
+
+    def watched(*given):
+        numbers.append(blas._read())
+        return learn_basis(*given)
+
+    monkeypatch.setattr(temporal, "learn_basis", watched)
+    mesh = torus(6, 8)
+    frames = [mesh.positions * (1.0 + 0.02 * t) for t in range(6)]
+    encode_sequence(np.array(frames), mesh.faces, threads=1)
+    assert numbers and set(numbers) == {1}
