@@ -26,8 +26,8 @@ _TURN = Lock()
 Surface: TypeAlias = tuple[Polygons, tuple[float, ...]]
 
 
-def surface_of(path: str, kind: str, limits: Limits, step: int = 0, *, here: bool = False) -> Surface:
-    """The surfaces in a file of VTK at one of its times, and these; `here` reads it in this process."""
+def surface_of(path: str, kind: str, limits: Limits, step: int | None = None, *, here: bool = False) -> Surface:
+    """The surfaces in a file of VTK as a frame, or at rest without a step, and its times; `here`: in this process."""
     asked = os.path.abspath(path), kind, limits, step
     if here:
         module = imported("bsm.files.formats.with_vtk", f".{kind} files are read with VTK", "simulation")

@@ -21,6 +21,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.welding import degenerate
 from bsm.files.formats.metadata import kind_of_image
+from bsm.files.formats.polygons import cut_strips
 from bsm.files.images import side_of_image
 from bsm.files.parsing import in_words, require_counts
 from bsm.files.pipes import Input, file_beside, is_url
@@ -458,12 +459,9 @@ def triangles_of(document: Document, primitive: Tree, count: int) -> npt.NDArray
     if mode == TRIANGLES:
         corners = corners[: len(corners) // 3 * 3].reshape(-1, 3)
     else:
-        # Every second triangle of a strip runs the other way round; its corners are exchanged, so that all show the
-        # same side.
         step = np.arange(max(len(corners) - 2, 0))
-        odd = step % 2 if mode == STRIP else 0
-        around = [step, step + 1 + odd, step + 2 - odd] if mode == STRIP else [step + 1, step + 2, 0 * step]
-        corners = corners[np.column_stack(around)]
+        fan = np.column_stack([step + 1, step + 2, 0 * step])
+        corners = cut_strips(np.array([len(corners)]), corners)[0] if mode == STRIP else corners[fan]
         corners = corners[~degenerate(corners)]  # not those that only lead to the next piece of a strip
     if corners.size and not (corners.min() >= 0 and corners.max() < count):
         raise FormatError(f"a face of this glTF refers to vertex {corners.max()} of {count}")

@@ -322,7 +322,7 @@ KEPT = {
     "npz": {"color", "normal", "texcoord", "height", "label", "material", "face_color"},
     "ply": {"color", "normal", "texcoord", "height", "label", "material", "face_color"},
     "obj": {"color", "normal", "texcoord", "material"},
-    "off": {"color", "normal", "face_color"},
+    "off": {"color", "normal", "texcoord", "face_color"},
     "vtp": {"color", "normal", "texcoord", "height", "label", "material", "face_color"},
     "stl": set(),
 }
@@ -375,7 +375,7 @@ def test_there_and_back(kind, tmp_path):
     source = read_mesh(tmp_path / f"b.{kind}")
     attributes = {name for name in left_out if name not in mesh.metadata and " " not in name}
     assert attributes == KEPT["npz"] - KEPT[kind]
-    assert ("the image picture.png" in left_out) == ("texcoord" not in KEPT[kind])
+    assert ("the image picture.png" in left_out) == (kind in ("off", "stl"))
     if kind != "stl":
         assert_same(by_material(mesh) if kind == "obj" else mesh, source.mesh, KEPT[kind])
         for name in ("name", "unit", "year", "scale"):

@@ -18,6 +18,7 @@ MESH = """
     def Mesh "q" (prepend apiSchemas = ["MaterialBindingAPI"]) {
         int[] faceVertexCounts = [4]
         int[] faceVertexIndices = [0, 1, 2, 3]
+        uniform token subdivisionScheme = "none"
         point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
         texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")
         rel material:binding = </R/M>

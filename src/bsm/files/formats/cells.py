@@ -30,16 +30,20 @@ _Side: TypeAlias = tuple[Ints, Ints, list[Ints], bool]
 
 
 def columns_of(
-    data: Mapping[str, Any], domain: Domain, left: dict[str, None], active: Mapping[str, Semantic] | None = None
+    data: Mapping[str, Any],
+    domain: Domain,
+    left: dict[str, None],
+    active: Mapping[str, Semantic] | None = None,
+    components: Mapping[str, Sequence[str]] | None = None,
 ) -> Iterator[Column]:
-    """Arrays of numbers by name, some of which are known to mean something."""
+    """Arrays of numbers by name, some of which are known to mean something, or name their components."""
     for name, given in data.items():
         values = np.array(given)
         values = values[:, None] if values.ndim == 1 else values.reshape(len(values), -1)
         if values.dtype.kind not in "biuf":
             left[f"{name} ({values.dtype.name} values)"] = None
             continue
-        yield named_column(name, values, domain, (active or {}).get(name))
+        yield named_column(name, values, domain, (active or {}).get(name), (components or {}).get(name, ()))
 
 
 _WINDOW = 1 << 12

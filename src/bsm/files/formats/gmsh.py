@@ -7,6 +7,7 @@ not in keywords.csv, refuses a file, and so do elements beyond the second order.
 
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -21,9 +22,10 @@ from bsm.files.formats.metadata import named
 from bsm.files.formats.polygons import Polygons
 from bsm.files.motion.folder import read_steps
 from bsm.files.motion.frames import Frames, Wanted
-from bsm.files.parsing import Doubles, Ints, as_format_error, as_integers, require_counts
+from bsm.files.parsing import Doubles, Ints, as_format_error, as_integers, ranges, require_counts
 
 _VALUES = ("NodeData", "ElementData")
+_MOST_GROUPS = 64  # that become attributes
 _WAY = "write it as text without that, e.g. gmsh FILE.msh -save -bin 0 -o NEW.msh"
 _TYPES = {
     1: "line2", 2: "triangle3", 3: "quad4", 4: "tetra4", 5: "hexahedron8", 6: "wedge6", 7: "pyramid5", 8: "line3",
@@ -38,7 +40,7 @@ _EDGES = {
 }  # fmt: skip
 """Where Gmsh has the nodes on edges, in the order of `cells.py`."""
 _Cells: TypeAlias = tuple[str, Ints, Ints, Ints]
-"""A shape; of each cell its number, the number of its physical group or 0, and its nodes."""
+"""A shape; of each cell its number, the place of its physical groups in a list of such sets, and its nodes."""
 
 
 class _Numbers:
@@ -82,6 +84,7 @@ class _Gmsh:
 
     def __init__(self, data: bytes, limits: Limits) -> None:
         self.keywords, self._sections = Keywords("gmsh", _WAY), dict[str, list[bytes]]()
+        self._groups: dict[tuple[int, ...], int] = {(): 0}
         for found in re.finditer(rb"^\$(?!End)(\w+)[^\n]*\n(.*?)(?=^\$End\1|\Z)", data, re.M | re.S):
             name, line = found[1].decode(), data.count(b"\n", 0, found.start()) + 1
             known = self._sections.setdefault(name, [])
@@ -155,12 +158,13 @@ class _Gmsh:
             for table in runs(flat, lambda row: (3 + int(row[2]) + self._width(int(row[1])), slice(1, 3))):
                 yield self._cell(int(table[0, 1]), int(table[0, 2]), np.delete(table, [1, 2], axis=1))
             return
-        groups = self._groups()
+        groups = self._groups_of_entities()
         for given, dimension, entity, kind, count in self._blocks("Elements"):
             width = 1 + self._width(kind)
             table = given.take("u8" if self._version > 4 else "i4", count * width).reshape(count, width)
-            group = np.full((count, 1), groups.get((dimension, entity), 0))
-            yield self._cell(kind, 1, np.concatenate([table[:, :1], group, table[:, 1:]], axis=1))
+            place = self._groups.setdefault(groups.get((dimension, entity), ()), len(self._groups))
+            shape, numbers, _, nodes = self._cell(kind, 0, table)
+            yield shape, numbers, np.full(count, place), nodes
 
     def _width(self, kind: int) -> int:
         if kind not in _TYPES:
@@ -173,11 +177,15 @@ class _Gmsh:
         nodes, edges = table[:, 1 + tags :], _EDGES.get(shape, [])
         if nodes.shape[1] > min(edges, default=99):
             nodes = nodes[:, [*range(min(edges)), *edges]]
-        return shape, table[:, 0], np.abs(table[:, 1]) if tags else np.zeros(len(table), np.int64), nodes
+        tag = np.abs(table[:, 1]) if tags else np.zeros(len(table), np.int64)
+        kinds, of_cell = np.unique(tag, return_inverse=True)
+        sets = ((number,) if number else () for number in kinds.tolist())
+        places = [self._groups.setdefault(groups, len(self._groups)) for groups in sets]
+        return shape, table[:, 0], np.array(places, np.int64)[of_cell.ravel()], nodes
 
-    def _groups(self) -> dict[tuple[int, int], int]:
+    def _groups_of_entities(self) -> dict[tuple[int, int], tuple[int, ...]]:
         """The physical groups of entities by their dimensions and numbers."""
-        found = dict[tuple[int, int], int]()
+        found = dict[tuple[int, int], tuple[int, ...]]()
         for name in ("Entities", "PartitionedEntities"):
             given, is_part = self._section(name), name != "Entities"
             if is_part and given:
@@ -191,7 +199,7 @@ class _Gmsh:
                     given.take("f8", 3 if dimension == 0 and self._version > 4 else 6)
                     groups = given.counts(given.count(), "i4")
                     given.take("i4", given.count() if dimension else 0)
-                    found[dimension, entity] = abs(groups[0]) if groups else 0
+                    found[dimension, entity] = tuple(sorted({*map(abs, groups)}))
         return found
 
     def _values(self, section: bytes) -> tuple[str, float, Ints, Doubles]:
@@ -213,26 +221,57 @@ class _Gmsh:
             tables.append(np.pad(nodes, ((0, 0), (2, most - nodes.shape[1])), constant_values=-1))
             tables[-1][:, 0], tables[-1][:, 1] = _DIMENSIONS.get(shape, 3), group
         # Version 2.2 writes an element again for each further group of it.
-        again = np.ones(sum(map(len, tables)), np.bool_)
         alike = row_numbers(np.delete(np.concatenate(tables), 1, axis=1))
-        again[np.unique(alike, return_index=True)[1]] = False
+        own = np.unique(alike, return_index=True)[1]
+        again = np.ones(len(alike), np.bool_)
+        again[own] = False
         there = np.split(~again, np.cumsum([len(table) for table in tables[1:]]))
         cells = [(shape, nodes[kept]) for (shape, _, _, nodes), kept in zip(self.cells, there)]
-        owned = np.concatenate(tables)[~again, :2]
         rows: dict[str, dict[str, Any]] = {"NodeData": {}, "ElementData": {}}
         for (kind, called), steps in self._series.items():
             values = [*steps.values()][step if len(steps) > 1 else 0]
             rows[kind][called] = values if kind == "NodeData" else values[~again]
+        metadata, of_cells, lost, notes = self._named_groups(np.concatenate(tables)[:, :2], alike, ~again)
+        rows["ElementData"] |= of_cells
+        lost = [*self.keywords.named, *lost, *left]
+        found = skin(self.points, cells, rows["NodeData"], rows["ElementData"], lost, metadata)
+        return replace(found, notes=(*found.notes, *notes))
+
+    def _named_groups(
+        self, owned: Ints, alike: Ints, kept: Any
+    ) -> tuple[dict[str, str], dict[str, Any], list[str], list[str]]:
+        """The groups of cells, whose dimensions and sets of groups are `owned`; equal cells have one number in `alike`.
+
+        The metadata, an array for the cells that are kept, or one for each group if cells have several, losses, notes.
+        """
+        sets = [groups or (0,) for groups in self._groups]
+        flat, sizes = np.array([number for groups in sets for number in groups]), np.array([*map(len, sets)])
+        groups = flat[ranges((np.cumsum(sizes) - sizes)[owned[:, 1]], sizes[owned[:, 1]])]
+        cell, dimension = (np.repeat(column, sizes[owned[:, 1]]) for column in (alike, owned[:, 0]))
+        every = np.column_stack([cell, dimension, groups])
+        pairs = np.unique(every, axis=0)
+        lost = [f"elements that are there again ({len(every) - len(pairs)})"] * (len(every) > len(pairs))
         named_by = re.findall(rb'^\s*(\d+)\s+(\d+)\s+"(.*)"', self._sections.get("PhysicalNames", [b""])[0], re.M)
         names = {(int(dim), int(number)): name.decode("utf-8", "replace") for dim, number, name in named_by}
-        pairs, places = np.unique(owned, axis=0, return_inverse=True) if owned[:, 1].any() else (owned[:0], owned)
-        listed = [*map(tuple, pairs.tolist())]
-        metadata = named([names.pop(pair, str(pair[1])) for pair in listed], "group")
-        if len(pairs) > 1:
-            rows["ElementData"]["group"] = places.ravel().astype(np.int32)
-        lost = (*self.keywords.named, *(f"the group {name}" for name in names.values()), *left)
-        lost += (f"elements that are there again ({again.sum()})",) if again.any() else ()
-        return skin(self.points, cells, rows["NodeData"], rows["ElementData"], lost, metadata)
+        grouped = pairs[pairs[:, 2] > 0]
+        if not len(grouped):
+            return {}, {}, [*lost, *(f"the group {name}" for name in names.values())], []
+        kinds = [*map(tuple, np.unique(grouped[:, 1:], axis=0).tolist())]
+        called = {kind: names.pop(kind, str(kind[1])) for kind in kinds}
+        lost += [f"the group {name}" for name in names.values()]
+        is_in = np.zeros((int(kept.sum()), len(kinds)), np.uint8)
+        for place, kind in enumerate(kinds):
+            is_in[:, place] = np.isin(alike[kept], grouped[(grouped[:, 1:] == kind).all(axis=1), 0])
+        not_in, places = np.unique(1 - is_in, axis=0, return_inverse=True)  # the first group first
+        used = 1 - not_in
+        together = [" + ".join(called[kind] for kind, there in zip(kinds, row) if there) for row in used.tolist()]
+        metadata = named([name or "0" for name in together], "group")
+        of_cells: dict[str, Any] = {"group": places.ravel().astype(np.int32)} if len(used) > 1 else {}
+        if (is_in.sum(axis=1) < 2).all():
+            return metadata, of_cells, lost, []
+        masks = {called[kind]: is_in[:, place] for place, kind in enumerate(kinds[:_MOST_GROUPS]) if kind[0] > 1}
+        notes = [f"faces are in several groups, each of which is an attribute: {', '.join(masks)}"]
+        return metadata, of_cells | masks, lost, notes
 
 
 def read_gmsh_mesh(data: bytes, limits: Limits) -> Polygons:

@@ -23,7 +23,7 @@ from bsm.bitstream.errors import FormatError, LimitError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.codec.geometry.welding import first_of, group_rows
+from bsm.codec.geometry.welding import first_of, group_rows, split_with_origin
 from bsm.files.conventions import shares_of
 from bsm.files.formats.appearance import Material, held_by, is_black_beside_image, lost, one_line, parse_mtl
 from bsm.files.pipes import file_beside
@@ -32,6 +32,9 @@ Value: TypeAlias = "str | int | float | bytes"
 
 _ENTRY = re.compile(r"(material|image)\.(\d{1,9})\.(.+)", re.DOTALL)
 _NAMES = re.compile(r"(.+?)\.(?:names|\d{1,9}\.name)")
+CALLED, COMPONENTS = "called.", "components."
+"""What begins the metadata with the name of an attribute in its file, and with those of its components, a line each."""
+NONE = ".none"  # what ends the name of an attribute that marks where another one has no value
 _NAMED_APART = 16  # names that have an entry each; there can be 256 in all
 _SIGNATURES = {
     b"\x89PNG\r\n\x1a\n": "png",
@@ -315,7 +318,7 @@ def in_words(names: Iterable[str], metadata: Metadata) -> list[str]:
     """Return metadata as a user knows them: "opacity of material Glass", "the image oak.png"."""
     found: list[str] = []
     of_materials: dict[str, dict[str, None]] = {}
-    for name in names:
+    for name in (name for name in names if not name.startswith((CALLED, COMPONENTS))):
         kind, number, what = match.groups() if (match := _ENTRY.fullmatch(name)) else ("", "", name)
         called = str(metadata.get(f"{kind}.{number}.name") or number)
         if kind == "material":
@@ -331,6 +334,43 @@ def in_words(names: Iterable[str], metadata: Metadata) -> list[str]:
         more = f" and {len(those) - _MOST_NAMED} more" if len(those) > _MOST_NAMED else ""
         found.append(f"{what} of material{'s' * (len(those) > 1)} {', '.join(those[:_MOST_NAMED])}{more}")
     return found
+
+
+def name_in_file(metadata: Metadata, attribute: Attribute) -> str:
+    """The name that the file of a mesh has for an attribute."""
+    return str(metadata.get(f"{CALLED}{attribute.name}", attribute.name))
+
+
+def components_in_file(metadata: Metadata, attribute: Attribute) -> list[str]:
+    """The names that the file of a mesh has for the components of an attribute; none if it has none."""
+    names = str(metadata.get(f"{COMPONENTS}{attribute.name}", "")).split("\n")
+    return names if len(names) == attribute.components and all(names) else []
+
+
+def with_none(attributes: Iterable[Attribute]) -> dict[str, npt.NDArray[Any]]:
+    """The values of attributes by name, with NaN where others mark that there are none, and without the marks."""
+    every = {attribute.name: attribute for attribute in attributes}
+    found = {name: attribute.values for name, attribute in every.items()}
+    for name, attribute in every.items():
+        marks = every.get(f"{name}{NONE}")
+        if marks is not None and marks.domain == attribute.domain and attribute.values.dtype.kind == "f":
+            found[name] = np.where(found.pop(marks.name) > 0, np.nan, attribute.values)
+    return found
+
+
+def split_at_seams(mesh: TriangleMesh, *seams: Attribute | None) -> TriangleMesh:
+    """Split the vertices of a mesh where corners differ in some of its attributes; others of corners stay so.
+
+    The vertices of the mesh keep their numbers, and copies follow them.
+    """
+    kept = [attribute for attribute in mesh.attributes if attribute.domain == "corner" and attribute not in seams]
+    parted = [attribute for attribute in mesh.attributes if attribute not in kept]
+    split, origin = split_with_origin(replace(mesh, attributes=parted))
+    is_copy = np.diff(origin, prepend=-1) == 0
+    order = np.argsort(is_copy, kind="stable")
+    moved = [attribute.taken(order, np.arange(len(mesh.faces))) for attribute in split.attributes]
+    faces = np.argsort(order)[split.faces].astype(np.int32)
+    return replace(split, positions=split.positions[order], faces=faces, attributes=(*moved, *kept))
 
 
 def first(mesh: TriangleMesh, semantic: Semantic, components: Collection[int], *domains: Domain) -> Attribute | None:

@@ -362,7 +362,7 @@ def read_archive(given: Input, limits: Limits) -> Frames | None:
         mesh = TriangleMesh(next(_positions(archive)), NpzArray(opened, "faces").whole())
         found = _beside(opened, mesh, compressed, limits, inflated, count)
     corners, every_face = np.arange(3 * len(mesh.faces)).reshape(-1, 3), np.arange(len(mesh.faces))
-    still, refused = attributes_of(found.columns, len(mesh.positions), len(mesh.faces), corners, every_face)
+    still, _, refused = attributes_of(found.columns, len(mesh.positions), len(mesh.faces), corners, every_face)
     found.left.extend(refused)
     notes = (f"left out: {', '.join(found.dropped)}",) if found.left else ()
     meshes = _with_attributes(archive, mesh.faces, still, found.moving) if found.moving else None

@@ -190,7 +190,10 @@ def _states(lines: _Lines, is_face: Mask) -> tuple[list[Column], dict[str, str]]
 
 def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     """The OBJ of a mesh; beside it lie a library of its materials, and their images."""
-    color = materials.first(mesh, "color", (3, 4), "vertex")
+    original, color = mesh, materials.first(mesh, "color", (3, 4), "vertex", "corner")
+    if color is not None and color.domain == "corner":
+        mesh = materials.split_at_seams(mesh, color)
+        color = materials.first(mesh, "color", (3, 4), "vertex")
     texcoord = materials.first(mesh, "texcoord", (1, 2, 3), "vertex", "corner")
     normal = materials.first(mesh, "normal", (3,), "vertex", "corner")
     numbers = {what: materials.face_numbers(mesh, what) for what in STATES}
@@ -235,7 +238,7 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     held = (color, texcoord, normal, *numbers.values())
     called = {f"{what}.{number}.name": name for what in STATES for number, name in names[what].items()}
     renamed = [key for key, name in called.items() if mesh.metadata.get(key, name) != name]
-    lost = materials.left_out(mesh, held, (*dict.fromkeys((*omitted, *unsaid)), *renamed))
+    lost = materials.left_out(original, held, (*dict.fromkeys((*omitted, *unsaid)), *renamed))
     if color is not None and color.components > _COLORS:
         lost = (f"alpha of {color.name}", *lost)
     return materials.Written("".join(parts).encode(), lost, library.beside)

@@ -7,9 +7,9 @@ import numpy as np
 
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.metadata import Written, first, left_out, parse_remarks, remarks, unsaid
+from bsm.files.formats.metadata import Written, first, left_out, parse_remarks, remarks, split_at_seams, unsaid
 from bsm.files.formats.polygons import Column, Polygons, color_column, compact
 from bsm.files.parsing import Doubles, Ints, Rows, point_row, require_counts, require_lines, text_table
 
@@ -81,9 +81,10 @@ def _are_whole(colors: Doubles, lines: Sequence[bytes]) -> bool:
 
 def write_off(mesh: TriangleMesh, stem: str) -> Written:
     """The text OFF of a mesh: with normals, colors and texture coordinates of vertices, and colors of faces."""
-    normal = first(mesh, "normal", (3,), "vertex")
-    color = first(mesh, "color", (3, 4), "vertex")
-    texcoord = first(mesh, "texcoord", (2,), "vertex")
+    widths: dict[Semantic, tuple[int, ...]] = {"normal": (3,), "color": (3, 4), "texcoord": (2,)}
+    original = mesh
+    mesh = split_at_seams(mesh, *(first(mesh, kind, width, "vertex", "corner") for kind, width in widths.items()))
+    normal, color, texcoord = (first(mesh, kind, width, "vertex") for kind, width in widths.items())
     of_faces = first(mesh, "color", (3, 4), "face")
     comments, omitted = remarks(mesh.metadata)
     keyword = f"{'ST' if texcoord else ''}{'C' if color else ''}{'N' if normal else ''}OFF"
@@ -95,7 +96,7 @@ def write_off(mesh: TriangleMesh, stem: str) -> Written:
     columns = [*mesh.faces.T.tolist(), *(column for table in behind for column in table.T.tolist())]
     faces = "".join(map(("3 {} {} {}" + face).format, *columns))
     held = (normal, color, texcoord, of_faces)
-    lost = left_out(mesh, held, dict.fromkeys((*omitted, *unsaid(mesh.metadata, "OFF"))))
+    lost = left_out(original, held, dict.fromkeys((*omitted, *unsaid(mesh.metadata, "OFF"))))
     return Written((head + counts).encode() + points + faces.encode(), lost)
 
 

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count, takewhile
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy.typing as npt
 from bsm import _core as _kernels
 from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
+from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic, at_corners
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import appearance, one_line, refers_to_image, text_of
@@ -68,9 +68,16 @@ class PlyHeader:
     comments: tuple[tuple[str, str], ...] = ()
 
     @property
+    def images(self) -> dict[int, str]:
+        """The names of images by their numbers, in the order of the file."""
+        names = [line.removeprefix(IMAGE).strip() for _, line in self.comments if line.startswith(f"{IMAGE} ")]
+        remarks = formats.parse_remarks(line for _, line in self.comments)
+        numbers = {name: number for number, (name, _) in formats.images_in(remarks).items()}
+        return {numbers.get(name, place): name for place, name in enumerate(names)}
+
+    @property
     def metadata(self) -> Metadata:
         """Return the metadata in the comments; images are those of materials."""
-        images = [line.removeprefix(IMAGE).strip() for _, line in self.comments if line.startswith(f"{IMAGE} ")]
         found = formats.parse_remarks(line for _, line in self.comments)
         for keyword in COMMENTS:
             lines = [line for kind, line in self.comments if kind == keyword and not line.startswith(f"{IMAGE} ")]
@@ -78,8 +85,7 @@ class PlyHeader:
                 found.setdefault(keyword, "\n".join(own))
         entries = [item for material in formats.materials_in(found).values() for item in material.items()]
         shown = {value for name, value in entries if refers_to_image(name)}
-        numbers = {name: number for number, (name, _) in formats.images_in(found).items()}
-        for number, name in ((numbers.get(name, place), name) for place, name in enumerate(images)):
+        for number, name in self.images.items():
             found[f"image.{number}.name"] = name
             if number not in shown:
                 found |= {f"material.{number}.name": name, f"material.{number}.map_Kd": number}
@@ -223,9 +229,13 @@ _GROUPS: tuple[tuple[Semantic, tuple[str, ...]], ...] = (
     ("texcoord", ("texture_u", "texture_v")),
     ("texcoord", ("texture_s", "texture_t")),
 )
-"""Properties that are one value together; the first of a meaning and a width are written, but s and t for u and v."""
-_NAMES = {"texnumber": "material", "material_index": "material"}
+"""Properties that are one value together."""
+_USUAL = [group for group in _GROUPS if group[1][0] in ("nx", "red", "s")]
+"""Those that are written, unless a file had others."""
+_TEXTURE = "texnumber"  # the number of the image of a face, by OpenMVS, MeshLab and VCG
+_NAMES = {_TEXTURE: "material", "material_index": "material", "material": "material"}
 """What properties are called here, unless by their own names."""
+_WEDGES = "texcoord"  # the list of texture coordinates of corners, by MeshLab, OpenMVS and VTK
 
 
 def read_ply(data: bytes, limits: Limits) -> Polygons:
@@ -254,7 +264,9 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
         raise MeshError("the faces of this PLY file have no list vertex_indices")
     sizes, items = face.lists(corners)
     wedges, dropped, notes = _wedges(face, corners, sizes)
-    columns = (*_columns(vertex, "vertex", "xyz"), *_columns(face, "face", ()), *wedges)
+    wedges = [replace(w, called="" if header.images else w.name) if w.name == _WEDGES else w for w in wedges]
+    textured = bool(header.images)
+    columns = [*_columns(vertex, "vertex", "xyz", textured), *_columns(face, "face", (), textured), *wedges]
     dropped += [f"the list {column.name} of vertices" for column in vertex.element.properties if column.length]
     others = [element.name for element in header.elements if element.name not in ("vertex", "face") and element.count]
     for element in (vertex.element, face.element):
@@ -262,22 +274,60 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
         repeated = {name: 0 for name in names if names.count(name) > 1}
         dropped += [f"the first {name}, of which there are several" for name in repeated]
     flat = as_integers(items, "a vertex index")
-    return Polygons(positions, sizes, flat, tuple(notes), (*dropped, *others), columns, header.metadata)
+    found = tuple(_without_textures(columns, header))
+    return Polygons(positions, sizes, flat, tuple(notes), (*dropped, *others), found, header.metadata)
 
 
-def _columns(table: _Table, domain: Domain, needed: Sequence[str]) -> Iterator[Column]:
+def _columns(table: _Table, domain: Domain, needed: Sequence[str], textured: bool) -> Iterator[Column]:
     """The properties that are numbers, those together that are one value."""
     properties = table.element.properties
     plain = (place for place, p in enumerate(properties) if p.length is None and p.name not in needed)
     places = {properties[place].name: place for place in plain}
     for semantic, names in _GROUPS:
         types = {properties[places[name]].type for name in names if name in places}
-        if all(name in places for name in names) and len(types) == 1:
-            values = np.column_stack([table.numbers(places.pop(name)) for name in names])
-            yield color_column(values, domain) if semantic == "color" else Column(semantic, values, domain, semantic)
+        if len(types) != 1 or not all(name in places for name in names):
+            continue
+        values = np.column_stack([table.numbers(places[name]) for name in names])
+        column = Column(semantic, values, domain, semantic)
+        if semantic == "color":
+            column = color_column(_narrow(values), domain)
+        if column.semantic != semantic:
+            continue  # numbers that are not colors keep their names
+        places = {name: place for name, place in places.items() if name not in names}
+        usual = (semantic, names) in _USUAL and not (textured and semantic == "texcoord")
+        yield replace(column, components=() if usual else names)
     for name, together in _series({name: properties[place].type for name, place in places.items()}):
         values = np.column_stack([table.numbers(places[member]) for member in together])
-        yield Column(_NAMES.get(name, name), values, domain)
+        known = _NAMES.get(name, name)
+        if name == _TEXTURE and not _NAMES.keys().isdisjoint(places.keys() - {name}):
+            known = name  # another property has the materials
+        yield Column(known, values, domain, called=name if known != name else "")
+
+
+def _narrow(colors: Array) -> Array:
+    """Whole numbers as bytes or words if all of them fit: VCG and trimesh show colors of any type of integers."""
+    if colors.dtype.kind not in "iu" or not colors.size or colors.min() < 0:
+        return colors
+    fits = (kind for kind in (np.uint8, np.uint16) if colors.max() <= np.iinfo(kind).max)
+    return colors.astype(next(fits, colors.dtype))
+
+
+def _without_textures(columns: Sequence[Column], header: PlyHeader) -> list[Column]:
+    """Return columns without the numbers of images that `write_ply` adds, which follow from the materials."""
+    of_faces = {column.name: column.values for column in columns if column.domain == "face"}
+    materials, textures = of_faces.get("material"), of_faces.get(_TEXTURE)
+    if materials is None or textures is None:
+        return list(columns)
+    numbers = _texture_numbers(header.metadata, list(header.images))
+    same = np.array_equal(textures[:, 0], [numbers.get(number, -1) for number in materials[:, 0].tolist()])
+    return [column for column in columns if column.name != _TEXTURE or not same]
+
+
+def _texture_numbers(metadata: Metadata, order: Sequence[int]) -> dict[int, int]:
+    """The place of the color image of each material among the images in this order; -1 for none."""
+    textures = {number: appearance(words).color_texture for number, words in formats.materials_in(metadata).items()}
+    shown = {number: texture.image for number, texture in textures.items() if texture}
+    return {number: order.index(shown[number]) if shown.get(number) in order else -1 for number in textures}
 
 
 def _series(types: dict[str, str]) -> Iterator[tuple[str, list[str]]]:
@@ -300,7 +350,7 @@ def _wedges(table: _Table, corners: int, sizes: Ints) -> tuple[list[Column], lis
         if column.length is None or place == corners:
             continue
         lengths, values = table.lists(place)
-        width = 2 if column.name == "texcoord" else int(lengths.max(initial=0)) // max(int(sizes.max(initial=0)), 1)
+        width = 2 if column.name == _WEDGES else int(lengths.max(initial=0)) // max(int(sizes.max(initial=0)), 1)
         present = lengths == width * sizes
         if not 1 <= width <= MOST_COMPONENTS or not (present | (lengths == 0)).all() or not present.any():
             dropped.append(column.name)
@@ -331,21 +381,31 @@ def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
     texts = {word: text for word in COMMENTS if isinstance(text := mesh.metadata.get(word), str)}
     texts = {word: text for word, text in texts.items() if len(text) < formats.MOST_TEXT}
     free = [f"{word} {one_line(line)}" for word, text in texts.items() for line in text.split("\n")]
-    comments, omitted = formats.remarks(mesh.metadata, library.written | texts.keys())
+    names = {name for name in mesh.metadata if name.startswith((formats.CALLED, formats.COMPONENTS))}
+    comments, omitted = formats.remarks(mesh.metadata, library.written | texts.keys() | names)
+    textures = _texture_numbers(mesh.metadata, [*order])
+    wedges = _wedge_texcoords(mesh, textured=bool(order), several=len({*textures.values()}) > 1)
+    metadata, original = mesh.metadata, mesh
+    mesh = formats.split_at_seams(mesh, *(attribute for attribute in mesh.attributes if attribute is not wedges))
     single = np.float32 if single_suffices(mesh.positions) else np.float64
     columns: dict[str, list[tuple[str, Array]]] = {
         "vertex": list(zip("xyz", mesh.positions.astype(single).T)),
         "face": [("vertex_indices", mesh.faces)],
     }
-    for attribute in (formats.without_seams(attribute, mesh) for attribute in mesh.attributes):
-        if attribute.domain == "corner":
-            known = [name for name, _ in columns["face"]]
-            name = unused_name(re.sub(r"\s", "_", attribute.name), "corner", known)
-            columns["face"].append((name, attribute.values[attribute.indices].reshape(len(mesh.faces), -1)))
+    values = formats.with_none(mesh.attributes)
+    for attribute in mesh.attributes:
+        if attribute.name not in values:
+            continue
+        if attribute is wedges:
+            columns["face"].append((_WEDGES, at_corners(attribute, mesh.faces).reshape(len(mesh.faces), -1)))
             continue
         fields = columns[attribute.domain]
-        names = _property_names(attribute, [name for name, _ in fields])
-        fields += zip(names, attribute.values.T)
+        names_of = _property_names(attribute, metadata, [name for name, _ in fields])
+        fields += zip(names_of, values[attribute.name].T)
+    material = formats.face_numbers(mesh, "material")
+    if material is not None and len({*textures.values()}) > 1 and _TEXTURE not in dict(columns["face"]):
+        numbers = [textures.get(number, -1) for number in material.values[:, 0].tolist()]
+        columns["face"].append((_TEXTURE, np.array(numbers, np.int32)))
     lines = ["ply", "format binary_little_endian 1.0"]
     lines += [*free, *(f"comment {line}" for line in (*images, *comments))]
     body = []
@@ -354,8 +414,8 @@ def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
         lines += [f"element {element} {len(rows)}", *properties]
         body.append(rows.tobytes())
     header = "".join(f"{line}\n" for line in (*lines, "end_header"))
-    own = formats.unsaid(mesh.metadata, "PLY")
-    lost = formats.left_out(mesh, mesh.attributes, dict.fromkeys((*omitted, *own)))
+    own = formats.unsaid(metadata, "PLY")
+    lost = formats.left_out(original, mesh.attributes, dict.fromkeys((*omitted, *own)))
     return formats.Written(header.encode() + b"".join(body), lost, library.beside)
 
 
@@ -370,15 +430,28 @@ def table_of(columns: Sequence[tuple[str, Array]]) -> tuple[list[str], Array]:
     return lines, np.hstack(row)
 
 
-def _property_names(attribute: Attribute, taken: list[str]) -> list[str]:
-    """The names of an attribute's properties: those that everybody knows, or its own."""
-    groups = (group for meaning, group in _GROUPS if meaning == attribute.semantic and group != ("u", "v"))
-    known = next((group for group in groups if len(group) == attribute.components), ())
-    if known and not set(known) & set(taken):
-        return list(known)
-    own = re.sub(r"\s", "_", attribute.name)
-    names: list[str] = []
+def _wedge_texcoords(mesh: TriangleMesh, *, textured: bool, several: bool) -> Attribute | None:
+    """Return the texture coordinates that are written at corners, where programs that show images look for them."""
+    found = formats.first(mesh, "texcoord", (2,), "vertex", "corner")
+    if found is None or formats.components_in_file(mesh.metadata, found):
+        return None
+    if mesh.metadata.get(f"{formats.CALLED}{found.name}") == _WEDGES:
+        return found
+    has_seams = formats.without_seams(found, mesh).domain == "corner"
+    return found if textured and (several or has_seams) else None
+
+
+def _property_names(attribute: Attribute, metadata: Metadata, taken: list[str]) -> list[str]:
+    """The names of an attribute's properties: those of its file, those that everybody knows, or its own."""
+    usual = (names for meaning, names in _USUAL if meaning == attribute.semantic)
+    known = next((names for names in usual if len(names) == attribute.components), ())
+    in_file = [re.sub(r"\s", "_", name) for name in formats.components_in_file(metadata, attribute)]
+    for names in (in_file, list(known)):
+        if names and not {*names} & {*taken}:
+            return names
+    own = re.sub(r"\s", "_", formats.name_in_file(metadata, attribute))
+    found: list[str] = []
     for place in range(attribute.components):
         wanted = own if attribute.components == 1 else f"{own}_{place}"
-        names.append(unused_name(wanted, attribute.domain, [*taken, *names]))
-    return names
+        found.append(unused_name(wanted, attribute.domain, [*taken, *found]))
+    return found

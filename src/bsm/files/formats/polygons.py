@@ -17,7 +17,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, MOST_NAME_BYTES, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.conventions import shares_of
-from bsm.files.formats.metadata import fitting, named
+from bsm.files.formats.metadata import CALLED, COMPONENTS, NONE, fitting, named
 from bsm.files.parsing import Doubles, Ints, require_counts, single_suffices
 
 Array = npt.NDArray[Any]
@@ -29,13 +29,18 @@ _TEXCOORDS = ("texture coordinates", "uv", "tcoords")
 
 @dataclass(frozen=True, eq=False)
 class Column:
-    """A value for each point, each polygon, or each corner of the polygons; it may be wrong."""
+    """A value for each point, each polygon, or each corner of the polygons; it may be wrong.
+
+    `called` and `components` are names in the file that the name and the meaning do not tell.
+    """
 
     name: str
     values: Array
     domain: Domain = "vertex"
     semantic: Semantic = "generic"
     indices: Ints | None = None
+    called: str = ""
+    components: tuple[str, ...] = ()
 
     def of_triangles(self, name: str, places: Ints, owner: Ints) -> Attribute:
         """The attribute of triangles whose corners are the polygons' at `places`, and which are of polygon `owner`."""
@@ -56,20 +61,31 @@ class Column:
 
 def attributes_of(
     columns: Iterable[Column], vertices: int, polygons: int, places: Ints, owner: Ints
-) -> tuple[tuple[Attribute, ...], dict[str, str]]:
-    """The attributes that columns are, and why the others are none, by name."""
+) -> tuple[tuple[Attribute, ...], dict[str, str], dict[str, str]]:
+    """The attributes that columns are, their names in the file as metadata, and why the others are none, by name."""
     rows = {"vertex": vertices, "face": polygons}
     found: dict[str, Attribute] = {}
+    file_names: dict[str, str] = {}
     refused: dict[str, str] = {}
     for column in columns:
-        name = unused_name(column.name, column.domain, found)
+        distinct = _distinct(column, found)
         try:
             if rows.get(column.domain, len(column.values)) != len(column.values):
                 raise MeshError(f"there are {len(column.values)} of them for {rows[column.domain]}")
-            found[name] = column.of_triangles(name, places, owner)
+            attribute = distinct.of_triangles(distinct.name, places, owner)
         except MeshError as error:
             refused[PLURALS.get(column.name, column.name)] = str(error)
-    return tuple(found.values()), refused
+            continue
+        found[distinct.name] = attribute
+        names = {CALLED: distinct.called, COMPONENTS: "\n".join(distinct.components)}
+        file_names |= {f"{kind}{attribute.name}": words for kind, words in names.items() if words}
+    return tuple(found.values()), file_names, refused
+
+
+def _distinct(column: Column, taken: Collection[str]) -> Column:
+    """Return a column under a name that no other one has; what its file calls it is kept."""
+    name = unused_name(column.name, column.domain, taken)
+    return column if name == column.name else replace(column, name=name, called=column.called or column.name)
 
 
 def joined_columns(parts: Sequence[Part]) -> tuple[list[Column], list[str]]:
@@ -77,8 +93,8 @@ def joined_columns(parts: Sequence[Part]) -> tuple[list[Column], list[str]]:
     by_name: list[dict[str, Column]] = [{} for _ in parts]
     for part, named_so in zip(parts, by_name, strict=True):
         for column in part.columns:
-            name = unused_name(column.name, column.domain, named_so)
-            named_so[name] = replace(column, name=name)
+            distinct = _distinct(column, named_so)
+            named_so[distinct.name] = distinct
     found: list[Column] = []
     notes: list[str] = []
     for name in dict.fromkeys(name for named_so in by_name for name in named_so):
@@ -200,14 +216,16 @@ def color_column(values: Array, domain: Domain, *, written_whole: bool = False) 
     return Column("color", values, domain, "color" if values.dtype in (np.uint8, np.uint16) else "generic")
 
 
-def named_column(name: str, values: Array, domain: Domain, meaning: Semantic | None = None) -> Column:
-    """Values as libraries name them, shape (k, c); None: their name gives their meaning."""
+def named_column(
+    name: str, values: Array, domain: Domain, meaning: Semantic | None = None, components: Sequence[str] = ()
+) -> Column:
+    """Values as libraries name them, shape (k, c), and their components; None: their name gives their meaning."""
     lower = name.lower()
     if meaning is None:
         known = "color" if lower in _COLORS else "texcoord" if lower in _TEXCOORDS else name
         meaning = meaning_of(known, values.shape[1])
     column = color_column(values, domain) if meaning == "color" else Column(name, values, domain, meaning)
-    return Column(name, column.values, domain, column.semantic)
+    return Column(name, column.values, domain, column.semantic, components=tuple(components))
 
 
 def meaning_of(name: str, components: int = 3) -> Semantic:
@@ -282,15 +300,20 @@ class Polygons:
             raise MeshError(f"vertex {row} has a coordinate that is not finite; remove or repair it")
         notes = list(self.notes)
         thin = int((sizes < 3).sum())
-        left_out = (*self.dropped, *([f"faces with fewer than three corners ({thin})"] if thin else []))
+        left_out = [*self.dropped, *([f"faces with fewer than three corners ({thin})"] if thin else [])]
         if (sizes > 3).any():
             notes.append(f"{CUT}: {int((sizes > 3).sum())}")
         places, owner, folded = (cut or triangulate)(positions, sizes, corners)
         if folded:
             notes.append(f"{CROSSING}: {folded}")
-        finite = [_finite(narrow, notes) for column in self.columns for narrow in _narrow(column)]
-        attributes, refused = attributes_of(finite, len(positions), len(sizes), places, owner)
-        metadata, too_large = fitting(self.metadata, limits.metadata_bytes)
+        without = list[str]()
+        narrow = (one for column in self.columns for one in _narrow(column))
+        finite = [one for column in narrow for one in _finite(column, without)]
+        attributes, file_names, refused = attributes_of(finite, len(positions), len(sizes), places, owner)
+        wide = {column.name: [*_component_names(column)] for column in self.columns if _is_wide(column)}
+        file_names |= {f"{COMPONENTS}{name}": "\n".join(names) for name, names in wide.items()}
+        metadata, too_large = fitting({**self.metadata, **file_names}, limits.metadata_bytes)
+        left_out += without
         dropped = (*left_out, *refused, *too_large)
         notes += [f"left out: {', '.join(left_out)}"] if left_out else []
         notes += [f"left out: {name}, because {why}" for name, why in (refused | too_large).items()]
@@ -304,6 +327,21 @@ def turned_corners(sizes: Ints, turned: Array) -> Ints:
     step = np.arange(len(first)) - first
     size = np.repeat(sizes, sizes)
     return first + np.where(np.repeat(turned, sizes), (size - step) % np.maximum(size, 1), step)
+
+
+GHOSTS = "vtkGhostType"
+_HIDDEN = 1 | 32  # cells of another piece, and those that are switched off
+
+
+def cut_strips(sizes: Ints, corners: Ints) -> tuple[Ints, Ints]:
+    """Return the triangles of strips, shape (k, 3), and the strip of each."""
+    pieces = np.maximum(sizes - 2, 0)
+    owner = np.repeat(np.arange(len(sizes)), pieces)
+    step = np.arange(len(owner)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    first = (np.cumsum(sizes) - sizes)[owner] + step
+    # Every second triangle runs the other way round; its corners are exchanged, so that all show the same side.
+    odd = step % 2
+    return corners[np.column_stack([first, first + 1 + odd, first + 2 - odd])], owner
 
 
 @dataclass(frozen=True, eq=False)
@@ -352,6 +390,17 @@ class Part:
         with np.errstate(invalid="ignore"):  # a later check refuses infinite values
             positions = self.positions @ linear.T + matrix[:3, 3]
         return replace(self, positions=positions, corners=self.corners[order], columns=columns)
+
+
+def without_hidden(part: Part, left: dict[str, None]) -> Part:
+    """Return a part without the cells that VTK hides, and without their marks."""
+    of_faces = (column.values[:, 0] for column in part.columns if (column.name, column.domain) == (GHOSTS, "face"))
+    marks = next(of_faces, np.zeros(0, np.uint8))
+    part = replace(part, columns=[column for column in part.columns if column.name != GHOSTS])
+    if len(marks) != len(part.sizes) or not (hidden := np.flatnonzero(marks.astype(np.int64) & _HIDDEN)).size:
+        return part
+    left[f"hidden cells ({len(hidden)})"] = None
+    return part.without(hidden)
 
 
 def part_of(polygons: Polygons, name: str) -> Part:
@@ -428,23 +477,38 @@ _MOST_NARROW = 32
 _AXES = {6: "xx yy zz xy yz xz", 9: "xx xy xz yx yy yz zx zy zz"}
 
 
+def _is_wide(column: Column) -> bool:
+    return column.values.ndim > 1 and MOST_COMPONENTS < column.values.shape[1] <= _MOST_NARROW
+
+
+def _component_names(column: Column) -> Sequence[str]:
+    """The names of the components of a column in its file, or those by axes if it is a tensor, or numbers."""
+    width = column.values.shape[1]
+    if len({*column.components}) == width:
+        return column.components
+    return _AXES[width].split() if width in _AXES else [str(place) for place in range(width)]
+
+
 def _narrow(column: Column) -> list[Column]:
-    """Return a column of more numbers than an attribute has as one of each, named by axes if it is a tensor."""
-    width = column.values.shape[1] if column.values.ndim > 1 else 1
-    if not MOST_COMPONENTS < width <= _MOST_NARROW:
+    """Return a column of more numbers than an attribute has as one of each."""
+    if not _is_wide(column):
         return [column]
-    names = _AXES[width].split() if width in _AXES else map(str, range(width))
-    return [replace(column, name=f"{column.name}.{name}", values=column.values[:, [k]]) for k, name in enumerate(names)]
+    one = replace(column, components=())
+    names = (f"{column.name}.{component}" for component in _component_names(column))
+    return [replace(one, name=name, values=column.values[:, [place]]) for place, name in enumerate(names)]
 
 
-def _finite(column: Column, notes: list[str]) -> Column:
-    """A column with zeros for values that are not finite, where others are."""
+def _finite(column: Column, dropped: list[str]) -> list[Column]:
+    """A column with the median of the others for values that are not finite, and one that marks these."""
     lost = ~np.isfinite(column.values) if column.values.dtype.kind == "f" else np.zeros(0, np.bool_)
     if not lost.any() or lost.all():
-        return column
-    what = PLURALS.get(column.name, column.name)
-    notes.append(f"values of {what} that are not finite were set to zero: {int(lost.sum())}")
-    return replace(column, values=np.where(lost, column.values.dtype.type(0), column.values))
+        return [column]
+    name = PLURALS.get(column.name, column.name)
+    dropped.append(f"values of {name} that are not numbers ({int(lost.sum())}); {column.name}{NONE} marks them")
+    usual = column.values.dtype.type(np.median(column.values[~lost]))
+    marks = replace(column, name=f"{column.name}{NONE}", values=lost.any(axis=1).astype(np.uint8)[:, None])
+    marks = replace(marks, semantic="generic", called="", components=())
+    return [replace(column, values=np.where(lost, usual, column.values)), marks]
 
 
 def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, Ints, int]:

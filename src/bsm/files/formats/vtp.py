@@ -9,8 +9,9 @@ import binascii
 import re
 import warnings
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -20,8 +21,19 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.files.formats.metadata import Written, first, in_words, plain_fields, unsaid
-from bsm.files.formats.polygons import Array, Column, Polygons, named_column
+from bsm.files.formats.metadata import (
+    CALLED,
+    COMPONENTS,
+    Written,
+    components_in_file,
+    first,
+    in_words,
+    name_in_file,
+    plain_fields,
+    unsaid,
+    with_none,
+)
+from bsm.files.formats.polygons import Array, Column, Part, Polygons, cut_strips, named_column, without_hidden
 from bsm.files.parsing import AS_NUMBERS, TAG, Ints, require_counts, require_inflated, single_suffices
 
 _WHOLE = [(sign, kind, bits) for sign, kind in (("Int", "i"), ("UInt", "u")) for bits in (8, 16, 32, 64)]
@@ -33,6 +45,7 @@ _HEADS = {"UInt32": "u4", "UInt64": "u8"}
 _ARRAYS, _MOST_ARRAYS = ("DataArray", "Array"), 1024
 _COPIES = 3  # of the bytes of an array that are there at a time while numbers are made of it
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
+_CELLS = ("Polys", "Strips")
 _OTHERS = {"NumberOfVerts": "points", "NumberOfLines": "lines"}
 
 
@@ -192,35 +205,50 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
             "this VTK file holds no surface; extract one (ParaView's filter Extract Surface); "
             "if it is a list of blocks, call it .vtm"
         )
-    if _count(piece, "NumberOfStrips", 0):
-        raise MeshError("this VTP file holds triangle strips; make triangles of them (ParaView's filter Triangulate)")
-    points, polygons = _count(piece, "NumberOfPoints", 0), _count(piece, "NumberOfPolys", 0)
-    require_counts(limits, vertices=points, faces=polygons)
-    shape = {(around, array.get("Name", "") * (around == "Polys")): array for around, array in document.arrays}
-    try:
-        needed = (("Points", ""), ("Polys", "connectivity"), ("Polys", "offsets"))
-        coordinates, corners, ends = (document.numbers(shape[key]) for key in needed)
-    except KeyError:
-        raise NoFacesError("this VTP file has no faces; point clouds are not supported") from None
-    if coordinates.shape != (points, 3) or len(ends) != polygons or {corners.dtype.kind, ends.dtype.kind} - {*"iu"}:
-        raise CorruptError("this VTP file has not as many points or polygons as it says")
+    points, polygons, strips = (_count(piece, f"NumberOf{what}", 0) for what in ("Points", "Polys", "Strips"))
+    require_counts(limits, vertices=points, faces=polygons + strips)
+    arrays = {(around, array.get("Name", "") * (around in _CELLS)): array for around, array in document.arrays}
+    if ("Points", "") not in arrays or not polygons + strips:
+        raise NoFacesError("this VTP file has no faces; point clouds are not supported")
+    coordinates = document.numbers(arrays["Points", ""])
+    if coordinates.shape != (points, 3):
+        raise CorruptError("this VTP file has not as many points as it says")
+    sizes, flat = _cells(document, arrays, "Polys", polygons)
+    strip_sizes, strip_corners = _cells(document, arrays, "Strips", strips)
+    triangles, owner = cut_strips(strip_sizes, strip_corners)
+    # Points and lines come first among cells.
+    before = _count(piece, "NumberOfVerts", 0) + _count(piece, "NumberOfLines", 0)
+    cells = before + np.append(np.arange(polygons), polygons + owner)
+    columns, dropped = _columns(document, cells, before + polygons + strips)
+    fields = {array.get("Name", ""): array for around, array in document.arrays if around == "FieldData"}
+    metadata, omitted = plain_fields({name: _field(document.numbers(array), array) for name, array in fields.items()})
+    others = [word for name, word in _OTHERS.items() if _count(piece, name, 0)]
+    sizes, flat = np.append(sizes, np.full(len(triangles), 3)), np.append(flat, triangles.ravel())
+    with np.errstate(invalid="ignore"):  # as above
+        positions = coordinates.astype(np.float64)
+    left = dict.fromkeys((*dropped, *omitted, *others))
+    part = without_hidden(Part(positions, sizes, flat, columns, np.zeros(len(sizes), np.int64), ""), left)
+    return Polygons(positions, part.sizes, part.corners, (), tuple(left), tuple(part.columns), metadata)
+
+
+def _cells(document: _Document, arrays: Mapping[tuple[str, str], Any], around: str, count: int) -> tuple[Ints, Ints]:
+    """The sizes and the corners of polygons or strips."""
+    if not count:
+        return np.zeros(0, np.int64), np.zeros(0, np.int64)
+    if (around, "offsets") not in arrays or (around, "connectivity") not in arrays:
+        raise CorruptError(f"this VTP file has not the {around} that it says")
+    corners, ends = (document.numbers(arrays[around, name]) for name in ("connectivity", "offsets"))
+    if len(ends) != count or {corners.dtype.kind, ends.dtype.kind} - {*"iu"}:
+        raise CorruptError(f"this VTP file has not as many {around} as it says")
     stops: Ints = ends[:, 0].astype(np.int64)
     sizes: Ints = stops - np.concatenate([[0], stops[:-1]])
     if (sizes < 0).any() or (sizes > corners.size).any() or sizes.sum() != corners.size:
         raise CorruptError("the polygons of this VTP file do not begin where others end")
-    columns, dropped = _columns(document, piece)
-    fields = {array.get("Name", ""): array for around, array in document.arrays if around == "FieldData"}
-    metadata, omitted = plain_fields({name: _field(document.numbers(array), array) for name, array in fields.items()})
-    others = [word for name, word in _OTHERS.items() if _count(piece, name, 0)]
-    flat: Ints = corners.reshape(-1).astype(np.int64)
-    with np.errstate(invalid="ignore"):  # as above
-        positions = coordinates.astype(np.float64)
-    return Polygons(positions, sizes, flat, (), (*dropped, *omitted, *others), columns, metadata)
+    return sizes, corners.reshape(-1).astype(np.int64)
 
 
-def _columns(document: _Document, piece: dict[str, str]) -> tuple[tuple[Column, ...], list[str]]:
-    """Values of points and polygons, and the names of those that are none of these."""
-    before = _count(piece, "NumberOfVerts", 0) + _count(piece, "NumberOfLines", 0)
+def _columns(document: _Document, cells: Ints, count: int) -> tuple[list[Column], list[str]]:
+    """Values of points and of polygons, each of which is one of the cells, and the names of others."""
     domains: dict[str, Domain] = {"PointData": "vertex", "CellData": "face"}
     found, dropped = [], []
     for around, array in document.arrays:
@@ -228,11 +256,15 @@ def _columns(document: _Document, piece: dict[str, str]) -> tuple[tuple[Column, 
         if domain and array.get("type") not in _TYPES:
             dropped.append(name)
         elif domain:
-            values = document.numbers(array)[before if domain == "face" else 0 :]
+            values = document.numbers(array)
+            if domain == "face" and len(values) == count:
+                values = values[cells]
             active = document.tags.get(around, {})
             shown: dict[str | None, Semantic] = {active.get("TCoords"): "texcoord", active.get("Normals"): "normal"}
-            found.append(named_column(name, values, domain, shown.get(name)))
-    return tuple(found), dropped
+            given = [array.get(f"ComponentName{place}", "") for place in range(values.shape[1])]
+            components = given if all(given) and len(given) > 1 else ()
+            found.append(named_column(name, values, domain, shown.get(name), components))
+    return found, dropped
 
 
 def _field(values: Array, array: ElementTree.Element) -> Array:
@@ -243,6 +275,8 @@ def _field(values: Array, array: ElementTree.Element) -> Array:
 
 def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:
     for name, value in metadata.items():
+        if name.startswith((CALLED, COMPONENTS)):
+            continue  # arrays have these names
         if isinstance(value, str):
             text = value.replace("\0", "").encode(errors="replace")
             yield name, "String", np.frombuffer(text + b"\0", np.uint8)
@@ -261,13 +295,14 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
     blocks: list[bytes] = []
     at = 0
 
-    def array(name: str, values: Array, kind: str = "") -> str:
+    def array(name: str, values: Array, kind: str = "", component_names: Sequence[str] = ()) -> str:
         nonlocal at
         data = np.ascontiguousarray(values.astype(values.dtype.newbyteorder("<"))).tobytes()
         components = values.shape[1] if values.ndim == 2 else 1
+        called = "".join(f"ComponentName{place}={_quoted(one)} " for place, one in enumerate(component_names))
         tag = (
             f'<{"Array" if kind == "String" else "DataArray"} type="{kind or _NAMES[values.dtype.str[1:]]}" '
-            f"Name={_quoted(name)} "
+            f"Name={_quoted(name)} {called}"
             f'NumberOf{"Tuples" if kind else "Components"}="{components}" format="appended" offset="{at}"/>'
         )
         blocks.append(len(data).to_bytes(8, "little") + data)
@@ -275,8 +310,7 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
         return tag
 
     def section(tag: str, domain: Domain) -> str:
-        held = [attribute for attribute in mesh.attributes if attribute.domain == domain]
-        lines = [array(attribute.name, attribute.values) for attribute in held]
+        lines = [array(*named_values) for named_values in _arrays(mesh, domain)]
         return f"<{tag}{_active(mesh, domain)}>{''.join(lines)}</{tag}>"
 
     ends = np.arange(3, 3 * len(mesh.faces) + 1, 3, dtype=np.int64)
@@ -296,6 +330,26 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
     return Written(b"".join((text.encode(), *blocks, b"</AppendedData></VTKFile>\n")), lost)
 
 
+def _arrays(mesh: TriangleMesh, domain: Domain) -> Iterator[tuple[str, Array, str, list[str]]]:
+    """The names, values and components of attributes, those together that were one array of many components."""
+    values = with_none(attribute for attribute in mesh.attributes if attribute.domain == domain)
+    held = {attribute.name: attribute for attribute in mesh.attributes if attribute.name in values}
+    for key, words in mesh.metadata.items():
+        components = str(words).split("\n")
+        name = key.removeprefix(COMPONENTS)
+        members = [held.get(f"{name}.{component}") for component in components]
+        if key.startswith(COMPONENTS) and name not in held and None not in members:
+            yield (
+                name,
+                np.hstack([values[held.pop(one.name).name] for one in members if one is not None]),
+                "",
+                components,
+            )
+    for attribute in held.values():
+        components = components_in_file(mesh.metadata, attribute)
+        yield name_in_file(mesh.metadata, attribute), values[attribute.name], "", components
+
+
 def _quoted(name: str) -> str:
     from xml.sax.saxutils import quoteattr  # which takes with it all that speaks HTTP
 
@@ -308,5 +362,5 @@ def _active(mesh: TriangleMesh, domain: Domain) -> str:
     if domain == "vertex":
         chosen["Normals"] = first(mesh, "normal", (3,), domain)
         chosen["TCoords"] = first(mesh, "texcoord", (2,), domain)
-    named = [(tag, attribute.name) for tag, attribute in chosen.items() if attribute is not None]
+    named = [(tag, name_in_file(mesh.metadata, one)) for tag, one in chosen.items() if one is not None]
     return "".join(f" {tag}={_quoted(name)}" for tag, name in named)

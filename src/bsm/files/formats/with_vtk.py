@@ -5,9 +5,10 @@ announces an image, or a grid of more points than the file has bytes, is refused
 surfaces of a file become parts of one mesh. Errors that VTK reports refuse the file; its warnings are named as losses.
 """
 
+import csv
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -26,7 +27,7 @@ from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.welding import row_numbers
 from bsm.files.formats.cells import INSIDE, columns_of
 from bsm.files.formats.metadata import plain_fields
-from bsm.files.formats.polygons import Column, Part, Polygons, joined_parts, polygon_normals, turned_corners
+from bsm.files.formats.polygons import GHOSTS, Column, Part, Polygons, joined_parts, polygon_normals, turned_corners
 from bsm.files.parsing import Doubles, Ints, as_library_error, require_counts
 from bsm.files.table import FORMATS
 
@@ -39,13 +40,18 @@ _READERS = {
 """The reader in each module of VTK, or of a suffix."""
 _ALL_OF = ("PointArrays", "CellArrays", "Bases", "Families", "PatchArrays")
 _CELL = "vtkCell"
+_HIDDEN_CELL = 32  # a bit of the marks of ghosts
 MOST_CORNERS = 9  # of polygons that are compared, in a table: one of thousands would make it gigabytes
-_OWN = re.compile(f"vtkGhostType|vtkValidPointMask|{_CELL}")
+_SETTINGS = Path(__file__).parents[1] / "settings.csv"
+_NODE = "GlobalNodeId"  # numbers of points, by which faces are known in several blocks
+_UNNAMED = re.compile(r"Unnamed set ID: (\d+).*")
+_MOST_SETS = 64  # that become attributes
+_OWN = re.compile(f"{GHOSTS}|vtkValidPointMask|PedigreeNodeId|{_CELL}")
 _SAID = re.compile(r"(ERROR|Warning): In [^\n]*\n\w+ \(0x\w+\): ")
 
 
-def read_vtk(path: str, kind: str, limits: Limits, step: int = 0) -> tuple[Polygons, tuple[float, ...]]:
-    """The surfaces of a file at one of its times, and these."""
+def read_vtk(path: str, kind: str, limits: Limits, step: int | None = None) -> tuple[Polygons, tuple[float, ...]]:
+    """The surfaces of a file as the frame of a step, or at rest at the first time; and its times."""
     vtkOutputWindow.SetInstance(said := vtkStringOutputWindow())
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     vtkSMPTools.SetBackend("Sequential")  # a process that reads files from strangers may start no thread
@@ -56,27 +62,99 @@ def read_vtk(path: str, kind: str, limits: Limits, step: int = 0) -> tuple[Polyg
         reader = getattr(imported(module, "", "simulation"), name)()
         getattr(reader, "SetCaseFileName" if module.endswith("EnSight") else "SetFileName")(path)
         times = _opened(reader, kind, size, limits)
+        is_exodus = name == "vtkExodusIIReader"
+        if is_exodus and step is not None:
+            reader.SetApplyDisplacements(1)  # frames move as the displacements say
         if times:
-            reader.UpdateTimeStep(times[step])
+            reader.UpdateTimeStep(times[step or 0])
         reader.Update()
         data, words = reader.GetOutputDataObject(0), _SAID.split(said.GetOutput())
         if "ERROR" in words or data is None:
             why = words[words.index("ERROR") + 1] if "ERROR" in words else "there is nothing in it"
             raise FormatError(f"VTK cannot read this file, or one that it names: {' '.join(why.split())}")
         left = dict.fromkeys(" ".join(text.split()) for text in words[2::2])
+        sets = _Sets(data, left) if is_exodus else None
         leaves = [*_leaves(data, "")]
         parts = [part for leaf, name in leaves if (part := _part(leaf, name, left)) is not None]
+        parts = parts if sets is None else sets.mark(parts, left)
     whole = joined_parts(parts, None, limits, size)
-    fields = {name: values for leaf, _ in (*leaves, (data, "")) for name, values in _arrays(leaf.GetFieldData(), left)}
-    known, others = plain_fields(fields)
+    known, others = plain_fields(_fields([*(leaf for leaf, _ in leaves), data], len(times), left))
     return replace(whole, dropped=(*left, *others), metadata={**whole.metadata, **known}), times
+
+
+def _fields(every: Sequence[Any], steps: int, left: dict[str, None]) -> dict[str, Any]:
+    """The field data of sets of data: the numbers of all steps as a text, and a line for each value that differs."""
+    found = dict[str, dict[str, Any]]()
+    for name, values in (field for data in every for field in _arrays(data.GetFieldData(), left)):
+        if 1 < steps == values.size and values.dtype.kind in "iuf":
+            values = np.array(" ".join(map(repr, values.ravel().tolist())))
+        found.setdefault(name, {})[repr(values.tolist())] = values
+    shown = dict[str, Any]()
+    for name, by_text in found.items():
+        tables = [*by_text.values()]
+        several = len(tables) > 1 and all(values.size == 1 for values in tables)
+        shown[name] = np.array("\n".join(str(values.item()) for values in tables)) if several else tables[-1]
+    return shown
+
+
+class _Sets:
+    """The sets of a file of Exodus, which become marks of faces or points; its data keep the blocks."""
+
+    def __init__(self, data: Any, left: dict[str, None]) -> None:
+        self._faces, self._points = dict[str, Any](), dict[str, Any]()
+        for place in range(data.GetNumberOfBlocks()):
+            kind = data.GetMetaData(place).Get(data.NAME())
+            for leaf, name in _leaves(data.GetBlock(place), "") if kind.endswith(" Sets") else ():
+                called = _UNNAMED.sub(rf"{kind[:-1].lower()} \1", name)
+                part = _part(leaf, name, {}) if kind == "Side Sets" else None
+                full = len(self._faces) + len(self._points) >= _MOST_SETS
+                if kind == "Node Sets" and not full:
+                    self._points[called] = vtk_to_numpy(leaf.GetPointData().GetArray(_NODE))
+                elif part is not None and not full:
+                    self._faces[called] = _nodes_of_faces(part)
+                else:
+                    left[f"the {kind[:-1].lower()} {called}"] = None
+            if kind.endswith(" Sets"):
+                data.SetBlock(place, None)
+
+    def mark(self, parts: Sequence[Part], left: dict[str, None]) -> list[Part]:
+        """Return the parts with a column for each set, one where a face or point is in it."""
+        marked, missing = list[Part](), {name: len(rows) for name, rows in self._faces.items()}
+        for part in parts:
+            faces, points = _nodes_of_faces(part), _nodes_of_points(part)
+            columns = [column for column in part.columns if column.name != _NODE]
+            for name, rows in self._faces.items():
+                numbers = row_numbers(np.concatenate([faces, rows]))
+                is_in = np.isin(numbers[: len(faces)], numbers[len(faces) :])
+                missing[name] -= int(is_in.sum())
+                columns.append(Column(name, is_in.astype(np.uint8)[:, None], "face"))
+            for name, nodes in self._points.items():
+                columns.append(Column(name, np.isin(points, nodes).astype(np.uint8)[:, None]))
+            marked.append(replace(part, columns=columns))
+        left |= {f"faces of the side set {name} inside of volumes ({n})": None for name, n in missing.items() if n > 0}
+        return marked
+
+
+def _nodes_of_points(part: Part) -> Ints:
+    """The numbers of the points of a part in their file."""
+    found: Ints = next(column.values for column in part.columns if column.name == _NODE)[:, 0].astype(np.int64)
+    return found
+
+
+def _nodes_of_faces(part: Part) -> Ints:
+    """A row for each polygon of a part: the numbers of its corners in their file, sorted."""
+    rows = np.full((len(part.sizes), MOST_CORNERS), -1)
+    short = part.sizes <= MOST_CORNERS
+    places = np.arange(MOST_CORNERS) < np.where(short, part.sizes, 0)[:, None]
+    rows[places] = _nodes_of_points(part)[part.corners[np.repeat(short, part.sizes)]]
+    return np.sort(rows, axis=1)
 
 
 def _opened(reader: Any, kind: str, size: int, limits: Limits) -> tuple[float, ...]:
     """Let a reader read all that is in a file, and return its times; refuse images and grids by their header."""
-    if kind == "vtk":
-        for what in ("Scalars", "Vectors", "Normals", "Tensors", "TCoords", "Fields", "ColorScalars"):
-            getattr(reader, f"ReadAll{what}On")()
+    for row in csv.DictReader(_SETTINGS.read_text().splitlines()):
+        for setting in row["settings"].split() if row["value"] and reader.IsA(row["reader"]) else ():
+            getattr(reader, f"Set{setting}")(int(row["value"]))
     reader.UpdateInformation()
     for what in _ALL_OF:
         getattr(reader, f"EnableAll{what}", int)()
@@ -84,8 +162,12 @@ def _opened(reader: Any, kind: str, size: int, limits: Limits) -> tuple[float, .
         names = [reader.GetPatchArrayName(place) for place in range(reader.GetNumberOfPatchArrays())]
         for name in names:
             reader.SetPatchArrayStatus(name, int(name != "internalMesh" or len(names) == 1))
-    for what in ("NODAL", "ELEM_BLOCK") if hasattr(reader, "SetAllArrayStatus") else ():
-        reader.SetAllArrayStatus(getattr(reader, what), 1)
+    if hasattr(reader, "SetAllArrayStatus"):  # of Exodus
+        for what in ("NODAL", "ELEM_BLOCK", "GLOBAL"):
+            reader.SetAllArrayStatus(getattr(reader, what), 1)
+        for what in (reader.NODE_SET, reader.SIDE_SET, reader.ELEM_SET, reader.FACE_SET, reader.EDGE_SET):
+            for place in range(reader.GetNumberOfObjects(what)):
+                reader.SetObjectStatus(what, place, 1)
     about, data = reader.GetOutputInformation(0), reader.GetOutputDataObject(0)
     extent = about.Get(Pipeline.WHOLE_EXTENT()) if about.Has(Pipeline.WHOLE_EXTENT()) else ()
     counts = [high - low + 1 for low, high in zip(extent[::2], extent[1::2])]
@@ -126,6 +208,8 @@ def _part(data: Any, name: str, left: dict[str, None]) -> Part | None:
         numbers.SetName(_CELL)  # where cells are curved, those that the filter passes count something else
         data.GetCellData().AddArray(numbers)
         surface = _through(vtkDataSetSurfaceFilter(), data)
+    hidden = np.count_nonzero(_marks(data) & _HIDDEN_CELL)
+    left |= {f"hidden cells ({hidden})": None} if hidden else {}
     surface.RemoveGhostCells()  # those of other pieces, which close the skin of this one
     before = surface.GetNumberOfVerts() + surface.GetNumberOfLines()
     left |= {"points and lines": None} if before else {}
@@ -166,7 +250,8 @@ def _polygons(
     for given, domain, those, rows in domains:
         shown: tuple[tuple[Any, Semantic], ...] = ((given.GetTCoords(), "texcoord"), (given.GetNormals(), "normal"))
         active = {array.GetName(): meaning for array, meaning in shown if array is not None}
-        columns += columns_of({name: v[those][rows] for name, v in _arrays(given, left)}, domain, left, active)
+        values = {name: v[those][rows] for name, v in _arrays(given, left)}
+        columns += columns_of(values, domain, left, active, _components(given))
     return positions, sizes, corners, columns, np.zeros(len(sizes), np.int64)
 
 
@@ -193,6 +278,20 @@ def _inward(data: Any, cells: Ints, positions: Doubles, sizes: Ints, corners: In
     middles = vtk_to_numpy(_through(vtkCellCenters(), data).GetPoints().GetData())[cells]
     centers = np.add.reduceat(positions[corners], np.cumsum(sizes) - sizes) / sizes[:, None]
     return (polygon_normals(positions, sizes, corners) * (centers - middles)).sum(axis=1) < 0
+
+
+def _marks(data: Any) -> Any:
+    """The marks of ghosts of the cells of a set of data."""
+    marks = data.GetCellData().GetArray(GHOSTS)
+    return np.zeros(0, np.uint8) if marks is None else vtk_to_numpy(marks)
+
+
+def _components(given: Any) -> dict[str, list[str]]:
+    """The names of the components of arrays, of those that name all."""
+    arrays = (given.GetAbstractArray(place) for place in range(given.GetNumberOfArrays()))
+    named = (array for array in arrays if array.GetName() and array.HasAComponentName())
+    found = {a.GetName(): [a.GetComponentName(n) or "" for n in range(a.GetNumberOfComponents())] for a in named}
+    return {name: words for name, words in found.items() if all(words) and len(words) > 1}
 
 
 def _arrays(given: Any, left: dict[str, None]) -> Iterator[tuple[str, Any]]:

@@ -204,7 +204,10 @@ class _Grids:
                 raise MeshError(f"{name} has {values.size} numbers for {counts[center]} rows")
             if name in found[center]:
                 raise FormatError(f"two grids have values called {name}; {_WAY}")
-            found[center][name] = values.reshape(counts[center], -1)
+            table = values.reshape(counts[center], -1)
+            # Rows of XDMF are xx xy xz yy yz zz; those of VTK, by which components are named, xx yy zz xy yz xz.
+            is_symmetric = attribute.get("AttributeType", attribute.get("Type", "")) == "Tensor6"
+            found[center][name] = table[:, [0, 3, 5, 1, 4, 2]] if is_symmetric and table.shape[1] == 6 else table
         return skin(points, blocks, found["Node"], found["Cell"], left)
 
 

@@ -15,6 +15,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.conventions import TIME_VALUE, shares_of
 from bsm.files.formats.appearance import as_numbers
+from bsm.files.formats.metadata import CALLED, COMPONENTS
 from bsm.files.table import RATE, START, STEP, TIMES
 
 USUAL_RATE = 24.0  # frames per second of a sequence that does not say; pages play it as fast
@@ -127,7 +128,9 @@ class Shared:
         return replace(mesh, metadata={**mesh.metadata, **time})
 
     def mesh(self, positions: Positions, faces: Faces, *, with_metadata: bool = True) -> TriangleMesh:
-        metadata = {n: v for n, v in self.metadata().items() if n not in self.held} if with_metadata else {}
+        # The names of properties are those of every file.
+        every = {n: v for n, v in self.metadata().items() if with_metadata or n.startswith((CALLED, COMPONENTS))}
+        metadata = {name: value for name, value in every.items() if name not in self.held}
         return TriangleMesh(positions, faces, self.attributes(), metadata)
 
     def moved(self, *, anew: bool = False) -> tuple[Attribute, ...]:

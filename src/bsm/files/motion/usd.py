@@ -117,7 +117,10 @@ class Materials:
                 if kind not in _TAKEN:
                     yield "", f"shader {kind}" if shader else f"{kind}, which is not a mesh", ""
                     continue
-                for name in (*prim.GetAuthoredPropertyNames(), *["customData"] * prim.HasAuthoredCustomData()):
+                # Without a scheme, the surface is that of Catmull and Clark.
+                unauthored = ["subdivisionScheme"] if prim.IsA(self._geom.Mesh) else []
+                own = dict.fromkeys((*prim.GetAuthoredPropertyNames(), *unauthored))
+                for name in (*own, *["customData"] * prim.HasAuthoredCustomData()):
                     attr = prim.GetAttribute(name)
                     value = attr.Get() if attr and attr.GetTypeName().isScalar else ""
                     yield kind, name.removeprefix("inputs:") if shader else name, value
@@ -337,9 +340,12 @@ def import_usd() -> Any:
 
 
 class _Shape:
-    """The faces and primvars of a mesh of a stage, which its instances share; only their sizes until they are used."""
+    """The faces and primvars of a mesh of a stage; only their sizes until they are used.
 
-    def __init__(self, pxr: Any, prim: Any, time: Any) -> None:
+    Instances share them where their primvars come from the same prims.
+    """
+
+    def __init__(self, pxr: Any, prim: Any, time: Any, instance: _Instance | None) -> None:
         mesh = pxr.UsdGeom.Mesh(prim)
         self._pxr, self.prim, self.time, self.points = pxr, prim, time, mesh.GetPointsAttr()
         self.counts_attr, self.corners_attr = mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()
@@ -349,8 +355,12 @@ class _Shape:
         self.triangles = corners - 2 * faces
         self.left_handed = mesh.GetOrientationAttr().Get() == pxr.UsdGeom.Tokens.leftHanded
         self.rows: dict[Domain, int] = {"vertex": self.vertices, "face": faces, "corner": corners}
-        given = pxr.UsdGeom.PrimvarsAPI(prim).FindPrimvarsWithInheritance()
-        self._primvars = [primvar for primvar in given if primvar.HasAuthoredValue()]
+        self._primvars, self._of_instance = _primvars_at(pxr, prim), list[Any]()
+        if instance is not None:
+            instancer, self._instance = instance[:2]
+            self._instances = instancer.count(time)
+            own = {primvar.GetPrimvarName() for primvar in self._primvars}
+            self._of_instance = [p for p in instancer.primvars if p.GetPrimvarName() not in own]
         moving = [primvar for primvar in self._primvars if primvar.ValueMightBeTimeVarying()]
         self.left_out = [f"how {p.GetPrimvarName()} changes" for p in moving if p.GetAttr() not in self.painted]
 
@@ -393,6 +403,7 @@ class _Shape:
         return found[(found >= 0) & (found < self.rows["face"])]
 
     def _columns(self) -> Iterator[shapes.Column]:
+        yield from self._instance_columns()
         for primvar in self._primvars:
             name, kind = str(primvar.GetPrimvarName()), str(primvar.GetTypeName())
             domain = _DOMAINS.get(primvar.GetInterpolation())
@@ -417,6 +428,35 @@ class _Shape:
                 table = values if at_corners else values[places]
                 yield shapes.Column(named_as, table, domain, semantic, places if at_corners else None)
 
+    def _instance_columns(self) -> Iterator[shapes.Column]:
+        """The values that an instancer has for this instance, at all of its vertices or faces."""
+        for primvar in self._of_instance:
+            name, kind = str(primvar.GetPrimvarName()), str(primvar.GetTypeName())
+            value = primvar.ComputeFlattened(self.time)
+            values = np.array([] if value is None else value)
+            if values.ndim and len(values) == self._instances:
+                values = values[self._instance : self._instance + 1]
+            values = values.reshape(1, -1)
+            if not kind.endswith("[]") or values.dtype.kind not in "iuf" or not 1 <= values.size <= MOST_COMPONENTS:
+                self.left_out.append(name)
+                continue
+            domain: Domain = "vertex" if name in _SHADES else "face"
+            called, values, semantic = _meant(name, kind, values)
+            yield shapes.Column(called, np.repeat(values, self.rows[domain], axis=0), domain, semantic)
+
+
+def _primvars_at(pxr: Any, prim: Any) -> list[Any]:
+    given = pxr.UsdGeom.PrimvarsAPI(prim).FindPrimvarsWithInheritance()
+    return [primvar for primvar in given if primvar.HasAuthoredValue()]
+
+
+def _sources_of(pxr: Any, prim: Any) -> tuple[str, ...]:
+    """The paths of a mesh and of its primvars, with those of prototypes in place of their instances."""
+    attrs = [primvar.GetAttr() for primvar in _primvars_at(pxr, prim)]
+    owners = [prim, *(attr.GetPrim() for attr in attrs)]
+    shared = (owner.GetPrimInPrototype() if owner.IsInstanceProxy() else owner for owner in owners)
+    return tuple(str(owner.GetPath()) for owner in shared)
+
 
 class _Instancer:
     """The instances of a point instancer, which are placed at any time."""
@@ -428,8 +468,12 @@ class _Instancer:
         self._roots = [prim.GetStage().GetPrimAtPath(path) for path in self._instancer.GetPrototypesRel().GetTargets()]
         below = [list(pxr.Usd.PrimRange.AllPrims(root)) if root else [] for root in self._roots]
         self._meshes = [[one for one in prims if one.IsA(pxr.UsdGeom.Mesh)] for prims in below]
+        self.primvars = _primvars_at(pxr, prim)
         inner = (one for prims in below for one in prims if one.IsA(pxr.UsdGeom.PointInstancer))
         self.inner = [str(one.GetPath()) for one in inner]
+
+    def count(self, time: Any) -> int:
+        return len(self._instancer.GetProtoIndicesAttr().Get(time) or [])
 
     @lru_cache(2)  # noqa: B019
     def shown(self, time: float) -> frozenset[tuple[int, int]]:
@@ -590,11 +634,13 @@ class _Stage:
 
     def _parts(self) -> Iterator[_Part]:
         """Yield the visible meshes, once for each instance."""
-        known: dict[str, _Shape] = {}
+        known: dict[tuple[Any, ...], _Shape] = {}
         for prim, instance in self._placed():
-            key = str((prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim).GetPath())
+            # An instance has primvars of its own, and those of the prims above it.
+            own = (str(instance[0].prim.GetPath()), instance[1]) if instance and instance[0].primvars else ()
+            key = *_sources_of(self.pxr, prim), own
             if key not in known:
-                known[key] = _Shape(self.pxr, prim, self.first)
+                known[key] = _Shape(self.pxr, prim, self.first, instance)
             shape = known[key]
             if shape.rows["face"] or shape.rows["corner"]:
                 yield _Part(shape, prim, instance)
@@ -679,7 +725,9 @@ class _Stage:
     def renewed(self, time: float) -> TriangleMesh:
         """The mesh at a time, with the faces and primvars that it has then."""
         code = self.pxr.Usd.TimeCode(time)
-        self.parts = [_Part(_Shape(self.pxr, part.prim, code), part.prim, part.instance) for part in self.parts]
+        self.parts = [
+            _Part(_Shape(self.pxr, part.prim, code, part.instance), part.prim, part.instance) for part in self.parts
+        ]
         return self.frame(time).mesh
 
     def frame(self, time: float) -> shapes.MeshFile:
