@@ -26,6 +26,7 @@ from bsm._core import codec as _kernels
 from bsm.bitstream.errors import MeshError, OptionError, TargetError
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
+from bsm.codec.geometry.welding import group_rows
 from bsm.codec.look.measure import POWER, LookMetric
 from bsm.codec.sequence.frames import same_frames
 from bsm.codec.static.targets import WIDEST as COARSEST_STEP
@@ -56,6 +57,9 @@ BELL = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)  # smooths weights, whose quick 
 RELIEF = 0.15  # share of the largest change of a weight by which the excess falls, about
 TRIES, HELD = 20, 2  # attempts, and how many of them are held that seem to keep the promise
 LEAST_STEP, FINER = 1e-7, 0.8  # the finest step, and what steps shrink by at least once all attempts have failed
+COPIES_APART = 2.0**-22
+"""How far copies of a vertex are drawn apart, as a share of the extent, so that they are not shaded as one: a few steps
+of the grid on which a picture joins vertices."""
 _PIXEL = 4 * 6 / 16  # bytes of a `LookMetric` for each sample along the side of its pictures, squared
 
 
@@ -290,11 +294,24 @@ def _evening(looks: Matrix) -> Matrix:
     return np.asarray(smooth - smooth.mean())
 
 
+def _with_copies_apart(frame: Positions) -> Positions:
+    """Return a frame whose vertices at one place are hardly apart.
+
+    Vertices that a run keeps apart, for instance since their colors differ, are coded and shaded apart.
+    """
+    index = group_rows(np.ascontiguousarray(frame, np.float64))
+    counts = np.bincount(index)
+    rank = np.empty(len(index), np.int64)
+    rank[np.argsort(index, kind="stable")] = np.arange(len(index)) - np.repeat(np.cumsum(counts) - counts, counts)
+    apart = COPIES_APART * np.ptp(frame, axis=0).max(initial=0.0)
+    return np.asarray(frame + (apart * rank)[:, None])
+
+
 # A frame of an explosion may show nothing, and then no step is too wide for it.
 def metric_of(frame: Positions, faces: Faces, threads: int | None = None) -> LookMetric | None:
     """Return the metric of an original frame, or None if nothing of it is seen."""
     try:
-        return LookMetric(TriangleMesh(frame, faces), threads=threads)
+        return LookMetric(TriangleMesh(_with_copies_apart(frame), faces), threads=threads)
     except MeshError:
         return None
 

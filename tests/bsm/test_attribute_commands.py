@@ -103,7 +103,7 @@ def test_metadata_of_a_sequence(tmp_path):
 def test_what_a_format_cannot_hold_is_reported(tmp_path, capsys):
     bsm.save(dressed(), tmp_path / "a.bsm", grid=12)
     printed = notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.off")
-    assert "off cannot hold" in printed and all(name in printed for name in ("texcoord", "height", "label", "material"))
+    assert "off cannot hold" in printed and all(name in printed for name in ("height", "label", "material"))
     assert run_json("decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz")["left_out"] == []
 
 
@@ -168,9 +168,10 @@ def test_compare_tells_what_is_not_there_any_more(tmp_path, capsys):
     write_mesh(tmp_path / "a.npz", mesh)
     write_mesh(tmp_path / "b.off", mesh)
     errors = run_json("compare", tmp_path / "a.npz", tmp_path / "b.off")["attributes"]
-    assert errors["texcoord"] is None and errors["color"]["max_error"] == 0 and errors["normal"]["max_angle_deg"] == 0
+    assert errors["height"] is None and errors["color"]["max_error"] == 0 and errors["normal"]["max_angle_deg"] == 0
     assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "b.off")]) == 0
-    assert "texcoord: missing\n" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    assert "height: missing\n" in printed and f"only in {tmp_path / 'a.npz'}: height, label" in printed
 
 
 @pytest.mark.slow

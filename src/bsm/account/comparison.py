@@ -20,6 +20,7 @@ from bsm.codec.geometry.metrics import Comparison, compare, face_geometry
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.static.preamble_encoding import join, joined
 from bsm.files.conventions import shares_of
+from bsm.files.formats.metadata import name_in_file
 from bsm.files.formats.npz import write_npy
 from bsm.files.images import largest_side
 from bsm.files.output import open_output
@@ -223,7 +224,9 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
     with suppress(MeshError):  # they may have the same vertices, in an order that is known
         if merged and len(original.positions) == len(decoded.positions):
             numbering(original, decoded)
-            merged = False
+            # Pieces of a mesh that is split at its seams may be alike: only places tell them apart.
+            copies = len(first_of(group_rows(np.ascontiguousarray(original.positions, np.float64))))
+            merged = copies < len(original.positions) and not np.array_equal(original.faces, decoded.faces)
     if merged:
         # An encoder makes vertices at one position one, and a file may need them split.
         given, whole = original, join(original, keep=False)
@@ -290,6 +293,20 @@ def _same_attributes(
     for attribute in original:
         other = after[attribute.name] if attribute.name in after else renamed.pop(attribute.semantic, None)
         yield attribute, other if other and other.components == attribute.components else None
+
+
+def names_apart(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, list[str]]:
+    """Return the names in files of attributes that one mesh has and the other has not."""
+    pairs = [*_same_attributes(original.attributes, decoded.attributes)]
+    partners = {id(other) for _, other in pairs if other is not None}
+    first = [name_in_file(original.metadata, one) for one, other in pairs if other is None]
+    second = [name_in_file(decoded.metadata, one) for one in decoded.attributes if id(one) not in partners]
+    for one, other in pairs:
+        if other is not None and one.name == other.name and one.semantic == "generic":
+            names = [name_in_file(mesh.metadata, one) for mesh in (original, decoded)]
+            first += names[:1] if names[0] != names[1] else []
+            second += names[1:] if names[0] != names[1] else []
+    return {key: names for key, names in (("only_in_original", first), ("only_in_decoded", second)) if names}
 
 
 def _compare_one(

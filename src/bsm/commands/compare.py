@@ -17,6 +17,7 @@ from bsm.account.comparison import (
     compare_meshes,
     errors_of,
     errors_of_frames,
+    names_apart,
     one_each,
     order_of_used,
     pair,
@@ -150,10 +151,11 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
             console.note(f"vertices are not compared: {str(error).partition(';')[0]}")
             compared = _apart(original, decoded) if args.surface else {}
     attributes, images = compared.pop("attributes", {}), compare_images(original.metadata, decoded.metadata)
+    apart = names_apart(original, decoded)
     if args.json:
         shown: dict[str, Any] = {"look": asdict(seen) | more} if seen else {}
         shown |= {"images": [image.facts() for image in images]} if images else {}
-        print_json({**compared, **shown, **({"attributes": attributes} if attributes else {})})
+        print_json({**compared, **shown, **({"attributes": attributes} if attributes else {}), **apart})
         return
     unit = unit_of(original.metadata) or unit_of(decoded.metadata)
     looks = {"look": seen.distance, **{f"look_{name}": value for name, value in more.items()}} if seen else {}
@@ -161,6 +163,9 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
         print(line)
     for line in _lines_of(attributes):
         print(line)
+    for where, names in apart.items():
+        path = args.original if where == "only_in_original" else args.decoded
+        print(printable(f"only in {path}: {', '.join(names)}"))
     for image in images:
         print(printable(str(image)))
 

@@ -26,26 +26,38 @@ _TURN = Lock()
 Surface: TypeAlias = tuple[Polygons, tuple[float, ...]]
 
 
-def surface_of(path: str, kind: str, limits: Limits, step: int | None = None, *, here: bool = False) -> Surface:
+def surface_of(
+    path: str, kind: str, limits: Limits, step: int | None = None, with_sets: bool = True, *, here: bool = False
+) -> Surface:
     """The surfaces in a file of VTK as a frame, or at rest without a step, and its times; `here`: in this process."""
     asked = os.path.abspath(path), kind, limits, step
     if here:
         module = imported("bsm.files.formats.with_vtk", f".{kind} files are read with VTK", "simulation")
-        found: Surface = module.read_vtk(*asked)
+        found: Surface = module.read_vtk(*asked, with_sets=with_sets)
         return found
     with _TURN:
-        process = _process()
-        try:
-            pickle.dump(asked, process.stdin)
-            process.stdin.flush()
-            answer: Surface | BsmError = pickle.load(process.stdout)
-        # A crash shows as the end of the pipe. The next file gets a new process.
-        except (OSError, EOFError, pickle.UnpicklingError) as error:
-            _process.cache_clear()
-            code = _end(process)
-            raise FormatError(f"reading this file crashed VTK (exit code {code})") from error
+        answer = _answer(*asked)
+        if answer is None:  # in a fresh process, and without the sets of Exodus, at which VTK may crash
+            answer = _answer(*asked, False)
+    if answer is None:
+        raise FormatError("reading this file crashed VTK")
     if isinstance(answer, BsmError):
         raise answer
+    return answer
+
+
+def _answer(*asked: Any) -> Surface | BsmError | None:
+    """Ask the process for a file; None if that crashes it."""
+    process = _process()
+    try:
+        pickle.dump(asked, process.stdin)
+        process.stdin.flush()
+        answer: Surface | BsmError = pickle.load(process.stdout)
+    # A crash shows as the end of the pipe. The next file gets a new process.
+    except (OSError, EOFError, pickle.UnpicklingError):
+        _process.cache_clear()
+        _end(process)
+        return None
     return answer
 
 

@@ -151,8 +151,9 @@ def read_cut(
     polygons: Polygons = reader(data, *((path,) if row.by_path else ()), limits)
     if row.beside:
         beside = Beside(folder, limits)
-        metadata, notes = fetched(polygons.metadata, beside.read)
-        polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes))
+        metadata, notes, lost = fetched(polygons.metadata, beside.read)
+        dropped = (*polygons.dropped, *lost)
+        polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes), dropped=dropped)
     return polygons.checked(limits, len(data), cut)
 
 

@@ -143,7 +143,7 @@ def _textures(raw: Raw, beside: Beside) -> int:
     if raw.rows.get("texcoord", 0) <= 1:
         return 0
     about = {f"material.{number}.name": name for name, number in raw.materials.items()}
-    found, notes = fetched({**raw.metadata, **about, "mtllib": "\n".join(raw.libraries)}, beside.read)
+    found, notes, lost = fetched({**raw.metadata, **about, "mtllib": "\n".join(raw.libraries)}, beside.read)
     images, materials = images_in(found), materials_in(found)
     named = [materials[number] for number in raw.materials.values()]
     numbers = [material.get("map_Kd", material.get("baseColorTexture")) for material in named]
@@ -153,7 +153,7 @@ def _textures(raw: Raw, beside: Beside) -> int:
     if any(pictures):
         for what in ("material", "mtllib", "image"):
             raw.left_out.pop(what, None)
-    raw.left_out.update(dict.fromkeys([*([] if any(pictures) else ["texcoord"]), *notes]))
+    raw.left_out.update(dict.fromkeys([*([] if any(pictures) else ["texcoord"]), *notes, *lost]))
     # A material without an image gets a white picture: faces with and without textures can then share one atlas.
     for number, picture in enumerate(pictures if any(pictures) else ()):
         (raw.folder / f"texture.{number}").write_bytes(picture or _WHITE)

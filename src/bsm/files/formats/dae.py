@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from bsm.bitstream.errors import imported
+from bsm.bitstream.errors import FormatError, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Semantic
 from bsm.files.formats.appearance import Material, Texture, as_text
@@ -111,6 +111,8 @@ class _Nodes:
             sizes, taken = _without_holes(primitive, sizes, index.shape[1])
             index = index[taken]
             rows, corners = np.unique(np.asarray(primitive.vertex_index).reshape(-1)[taken], return_inverse=True)
+            if rows.size and rows[0] < 0:  # numpy would count from the end
+                raise FormatError(f"a corner has the index {rows[0]}, which no vertex has")
             points = np.asarray(primitive.vertex, np.float64)[rows]
             part = Part(points, sizes, corners.reshape(-1), _columns(primitive, index), np.zeros_like(sizes), "")
             self._shapes[id(primitive)] = part

@@ -49,6 +49,7 @@ _SIGNATURES = {
     b"v/1\x01": "exr",
     b"#?RADIANCE": "hdr",
 }
+_TILES = re.compile(r"<(UDIM|UVTILE)>")  # stand for the numbers of several images
 _TGA = re.compile(rb".[\0\1][\1-\3\x09-\x0b].{9}(?!\0\0)..(?!\0\0)..[\x08\x0f\x10\x18\x20].", re.DOTALL)
 """A TGA has no signature: kinds of its colors, width, height, and bits of a pixel."""
 
@@ -121,8 +122,10 @@ def described(materials: Mapping[int, Material]) -> dict[str, Value]:
 # --------------------------------------------------------------------------------------------------- the files beside
 
 
-def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dict[str, Value], list[str]]:
-    """Return metadata with the contents of the files that they name, and notes on those that `read` has not."""
+def fetched(
+    metadata: Metadata, read: Callable[[str], bytes | str]
+) -> tuple[dict[str, Value], list[str], tuple[str, ...]]:
+    """Return metadata with the contents of the files that they name, notes on those that `read` has not, and losses."""
     found, notes, images = dict(metadata), list[str](), dict[str, int]()
     libraries: list[dict[str, Material]] = []
     folders: dict[str, str] = {}
@@ -135,11 +138,15 @@ def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dic
                 folders |= dict.fromkeys(images.keys() - known, within) if within else {}
             elif name:
                 notes.append(f"the materials in {name} were left out: {library}")
-    notes += _add_libraries(found, libraries)
+    of_libraries, lost = _add_libraries(found, libraries)
+    notes += of_libraries
     found |= {f"image.{number}.name": name for name, number in images.items()}
     for key in [key for key in found if key.startswith("image.") and key.endswith(".name")]:
         name, place = str(found[key]), key.removesuffix("name") + "data"
         if place in found:
+            continue
+        if _TILES.search(name):
+            lost.append(f"the images {name}, of which a material has one")
             continue
         image = read(f"{folders[name]}/{name}") if name in folders else read(name)
         image = read(name) if isinstance(image, str) and name in folders else image
@@ -149,11 +156,11 @@ def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dic
             found[place] = image
         else:
             notes.append(f"the image {name} was left out, its name was kept: {image}")
-    return found, notes
+    return found, notes, tuple(lost)
 
 
-def _add_libraries(found: dict[str, Value], libraries: Sequence[Mapping[str, Material]]) -> list[str]:
-    """Add the materials of libraries, the first of each name, those that faces name first; return notes."""
+def _add_libraries(found: dict[str, Value], libraries: Sequence[Mapping[str, Material]]) -> tuple[list[str], list[str]]:
+    """Add the materials of libraries, the first of each name, those that faces name first; return notes and losses."""
     numbers = {str(material.get("name", "")): number for number, material in materials_in(found).items()}
     materials = {name: material for library in reversed(libraries) for name, material in library.items()}
     absent = [name for name in numbers if name and name not in materials] if libraries else []
@@ -163,7 +170,9 @@ def _add_libraries(found: dict[str, Value], libraries: Sequence[Mapping[str, Mat
         numbers[name] = numbers[name] if name in numbers else next(free)
         found |= described({numbers[name]: {"name": name, **material}})
     notes = {"no library has these materials": absent, "black beside an image, which other formats get white": black}
-    return [f"{note}: {', '.join(names[:_MOST_NAMED])}" for note, names in notes.items() if names]
+    again = {name: None for library in libraries for name in library if library[name] != materials[name]}
+    lost = [f"the material {name} of a later library" for name in again]
+    return [f"{note}: {', '.join(names[:_MOST_NAMED])}" for note, names in notes.items() if names], lost
 
 
 def plain_fields(fields: Mapping[str, Any]) -> tuple[dict[str, Value], list[str]]:

@@ -43,14 +43,17 @@ _CELL = "vtkCell"
 _HIDDEN_CELL = 32  # a bit of the marks of ghosts
 MOST_CORNERS = 9  # of polygons that are compared, in a table: one of thousands would make it gigabytes
 _SETTINGS = Path(__file__).parents[1] / "settings.csv"
-_NODE = "GlobalNodeId"  # numbers of points, by which faces are known in several blocks
+_NODE, _FINE = "vtkNode", 8
+"""Numbers of points, by which faces are known in several blocks; the middle of a curved side has eighths of them."""
 _UNNAMED = re.compile(r"Unnamed set ID: (\d+).*")
 _MOST_SETS = 64  # that become attributes
-_OWN = re.compile(f"{GHOSTS}|vtkValidPointMask|PedigreeNodeId|{_CELL}")
+_OWN = re.compile(f"{GHOSTS}|vtkValidPointMask|PedigreeNodeId|GlobalNodeId|{_CELL}")
 _SAID = re.compile(r"(ERROR|Warning): In [^\n]*\n\w+ \(0x\w+\): ")
 
 
-def read_vtk(path: str, kind: str, limits: Limits, step: int | None = None) -> tuple[Polygons, tuple[float, ...]]:
+def read_vtk(
+    path: str, kind: str, limits: Limits, step: int | None = None, *, with_sets: bool = True
+) -> tuple[Polygons, tuple[float, ...]]:
     """The surfaces of a file as the frame of a step, or at rest at the first time; and its times."""
     vtkOutputWindow.SetInstance(said := vtkStringOutputWindow())
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
@@ -65,14 +68,17 @@ def read_vtk(path: str, kind: str, limits: Limits, step: int | None = None) -> t
         is_exodus = name == "vtkExodusIIReader"
         if is_exodus and step is not None:
             reader.SetApplyDisplacements(1)  # frames move as the displacements say
+        left = _show_sets(reader, shown=with_sets) if is_exodus else {}
         if times:
             reader.UpdateTimeStep(times[step or 0])
         reader.Update()
+        if with_sets and is_exodus and "ERROR" in said.GetOutput():
+            return read_vtk(path, kind, limits, step, with_sets=False)  # VTK fails at some sets
         data, words = reader.GetOutputDataObject(0), _SAID.split(said.GetOutput())
         if "ERROR" in words or data is None:
             why = words[words.index("ERROR") + 1] if "ERROR" in words else "there is nothing in it"
             raise FormatError(f"VTK cannot read this file, or one that it names: {' '.join(why.split())}")
-        left = dict.fromkeys(" ".join(text.split()) for text in words[2::2])
+        left |= dict.fromkeys(" ".join(text.split()) for text in words[2::2])
         sets = _Sets(data, left) if is_exodus else None
         leaves = [*_leaves(data, "")]
         parts = [part for leaf, name in leaves if (part := _part(leaf, name, left)) is not None]
@@ -80,6 +86,24 @@ def read_vtk(path: str, kind: str, limits: Limits, step: int | None = None) -> t
     whole = joined_parts(parts, None, limits, size)
     known, others = plain_fields(_fields([*(leaf for leaf, _ in leaves), data], len(times), left))
     return replace(whole, dropped=(*left, *others), metadata={**whole.metadata, **known}), times
+
+
+def _show_sets(reader: Any, *, shown: bool) -> dict[str, None]:
+    """Let a reader of Exodus read the sets, or name them and what it has no place for."""
+    left = dict[str, None]()
+    for kind in ("Node", "Side", "Elem", "Edge", "Face"):
+        number = getattr(reader, f"{kind.upper()}_SET")
+        for place in range(reader.GetNumberOfObjects(number)):
+            reader.SetObjectStatus(number, place, int(shown))
+            name = _UNNAMED.sub(rf"{kind.lower()} set \1", reader.GetObjectName(number, place))
+            left |= {} if shown else {f"the {kind.lower()} set {name}": None}
+        for place in range(reader.GetNumberOfObjectArrays(number)):
+            left[f"{reader.GetObjectArrayName(number, place)} of {kind.lower()} sets"] = None
+    for kind in ("Edge", "Face"):
+        number = getattr(reader, f"{kind.upper()}_BLOCK")
+        names = (reader.GetObjectName(number, place) for place in range(reader.GetNumberOfObjects(number)))
+        left |= {f"the {kind.lower()} block {name}": None for name in names}
+    return left
 
 
 def _fields(every: Sequence[Any], steps: int, left: dict[str, None]) -> dict[str, Any]:
@@ -109,7 +133,7 @@ class _Sets:
                 part = _part(leaf, name, {}) if kind == "Side Sets" else None
                 full = len(self._faces) + len(self._points) >= _MOST_SETS
                 if kind == "Node Sets" and not full:
-                    self._points[called] = vtk_to_numpy(leaf.GetPointData().GetArray(_NODE))
+                    self._points[called] = _FINE * vtk_to_numpy(leaf.GetPointData().GetArray("GlobalNodeId"))
                 elif part is not None and not full:
                     self._faces[called] = _nodes_of_faces(part)
                 else:
@@ -137,8 +161,8 @@ class _Sets:
 
 def _nodes_of_points(part: Part) -> Ints:
     """The numbers of the points of a part in their file."""
-    found: Ints = next(column.values for column in part.columns if column.name == _NODE)[:, 0].astype(np.int64)
-    return found
+    numbers = next(column.values for column in part.columns if column.name == _NODE)
+    return np.rint(numbers[:, 0]).astype(np.int64)
 
 
 def _nodes_of_faces(part: Part) -> Ints:
@@ -165,9 +189,6 @@ def _opened(reader: Any, kind: str, size: int, limits: Limits) -> tuple[float, .
     if hasattr(reader, "SetAllArrayStatus"):  # of Exodus
         for what in ("NODAL", "ELEM_BLOCK", "GLOBAL"):
             reader.SetAllArrayStatus(getattr(reader, what), 1)
-        for what in (reader.NODE_SET, reader.SIDE_SET, reader.ELEM_SET, reader.FACE_SET, reader.EDGE_SET):
-            for place in range(reader.GetNumberOfObjects(what)):
-                reader.SetObjectStatus(what, place, 1)
     about, data = reader.GetOutputInformation(0), reader.GetOutputDataObject(0)
     extent = about.Get(Pipeline.WHOLE_EXTENT()) if about.Has(Pipeline.WHOLE_EXTENT()) else ()
     counts = [high - low + 1 for low, high in zip(extent[::2], extent[1::2])]
@@ -202,7 +223,12 @@ def _part(data: Any, name: str, left: dict[str, None]) -> Part | None:
     if data.IsA("vtkImageData") and min(data.GetDimensions()) > 1:
         left["images in three dimensions"] = None
         return None
-    surface = data
+    surface, points = data, data.GetPointData()
+    if (nodes := points.GetArray("GlobalNodeId")) is not None:
+        # As plain numbers: VTK drops those that it calls global where it cuts curved sides.
+        plain = numpy_to_vtk(_FINE * vtk_to_numpy(nodes).astype(np.float64), deep=True)
+        plain.SetName(_NODE)
+        points.AddArray(plain)
     if not data.IsA("vtkPolyData"):
         numbers = numpy_to_vtk(np.arange(data.GetNumberOfCells(), dtype=np.int64), deep=True)
         numbers.SetName(_CELL)  # where cells are curved, those that the filter passes count something else

@@ -84,8 +84,8 @@ class Materials:
             numbers[numbers < 0] = self._number(prim, double)
         return numbers, sets
 
-    def metadata(self, limits: Limits) -> tuple[dict[str, formats.Value], list[str]]:
-        """Return the metadata of all materials found, with images of limited size, and notes on missing images."""
+    def metadata(self, limits: Limits) -> tuple[dict[str, formats.Value], list[str], tuple[str, ...]]:
+        """Return the metadata of all materials, with images of limited size, notes on missing images, and losses."""
         entries = formats.described({number: dict(words) for words, number in self._known.items()})
         names = {f"image.{number}.name": name for name, number in self._images.items()}
         if not zipfile.is_zipfile(self._path):
@@ -780,12 +780,12 @@ class _Stage:
         found = shapes.joined_parts(map(made, parts), counts, self._limits, self._size)
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
-        of_materials, absent = materials.metadata(self._limits)
+        of_materials, absent, lost = materials.metadata(self._limits)
         metadata = {"up": up, "unit": unit_named(unit), **named, **found.metadata, **of_materials}
         metadata |= {"provenance": said} if (said := self.stage.GetRootLayer().comment).startswith("bsm ") else {}
         own = self.parts[0].prim.GetPath()
         metadata |= {"prim": str(own)} if len(self.parts) == 1 and own.pathElementCount > 1 else {}
-        left = dict.fromkeys((*(name for part in self.parts for name in part.shape.left_out), *materials.left))
+        left = dict.fromkeys((*(name for part in self.parts for name in part.shape.left_out), *materials.left, *lost))
         notes = [*found.notes, *absent, *self.notes]
         notes += [f"left out, face sets without a material: {', '.join(unnamed)}"] if unnamed else []
         return replace(found, notes=tuple(notes), dropped=tuple(left), metadata=metadata).checked(self._limits)
