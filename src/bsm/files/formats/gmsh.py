@@ -221,7 +221,7 @@ class _Gmsh:
             tables.append(np.pad(nodes, ((0, 0), (2, most - nodes.shape[1])), constant_values=-1))
             tables[-1][:, 0], tables[-1][:, 1] = _DIMENSIONS.get(shape, 3), group
         # Version 2.2 writes an element again for each further group of it.
-        alike = row_numbers(np.delete(np.concatenate(tables), 1, axis=1))
+        alike: Ints = row_numbers(np.delete(np.concatenate(tables), 1, axis=1)).astype(np.int64)
         own = np.unique(alike, return_index=True)[1]
         again = np.ones(len(alike), np.bool_)
         again[own] = False
