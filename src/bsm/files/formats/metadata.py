@@ -374,7 +374,7 @@ def split_at_seams(mesh: TriangleMesh, *seams: Attribute | None) -> TriangleMesh
     """
     kept = [attribute for attribute in mesh.attributes if attribute.domain == "corner" and attribute not in seams]
     parted = [attribute for attribute in mesh.attributes if attribute not in kept]
-    split, origin = split_with_origin(replace(mesh, attributes=parted))
+    split, origin = split_with_origin(replace(mesh, attributes=tuple(parted)))
     is_copy = np.diff(origin, prepend=-1) == 0
     order = np.argsort(is_copy, kind="stable")
     moved = [attribute.taken(order, np.arange(len(mesh.faces))) for attribute in split.attributes]

@@ -506,7 +506,8 @@ def _finite(column: Column, dropped: list[str]) -> list[Column]:
     name = PLURALS.get(column.name, column.name)
     dropped.append(f"values of {name} that are not numbers ({int(lost.sum())}); {column.name}{NONE} marks them")
     usual = column.values.dtype.type(np.median(column.values[~lost]))
-    marks = replace(column, name=f"{column.name}{NONE}", values=lost.any(axis=1).astype(np.uint8)[:, None])
+    rows: Array = lost.any(axis=1)
+    marks = replace(column, name=f"{column.name}{NONE}", values=rows.astype(np.uint8)[:, None])
     marks = replace(marks, semantic="generic", called="", components=())
     return [replace(column, values=np.where(lost, usual, column.values)), marks]
 

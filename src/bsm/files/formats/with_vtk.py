@@ -89,7 +89,7 @@ def read_vtk(
 
 
 def _show_sets(reader: Any, *, shown: bool) -> dict[str, None]:
-    """Let a reader of Exodus read the sets, or name them and what it has no place for."""
+    """Let a reader of Exodus read the sets, or name them; return the names of its contents that have no place here."""
     left = dict[str, None]()
     for kind in ("Node", "Side", "Elem", "Edge", "Face"):
         number = getattr(reader, f"{kind.upper()}_SET")
