@@ -20,14 +20,14 @@ def named(kind: str, choices: Mapping[str, Choice], name: str) -> Choice:
     return choices[name]
 
 
-def suggestion(word: str, known: Iterable[str]) -> str:
+def suggestion(word: str, known: Iterable[str], *, likeness: float = 0.6) -> str:
     """Return a question that suggests a similar name, or ""."""
     names = list(known)
     # The beginning of a single name is meant, even if another name is more alike by letters.
     begun = [name for name in names if name.startswith(word)]
     import difflib  # for errors only
 
-    found = begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=0.6)
+    found = begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=likeness)
     return f"; did you mean {found[0]}?" if found else ""
 
 

@@ -13,7 +13,7 @@ from typing import Any, NoReturn
 from bsm import __version__
 from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.codec.choices import suggestion
-from bsm.commands.synonyms import OPTIONS, advice_on_command, refuse_misplaced
+from bsm.commands.synonyms import OPTIONS, advice_on_command, advice_on_option, refuse_misplaced
 from bsm.files.output import refuse_collisions
 from bsm.ground.console import Console
 from bsm.ground.exits import EXITS, USAGE, Terminated, behind, exit_of, is_expected, report_error
@@ -34,6 +34,8 @@ _USED = {
     "encode": "--output --preset --max-error --look --size --attribute --images --simplify --meta --recursive --jobs"
 }
 """The options of a command that the help begins with."""
+_LIKENESS = 0.75
+"""How alike an option must be to be suggested; below, words of other meanings are."""
 _WITHOUT_FILES = ("info", "compare", "verify", "curve")
 """Commands that write no file. They accept -f nevertheless, so that scripts can always pass it."""
 _WITH_FORCE = {
@@ -199,7 +201,8 @@ class Parser(argparse.ArgumentParser):
             if word.startswith("-") and not known and os.path.exists(word):
                 self.error(f"{word} looks like an option; name the file as {shlex.quote(f'./{word}')}")
             if word in OPTIONS and word not in self._option_string_actions:
-                self.error(f"unknown option {word}; instead: {OPTIONS[word]}")
+                advice = advice_on_option(word, self._offered)
+                self.error(f"unknown option {word}{advice and f'; instead: {advice}'}")
         # argparse forgets a "--" between the two passes that mixed words take it.
         parse = self.parse_known_args if "--" in words else self.parse_known_intermixed_args
         args, unknown = parse(words)
@@ -208,10 +211,23 @@ class Parser(argparse.ArgumentParser):
             name = word.partition("=")[0]
             if not name.startswith("-"):
                 self.error(f"{word}: one input too many")
-            instead = OPTIONS | {option: option for option in self._option_string_actions}
-            similar = suggestion(name, instead).removeprefix("; did you mean ").removesuffix("?")
-            self.error(f"unknown option {name}{f'; did you mean {instead[similar]}?' if similar else ''}")
+            self.error(f"unknown option {name}{self._advice(name)}")
         return args
+
+    @property
+    def _offered(self) -> list[str]:
+        """The options that the help of this command names."""
+        return [name for name, action in self._option_string_actions.items() if action.help != argparse.SUPPRESS]
+
+    def _advice(self, name: str) -> str:
+        """Suggest an option of this command that is spelled alike, or the one for a word that is."""
+        options = self._offered
+        words = [word for word in OPTIONS if advice_on_option(word, options).startswith("-")]
+        similar = suggestion(name, [*options, *words], likeness=_LIKENESS)
+        if not similar:
+            return ""
+        word = similar.removeprefix("; did you mean ").removesuffix("?")
+        return similar if word in options else f"; did you mean {advice_on_option(word, options)}?"
 
     # argparse writes choices with the quotes and words of Python, which differ between its versions.
     def _check_value(self, action: argparse.Action, value: Any) -> None:

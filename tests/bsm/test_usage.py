@@ -5,6 +5,7 @@ import inspect
 import json
 import re
 import subprocess
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -42,6 +43,36 @@ def test_help_of_a_command_is_that_of_its_flag(command, capsys):
         assert stop.value.code == 0
         shown.append(capsys.readouterr().out)
     assert shown[0] == shown[1] and shown[0].startswith(f"usage: bsm {command}")
+
+
+OPTIONS_OF_OTHER_TOOLS = """
+--report --resume --recursive --quality --qp --bits --compression-level -cl --level --scale --unit --units --fps
+--start --end --from --to --frame-range --max-error --error --tolerance --simplify --ratio --texture --textures
+--texture-size --draco -cc -c --webp --normals --uv --colors --color --threads --cores --parallel --workers
+--verbose -v --log --debug --progress --no-progress --force --overwrite --yes --input -i --out --output-format
+--to-obj --ascii --binary --timeout --memory --limit --gpu --coefficients --blocks --block --keep --hausdorff
+--psnr --metric --title --dpi --size --width --checksum --sha256 --hash --open --host --lossless --best --fast
+--speed --version --json --csv --html --silent --dry-run --strip --merge --weld --origin --center --up --axis
+--frames -R -t -d
+"""
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_answers_to_options_of_other_tools_name_an_option_of_the_command(command, capsys):
+    for flag in ("--help", *["--help-all"] * (command == "encode")):
+        with pytest.raises(SystemExit):
+            main([command, flag])
+    offered = set(re.findall(r"(?<![\w-])(--?[a-zA-Z][\w-]*)", capsys.readouterr().out))
+    answered = 0
+    for option in set(OPTIONS_OF_OTHER_TOOLS.split()) - offered:
+        with suppress(SystemExit):
+            assert main([command, "none.ply", option, "3"]) != 0
+        answer = capsys.readouterr().err
+        suggested = re.search(r"(?:did you mean|instead:) (--?[a-z][\w-]*)", answer)
+        if suggested:
+            answered += 1
+            assert suggested[1] in offered, answer
+    assert answered, "some of these words have another name in each command"
 
 
 def test_no_words_are_wrong_usage(capsys):

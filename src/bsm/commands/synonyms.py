@@ -3,16 +3,26 @@
 import os
 import re
 import shlex
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
 from bsm.files.table import MESH_FORMATS, MESH_SUFFIXES
 
-# What is typed in place of a command, and in place of an option, each with what it is called here.
 _TABLES = (Path(__file__).parent / "synonyms.txt").read_text("utf-8").split("\n\n")
-_LINES = ([line.split(": ", 1) for line in table.splitlines()] for table in _TABLES)
-COMMANDS, OPTIONS = ({word: instead for words, instead in lines for word in words.split()} for lines in _LINES)
+
+
+def _read_table(text: str) -> dict[str, str]:
+    """Return the advice of a table for each word in front of it."""
+    advice = {}
+    for line in text.splitlines():
+        words, told = line.split(": ", 1)
+        advice.update(dict.fromkeys(words.split(), told))
+    return advice
+
+
+COMMANDS, OPTIONS = map(_read_table, _TABLES)
+"""What to type in place of a command, and of an option. Advice on an option is a list with bars between its entries."""
 
 # A word like 0.1 or mm among the inputs comes from an option that takes no value, or from a space inside of one.
 _NUMBER = re.compile(r"[-+]?[\d.]+(?:e[-+]?\d+)?%?")
@@ -29,6 +39,15 @@ def advice_on_command(words: Sequence[str]) -> str:
         return ""
     stream = Path(named).suffix.lower() == ".bsm"
     return f"; a command comes first: bsm {'decode' if stream else 'encode'} {shlex.quote(named)}"
+
+
+def advice_on_option(word: str, options: Collection[str]) -> str:
+    """Return what a command with these options offers in place of an unknown one; empty if it offers nothing."""
+    for entry in OPTIONS.get(word, "").split(" | "):
+        name = entry.partition(" ")[0]
+        if name in options or not name.startswith("-"):
+            return entry
+    return ""
 
 
 def refuse_misplaced(command: str, inputs: Sequence[str], *, recursive: bool) -> None:
