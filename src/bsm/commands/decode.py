@@ -17,7 +17,7 @@ from bsm.codec.arrays import Faces, Order
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.commands.flags import add_flags, add_inputs, adder, asked, limits_of, refuse_two_on_one_pipe
 from bsm.files.formats.metadata import Written
-from bsm.files.images import is_link, with_linked_images
+from bsm.files.images import is_link, linked_images, with_linked_images
 from bsm.files.inspection import inspect_stream
 from bsm.files.libraries import as_decoded
 from bsm.files.mesh import save_written, unheard, unknown_suffix, written_mesh
@@ -138,11 +138,11 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     if args.permutation:
         mesh = _reordered(mesh, args.permutation)
     exact = header is not None and header.light == WITH_FLOATS
+    # The mesh is fine without them, so these are notes.
+    for image in linked_images(mesh.metadata, args.input):
+        if image.fault:
+            console.note(f"{args.input}: {image.note}")
     mesh = _as_asked(args, console, with_linked_images(mesh, args.input), kind, exact=exact)
-    for name in mesh.metadata:
-        # The stream names a file that is not beside it any more. The mesh is fine without it, so this is a note.
-        if is_link(name) and name.replace("link", "data") not in mesh.metadata:
-            console.note(f"{args.input}: left out: the image {printable(str(mesh.metadata[name]))}, which is not there")
     # A stream that was cut, or decoded in part, has values of the first attributes only.
     if header is not None and header.attributes > len(mesh.attributes):
         missing = f"{header.attributes - len(mesh.attributes)} of {header.attributes} attributes"

@@ -8,6 +8,7 @@ from typing import Any
 
 from bsm.bitstream.errors import counted
 from bsm.commands.flags import add_flags, add_inputs, asked, limits_of
+from bsm.files.images import linked_images
 from bsm.files.inspection import StreamInfo, inspect_stream
 from bsm.files.motion.frames import MOST_LISTED, describe_runs
 from bsm.files.pipes import read_chunks
@@ -44,7 +45,9 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
         streams = {n: summarize(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}
         return {"input": args.input, "primitives": len(list(document.primitives())), "streams": streams}
     refuse_mesh(args.input)
-    return {"input": args.input, **summarize(inspect_stream(read_chunks(args.input), limits))}
+    info = inspect_stream(read_chunks(args.input), limits)
+    images = {image.name: image.fault or "is there" for image in linked_images(info.metadata, args.input)}
+    return {"input": args.input, **summarize(info), "linked_images": images}
 
 
 def summarize(info: StreamInfo) -> dict[str, Any]:
@@ -136,6 +139,7 @@ def _worded(summary: Facts) -> str:
         *rates,
         *map(_attribute_line, summary["attributes"]),
         *(["metadata:", *entries] if entries else []),
+        *(printable(f"the image {name} {state}") for name, state in summary.get("linked_images", {}).items()),
     ]
     return "\n".join(lines)
 

@@ -140,13 +140,52 @@ def with_links(metadata: Metadata, way: str, chosen: tuple[str, ...]) -> tuple[M
     return found, files
 
 
-def with_linked_images(mesh: TriangleMesh, stream: str) -> TriangleMesh:
-    """Return a mesh with the images that its stream links to, as far as they are there."""
-    found = dict(mesh.metadata)
-    for key, link in mesh.metadata.items():
-        match = _LINK.fullmatch(str(link)) if is_link(key) else None
+@dataclass(frozen=True)
+class LinkedImage:
+    """An image that a stream names and does not contain."""
+
+    key: str
+    """Its entry in the metadata."""
+    name: str
+    """Its path from the folder of the stream."""
+    data: bytes | None
+    """Its bytes; None if there are none that the stream promised."""
+    is_there: bool
+    """Whether there is a file of that name; without data it is damaged."""
+
+    @property
+    def fault(self) -> str:
+        """Say why the image cannot be used; empty if it is whole."""
+        if self.data is not None:
+            return ""
+        return "is damaged" if self.is_there else "is missing"
+
+    @property
+    def note(self) -> str:
+        """Say that the image is left out, and why."""
+        return f"left out: the image {self.name}, which {self.fault}"
+
+
+def linked_images(metadata: Metadata, stream: str) -> list[LinkedImage]:
+    """Return the images that a stream links to, and what is there of them."""
+    images = []
+    for key, link in metadata.items():
+        if not is_link(key):
+            continue
+        match = _LINK.fullmatch(str(link))
         path = Path(stream).parent / str(link)
+        data, is_there = None, match is not None and path.is_file()
         # By the digest, too: the file of a link may have been changed since, and the stream promised these very bytes.
-        if match and path.is_file() and _digest(data := path.read_bytes()) == match[1]:
-            found[key.removesuffix("link") + "data"] = data
-    return replace(mesh, metadata=found)
+        if match and is_there and _digest(content := path.read_bytes()) == match[1]:
+            data = content
+        images.append(LinkedImage(key, str(link), data, is_there))
+    return images
+
+
+def with_linked_images(mesh: TriangleMesh, stream: str) -> TriangleMesh:
+    """Return a mesh with the images that its stream links to, as far as they are whole."""
+    metadata = dict(mesh.metadata)
+    for image in linked_images(mesh.metadata, stream):
+        if image.data is not None:
+            metadata[image.key.removesuffix("link") + "data"] = image.data
+    return replace(mesh, metadata=metadata)

@@ -19,7 +19,7 @@ from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import plain_fields
 from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, compact, named_column
-from bsm.files.images import with_linked_images
+from bsm.files.images import linked_images, with_linked_images
 from bsm.files.mesh import read_mesh
 from bsm.files.parsing import Ints, ranges
 from bsm.files.pipes import Input, as_input
@@ -92,7 +92,10 @@ def read_any(source: Input, **reading: Any) -> TriangleMesh:
     """The mesh in a stream or a mesh file; `reading` are arguments of `read_mesh`."""
     if is_stream(source):
         mesh = decode_whole(source.chunks(), reading.get("limits", DEFAULT_LIMITS))
-        return with_linked_images(mesh, source.name) if source.name else mesh
+        if not source.name:
+            return mesh
+        warn(f"{source.name}: {image.note}" for image in linked_images(mesh.metadata, source.name) if image.fault)
+        return with_linked_images(mesh, source.name)
     found = read_mesh(source, **reading)
     warn(f"{source.name}: {note}" if source.name else note for note in found.notes)
     return found.mesh

@@ -2,6 +2,7 @@
 
 import errno
 import json
+import re
 import tempfile
 import time
 from collections import Counter
@@ -90,6 +91,32 @@ def read_report(path: str, command: str, options: Facts) -> Earlier:
         raise FormatError(f"{path}: this is not a report of bsm; name another with --report") from error
     # With other options the results do not count, but the files are still known as those of a run.
     return Earlier({name: entry.get("output_sha256") for name, entry in files.items()}, files if same else {})
+
+
+def is_report(path: str) -> bool:
+    """Return whether a file is the report of a run, by its first bytes."""
+    if Path(path).suffix.lower() != ".json" or not Path(path).is_file():
+        return False
+    with Path(path).open("rb") as file:
+        return re.match(rb'\s*\{\s*"command":', file.read(64)) is not None
+
+
+def read_results(path: str) -> list[Facts]:
+    """Return the checked results of a report, one for each input of its run."""
+    try:
+        return [_entry(result) for result in json.loads(pipes.as_input(path).read_all())["files"]]
+    except (ValueError, KeyError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
+        raise FormatError(f"{path}: this is not a report of bsm") from error
+
+
+def find_output(report: str, output: str) -> str:
+    """Return where an output is: as the report names it, or in the folder of a report that was moved with it."""
+    path = Path(output)
+    if pipes.is_url(output) or path.exists():
+        return output
+    folder = Path(report).parent
+    moved = (folder.joinpath(*path.parts[first:]) for first in range(path.is_absolute(), len(path.parts)))
+    return str(next(filter(Path.exists, moved), path))
 
 
 _MOST_BYTES = 1 << 63
