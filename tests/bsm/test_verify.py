@@ -1,6 +1,8 @@
 """Whether all of it is there: streams, the images that they link to, and the outputs that a report names."""
 
+import csv
 import json
+from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
@@ -117,3 +119,63 @@ def test_other_json_files_are_no_reports(archive: Path) -> None:
     assert main(["verify", "-r", "streams"]) == 0
     Path("broken.json").write_text('{"command": "encode", "files": [{"input": 3}]}')
     assert main(["verify", "broken.json"]) == 3
+
+
+@pytest.mark.parametrize(
+    "words", [["encode", "-f", "-q", "-r", "source", "-o", "streams"], ["compare", "-r", "source", "streams"]]
+)
+def test_reports_have_the_format_of_their_suffix(archive: Path, words: list[str]) -> None:
+    for kind in ("json", "csv", "html"):
+        assert main([*words, "--report", f"out.{kind}"]) == 0
+    names = {"source/a.obj", "source/b.obj"}
+    assert {result["input"] for result in json.loads(Path("out.json").read_text())["files"]} == names
+    with Path("out.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert {row["input"] for row in rows} == names
+    assert all(float(row["max_error_relative"]) > 0 for row in rows)
+    page = PageText()
+    page.feed(Path("out.html").read_text(encoding="utf-8"))
+    assert page.images == 2 and names <= set(page.words)
+    assert main([*words, "--report", "out.xml"]) == 2
+
+
+def test_a_page_of_results_lists_failures_first_and_writes_names_as_text(archive: Path) -> None:
+    Path("source/<b>.obj").write_text("nonsense")
+    assert main(["encode", "-f", "-q", "-r", "source", "-o", "streams", "--report", "out.html"]) == 3
+    page = PageText()
+    page.feed(Path("out.html").read_text(encoding="utf-8"))
+    rows = [word for word in page.words if word.startswith("source/") and word.endswith(".obj")]
+    assert rows == ["source/<b>.obj", "source/a.obj", "source/b.obj"]
+
+
+def test_a_table_of_results_has_no_formulas(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    bsm.save(torus(8, 6), "=1+1.ply")
+    assert main(["encode", "-q", "=1+1.ply", "--report", "out.csv"]) == 0
+    assert Path("out.csv").read_text().splitlines()[1].startswith("'=1+1.ply,")
+
+
+def test_a_report_that_is_no_json_cannot_be_resumed(archive: Path) -> None:
+    assert main(["encode", "-q", "-r", "source", "-o", "streams", "--report", "run.csv", "--resume"]) == 2
+
+
+def test_a_folder_of_streams_is_a_page(archive: Path) -> None:
+    assert main(["view", "streams", "--save", "out.html"]) == 0
+    page = PageText()
+    page.feed(Path("out.html").read_text(encoding="utf-8"))
+    assert page.images == 2 and {"streams/a.bsm", "streams/b.bsm"} <= set(page.words)
+
+
+class PageText(HTMLParser):
+    """The texts and the number of pictures of a page, as a parser of HTML finds them."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.words: list[str] = []
+        self.images = 0
+
+    def handle_starttag(self, tag: str, attrs: object) -> None:
+        self.images += tag == "img"
+
+    def handle_data(self, data: str) -> None:
+        self.words.append(data)

@@ -2,6 +2,7 @@
 
 import argparse
 import errno
+import json
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import asdict, replace
@@ -26,6 +27,7 @@ from bsm.account.comparison import (
 )
 from bsm.account.drawing import Panel, drawing, last_color
 from bsm.account.images import compare_images
+from bsm.account.overview import load_mesh, report_kind, write_page, write_table
 from bsm.bitstream.errors import BsmError, MeshError, OptionError, counted
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic
@@ -39,7 +41,7 @@ from bsm.files.mesh import read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Wanted
 from bsm.files.output import refuse_to_overwrite, write_output
-from bsm.files.pipes import about, read_chunks
+from bsm.files.pipes import about, read_chunks, size_of
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, is_stream, peek_header
 from bsm.files.table import MESH_SUFFIXES, by_name, format_of_name
@@ -65,18 +67,22 @@ EXPLAINED = dict(line.split(": ", 1) for line in _FIGURES)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    # Two commands in one: trees are compared file by file, with one line each. Pictures and surfaces would take
-    # minutes.
+    # Two commands in one: trees are compared file by file, with one line each.
     if args.recursive:
         return _compare_trees(args, console)
+    if args.report:
+        raise OptionError("--report is for folders, with -r; --json prints the result of one comparison")
     _compare_one(args, console)
     return 0
 
 
 def _compare_trees(args: argparse.Namespace, console: Console) -> int:
     """Compare the files of two folders, with a line for each, and the largest error; return the code of a failure."""
-    if args.map or args.picture or args.permutation or args.look or args.surface:
-        raise OptionError("-r measures vertex errors; leave out --look, --surface, --picture, --map and --permutation")
+    if args.map or args.picture or args.permutation or args.surface:
+        raise OptionError("-r compares whole folders; leave out --surface, --picture, --map and --permutation")
+    if args.report:
+        report_kind(args.report)
+        refuse_to_overwrite(args.report, args.force)
     found = files_in([args.original], (*MESH_SUFFIXES, *STREAM_SUFFIXES))
     done: list[Facts] = []
     for path in (str(path) for _, path in found):
@@ -84,9 +90,15 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
         try:
             facts["output"] = other = _same_name(path, args)
             original, decoded = (_load(name, args, console).without_isolated_vertices()[0] for name in (path, other))
+            facts |= {f"{way}_bytes": size_of(name) for way, name in (("input", path), ("output", other))}
+            if args.look:
+                facts["look"] = LookMetric(original).compare(decoded).distance
+            images = compare_images(original.metadata, decoded.metadata)
+            facts |= {"images": [image.facts() for image in images]} if images else {}
             facts |= _compared(original, decoded, pair(original, decoded), args, console)
             facts |= {"unit": unit} if (unit := unit_of(original.metadata) or unit_of(decoded.metadata)) else {}
-            said = sentence(facts, unit)
+            look = f"look {facts['look']:.3g}; " if args.look else ""
+            said = f"{look}{sentence(facts, unit)}"
         # One file that cannot be compared must not end the run: the others are compared, and the exit code tells of the
         # failure.
         except (BsmError, OSError) as error:
@@ -96,6 +108,8 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
         if not args.json:
             print(f"{path}: {said}")
     good = [facts for facts in done if "error" not in facts]
+    if args.report:
+        write_output(args.report, _report_of(done, args), overwrite=args.force)
     if args.json:
         print_json({"files": done})
     else:
@@ -103,6 +117,16 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
         print(f"{len(good)} of {counted(files=len(done))} compared{f'; largest vertex error {worst}' if worst else ''}")
     # The code of the first failure, as in all commands that take many inputs.
     return next((int(facts["exit"]) for facts in done if "error" in facts), 0)
+
+
+def _report_of(results: list[Facts], args: argparse.Namespace) -> bytes:
+    """Return the results of two folders in the format that the name of the report tells."""
+    kind = report_kind(args.report)
+    if kind == "csv":
+        return write_table(results)
+    if kind == "html":
+        return write_page(f"{args.original} and {args.decoded}", results, load_mesh)
+    return json.dumps({"files": results}, indent=1).encode() + b"\n"
 
 
 def _same_name(path: str, args: argparse.Namespace) -> str:

@@ -8,6 +8,7 @@ from contextlib import nullcontext, suppress
 from pathlib import Path
 from threading import Thread
 
+from bsm.account.overview import load_mesh, write_page
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.commands.flags import add_flags, adder, limits_of
 from bsm.files.inspection import inspect_stream
@@ -15,6 +16,7 @@ from bsm.files.output import write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.files.stream import MANIFEST, is_tiles
 from bsm.ground.console import Console, Progress
+from bsm.jobs.plan import STREAM_SUFFIXES, files_in
 from bsm.tiles.shards import open_tiles
 from bsm.viewer.contents import NO_STREAM, PRESETS, Content, against, alone, given_at, made
 from bsm.viewer.page import Arrival, PageServer, Ranged, Tiled, in_browser, page_with, site_with, written_to
@@ -22,7 +24,9 @@ from bsm.viewer.page import Arrival, PageServer, Ranged, Tiled, in_browser, page
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
-    shown = "stream, - for a pipe, or folder of tiles. Meshes and sequences are encoded and compared. Without "
+    shown = (
+        "stream, - for a pipe, folder of streams or of tiles. Meshes and sequences are encoded and compared. Without "
+    )
     add("inputs", "IN", f"{shown}inputs, opens an empty page; drop a mesh on it", nargs="*")
     add("--preset", "", "preset for meshes and sequences (default: balanced)", choices=PRESETS, default="balanced")
     add_flags(parser, "view", "limits")
@@ -37,6 +41,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise OptionError("tiles are loaded on demand; leave out --save, --original and --follow")
     if args.original and len(args.inputs) != 1:
         raise OptionError("--original is for one input")
+    if len(args.inputs) == 1 and _has_streams(args.inputs[0]):
+        return _view_folder(args.inputs[0], args, console)
     with console.progress("reading and comparing") as progress:
         served = [_opened(name, path, args, console, progress) for name, path in _named(args.inputs).items()]
     contents = [content for content in served if isinstance(content, Content)]
@@ -54,13 +60,42 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.save or args.static:
         return 0
     with PageServer(served, args.port) as server:
-        # To standard output and at once: scripts wait for this line before they open the page.
-        print(server.address, flush=True)
-        console.note("press Ctrl-C to stop")
-        with suppress(KeyboardInterrupt), nullcontext() if args.no_open else in_browser(server.address):
-            server.serve_forever()
-        console.note("stopped")
+        _serve(server, args, console)
     return 0
+
+
+def _has_streams(path: str) -> bool:
+    """Return whether a path is a folder of streams, and not one of tiles or of the frames of a sequence."""
+    return Path(path).is_dir() and not is_tiles(path) and any(Path(path).rglob("*.bsm"))
+
+
+def _view_folder(folder: str, args: argparse.Namespace, console: Console) -> int:
+    """Show a page with a picture of each stream of a folder."""
+    wrong = [name for name in ("static", "original", "follow") if getattr(args, name)]
+    if wrong:
+        raise OptionError(f"{folder} has streams of its own; leave out --{wrong[0]}")
+    with console.progress("drawing"):
+        names = [str(path) for _, path in files_in([folder], STREAM_SUFFIXES)]
+        rows = [{"input": name, "output_bytes": Path(name).stat().st_size} for name in names]
+        page = write_page(folder, rows, load_mesh)
+    if args.save:
+        write_output(args.save, page, overwrite=args.force)
+        console.note(f"{args.save}: open it in a browser")
+        return 0
+    with PageServer((), args.port) as server:
+        server.content["/"] = ("text/html; charset=utf-8", page)
+        _serve(server, args, console)
+    return 0
+
+
+def _serve(server: PageServer, args: argparse.Namespace, console: Console) -> None:
+    """Serve a page until Ctrl-C."""
+    # To standard output and at once: scripts wait for this line before they open the page.
+    print(server.address, flush=True)
+    console.note("press Ctrl-C to stop")
+    with suppress(KeyboardInterrupt), nullcontext() if args.no_open else in_browser(server.address):
+        server.serve_forever()
+    console.note("stopped")
 
 
 def _opened(

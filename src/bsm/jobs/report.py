@@ -13,7 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from bsm import __version__
+from bsm.account.overview import report_kind, write_page, write_table
 from bsm.bitstream.errors import FormatError, counted
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import pipes
 from bsm.files.output import write_output
 from bsm.ground.console import Console
@@ -41,9 +43,17 @@ class Report:
     """The report of a run, rewritten as a whole during the run."""
 
     def __init__(
-        self, path: str, command: str, options: Facts, jobs: Sequence[Job], earlier: Mapping[str, Facts]
+        self,
+        path: str,
+        command: str,
+        options: Facts,
+        jobs: Sequence[Job],
+        earlier: Mapping[str, Facts],
+        load: Callable[[str], TriangleMesh],
     ) -> None:
         self._path = path
+        self._kind = report_kind(path)
+        self._load = load
         self._head = {"command": command, "options": options}
         self._files = [earlier.get(job.output) or {"input": job.input, "output": job.output} for job in jobs]
         self._open = set(range(len(jobs)))
@@ -54,17 +64,24 @@ class Report:
     def take(self, number: int, facts: Facts) -> None:
         self._files[number] = facts
         self._open.discard(number)
-        if time.perf_counter() >= self._next:
+        # A page has pictures, which are drawn once, at the end.
+        if self._kind != "html" and time.perf_counter() >= self._next:
             self.write()
 
     def write(self) -> None:
         begin = time.perf_counter()
-        state = {"complete": not self._open, "seconds": begin - self._begin, "totals": totals(self._files)}
-        text = json.dumps({**self._head, **state, "files": self._files}, indent=1, allow_nan=False)
         # As a whole and by renaming: a run that is killed while it writes leaves the report before.
-        write_output(self._path, text.encode() + b"\n", overwrite=True)
+        write_output(self._path, self._contents(begin), overwrite=True)
         end = time.perf_counter()
         self._next = end + max(_EVERY, (end - begin) / _SHARE)
+
+    def _contents(self, now: float) -> bytes:
+        if self._kind == "csv":
+            return write_table(self._files)
+        if self._kind == "html":
+            return write_page(self._path, self._files, self._load)
+        state = {"complete": not self._open, "seconds": now - self._begin, "totals": totals(self._files)}
+        return json.dumps({**self._head, **state, "files": self._files}, indent=1, allow_nan=False).encode() + b"\n"
 
 
 @dataclass(frozen=True)
