@@ -31,7 +31,7 @@ _UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """Turns the y axis up, for meshes whose format or metadata say so."""
 _UP_Y = (".obj", ".glb", ".gltf", ".dae")
 PAGE_LIMITS = Limits.service()
-"""What a mesh may take that is only drawn."""
+"""Memory and work of a mesh that is only drawn."""
 _COLUMNS = (
     *("input", "output", "input_bytes", "output_bytes", "vertices", "faces", "look", "max_error", "max_error_relative"),
     *("seconds", "error", "exit", "output_sha256", "notes"),

@@ -42,7 +42,7 @@ def advice_on_command(words: Sequence[str]) -> str:
 
 
 def advice_on_option(word: str, options: Collection[str]) -> str:
-    """Return what a command with these options offers in place of an unknown one; empty if it offers nothing."""
+    """Return the option to use in place of an unknown one, among those of a command; empty if there is none."""
     for entry in OPTIONS.get(word, "").split(" | "):
         name = entry.partition(" ")[0]
         if name in options or not name.startswith("-"):

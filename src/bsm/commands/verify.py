@@ -1,4 +1,4 @@
-"""bsm verify: check that streams, what they link to, tiles and the outputs of a report are there and whole."""
+"""bsm verify: check that streams, linked images, tiles and the outputs of a report are there and whole."""
 
 import argparse
 import errno
@@ -38,7 +38,7 @@ class Verdict:
     """The result for an input."""
 
     contents: str
-    """What was checked, in words."""
+    """The checked contents, in words."""
     size: int
     """Its bytes."""
     faults: Sequence[Fault] = ()

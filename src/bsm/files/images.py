@@ -167,7 +167,7 @@ class LinkedImage:
 
 
 def linked_images(metadata: Metadata, stream: str) -> list[LinkedImage]:
-    """Return the images that a stream links to, and what is there of them."""
+    """Return the images that a stream links to, and their bytes."""
     images = []
     for key, link in metadata.items():
         if not is_link(key):
