@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from bsm import Limits
-from bsm.files.isolation import lack
+from bsm.files.landlock import lack
 from bsm.files.table import FORMATS, MESH_FORMATS, SEQUENCES_READ, XDMF
 from tests.gltf import unpack
 from tools.attack.calls import recorded

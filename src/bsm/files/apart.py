@@ -1,7 +1,8 @@
 """Readers that may crash: a process of its own runs them, so that a crash is an error, also of a file that is trusted.
 
-The process stays for the next file, since it takes a while to load VTK. Its answers are pickled, which only files that
-are trusted may cause: those from strangers are read in the stricter processes of `isolation.py`, which set `here`.
+The process stays for the next file, since it takes a while to load VTK. With Landlock it forks for each file, and the
+child may only read its folder, since these libraries open files by themselves. Answers are pickled, which only files
+that are trusted may cause: those from strangers are read in the stricter processes of `isolation.py`, which set `here`.
 """
 
 import atexit
@@ -17,9 +18,12 @@ from typing import Any, TypeAlias
 
 from bsm.bitstream.errors import BsmError, FormatError, UnsupportedError, imported
 from bsm.bitstream.limits import Limits
+from bsm.files import landlock
+from bsm.files.formats.outside import refuse_outside
 from bsm.files.formats.polygons import Polygons
 from bsm.files.motion.folder import read_steps
 from bsm.files.motion.frames import Frames, Wanted
+from bsm.files.table import load_modules
 
 _COMMAND = "from bsm.files.apart import serve; serve()"
 _TURN = Lock()
@@ -33,6 +37,7 @@ def surface_of(
     asked = os.path.abspath(path), kind, limits, step
     if here:
         module = imported("bsm.files.formats.with_vtk", f".{kind} files are read with VTK", "simulation")
+        refuse_outside(path, kind, limits, closed=landlock.lack() is None)
         found: Surface = module.read_vtk(*asked, with_sets=with_sets)
         return found
     with _TURN:
@@ -101,11 +106,28 @@ def serve() -> None:
             asked = pickle.load(sys.stdin.buffer)
         except EOFError:
             return
-        try:
-            answer: Surface | BsmError = surface_of(*asked, here=True)
-        except BsmError as error:
-            answer = error
-        except MemoryError:
-            answer = FormatError("reading this file takes more memory than there is")
-        pickle.dump(answer, answers)
-        answers.flush()
+        if landlock.lack() is not None:
+            _write_answer(asked, answers)
+            continue
+        load_modules(asked[1])
+        child = os.fork()
+        if not child:
+            landlock.close_files(landlock.folders_of([asked[0]]))
+            _write_answer(asked, answers)
+            os._exit(0)
+        # A crash of the child is told as one of this process.
+        _, status = os.waitpid(child, 0)
+        if code := os.waitstatus_to_exitcode(status):
+            os._exit(abs(code))
+
+
+def _write_answer(asked: Any, answers: Any) -> None:
+    """Read the file that is asked for, and write its surfaces or the error."""
+    try:
+        answer: Surface | BsmError = surface_of(*asked, here=True)
+    except BsmError as error:
+        answer = error
+    except MemoryError:
+        answer = FormatError("reading this file takes more memory than there is")
+    pickle.dump(answer, answers)
+    answers.flush()

@@ -24,7 +24,6 @@ import socket
 import struct
 import subprocess
 import sys
-import sysconfig
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import asdict
@@ -34,12 +33,12 @@ from typing import Any, TypeAlias
 
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, UnsupportedError
 from bsm.bitstream.limits import Limits
-from bsm.files import mesh, sequence
+from bsm.files import landlock, mesh, sequence
 from bsm.files.answer import FRAMES, MESH, found_in, leave
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.pipes import Input
-from bsm.files.table import FORMATS, MESH_FORMATS
+from bsm.files.table import FORMATS, MESH_FORMATS, load_modules
 
 _COMMAND = "from bsm.files.isolation import serve; serve({number})"
 End: TypeAlias = tuple[int, int, float, bytes]
@@ -49,25 +48,11 @@ _ROOM = 1 << 20  # bytes of an answer that a child need not ask for, in addition
 _OF_THIS_PROCESS = re.compile("/dev/(fd/|std)|/proc/")
 _SMALLEST = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"  # a file that has been read, so that the next is read sooner
 _PATIENCE = 10  # times its processor time that a child may take, since the machine may be busy
-_PROCESSORS = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}  # and their numbers in seccomp
 _WRITING = 0o1103  # flags of open: O_WRONLY, O_RDWR, O_CREAT, O_TRUNC
 _QUESTIONS = {"ioctl": (0x5401, 0x5451), "fcntl": (1, 2, 3, 1030)}  # TCGETS, FIOCLEX; F_GETFD to _GETFL, _DUPFD_CLOEXEC
 _REFUSED = 3000  # and the number of a call: the error of one that is refused
 _QUIET = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "PXR_WORK_THREAD_LIMIT", "MALLOC_ARENA_MAX"), "1")
 _QUIET |= {"HDF5_USE_FILE_LOCKING": "FALSE"}
-
-
-# Asked once for a process: what it finds cannot change while it runs, and every file asks.
-@cache
-def lack() -> str | None:
-    """What this system lacks to keep files of others from readers."""
-    try:
-        landlock: Any = importlib.import_module("landlockpy")
-    except ImportError:
-        return "landlockpy: pip install landlockpy"
-    if platform.machine() not in _PROCESSORS:
-        return "a processor of x86-64 or ARM"
-    return None if landlock.supported() else "a kernel with Landlock"
 
 
 def read_isolated(given: Input, file_format: str | None, limits: Limits, kind: str) -> Any:
@@ -92,7 +77,7 @@ def _read_there(
         # A path of this process (/dev/fd/3, ...) means another file in the child, so its bytes are sent instead.
         path = os.path.abspath(given.name) if given.is_file and not _OF_THIS_PROCESS.match(given.name) else None
         data, names, asked["name"] = (b"", [path], given.name) if path else (given.read_all(), [], given.name)
-        file_format = file_format if lack() is None else file_format or kind or None  # others never come here
+        file_format = file_format if landlock.lack() is None else file_format or kind or None  # others never come here
     size = len(data) + sum(map(os.path.getsize, names))
     seconds = math.ceil(min(limits.work_for(limits.vertices, size) / 1e9, 1e6))
     asked |= {
@@ -201,10 +186,10 @@ def end_of_child(memory: int) -> End:
 def serve(number: int) -> None:
     """Fork for each file that is asked for, until the last process that can ask has ended."""
     for kind in MESH_FORMATS:
-        _load(kind)
-    _libraries()
+        load_modules(kind)
+    landlock.libraries()
     _calls()
-    lack()  # landlockpy looks for the C library when it is first used
+    landlock.lack()  # landlockpy looks for the C library when it is first used
     mesh.read_mesh(_SMALLEST, isolated=False)
     gc.freeze()
     with socket.socket(fileno=number) as asked:
@@ -217,19 +202,12 @@ def serve(number: int) -> None:
             with open(memory, "rb", closefd=False) as sent:
                 sent.seek(0)
                 question, begin = json.loads(sent.readline()), sent.tell()  # the bytes of a file follow
-            _load(question["kind"])
+            load_modules(question["kind"])
             if not os.fork():
                 asked.close()
                 _watch(answer, memory, question, begin)
             os.close(answer)
             os.close(memory)
-
-
-@cache
-def _load(kind: str) -> None:
-    for name in FORMATS[kind].modules if kind else ():
-        with suppress(ImportError):
-            importlib.import_module(name)
 
 
 def _watch(answer: int, memory: int, asked: dict[str, Any], begin: int) -> None:
@@ -338,9 +316,8 @@ def _confine(asked: dict[str, Any]) -> None:
     ):
         soft, hard = resource.getrlimit(limit)  # of where this runs, which may be less
         resource.setrlimit(limit, (_least(most, soft), _least(longest, hard)))
-    if lack() is None:
-        paths = filter(None, [*asked["names"], asked.get("beside")])
-        _close_files({os.path.dirname(way(path)) for path in paths for way in (os.path.abspath, os.path.realpath)})
+    if landlock.lack() is None:
+        landlock.close_files(landlock.folders_of(filter(None, [*asked["names"], asked.get("beside")])))
     _close_calls()
 
 
@@ -348,24 +325,11 @@ def _least(most: int, given: int) -> int:
     return most if given == resource.RLIM_INFINITY else min(most, given)
 
 
-# Landlock only knows what is allowed. So the list is of what Python and its packages need to be loaded, and of the
-# folder of the file, whose other files a mesh may name.
-def _close_files(beside: set[str]) -> None:
-    landlock: Any = importlib.import_module("landlockpy")
-    known = landlock.AccessFS.READ_FILE | landlock.AccessFS.READ_DIR
-    scope = landlock.Scope.SIGNAL | landlock.Scope.ABSTRACT_UNIX_SOCKET
-    with landlock.Ruleset(scoped=scope) as rules:
-        for path in itertools.chain(_libraries(), beside):
-            with suppress(OSError):  # the folder may have been removed meanwhile
-                rules.allow_path(path, known if os.path.isdir(path) else landlock.AccessFS.READ_FILE)
-        rules.restrict()
-
-
 # First the parent's death ends this process (1), then no program gets new rights (38), without which the kernel takes
 # no filter (22) of an ordinary user.
 def _close_calls() -> None:
     """Let the kernel refuse all calls but those of reading, by a filter."""
-    if platform.machine() not in _PROCESSORS:
+    if platform.machine() not in landlock.PROCESSORS:
         return  # `lack` says so
     code = ctypes.create_string_buffer(b"".join(struct.pack("<HBBI", *step) for step in _filter(os.getpid())))
     known = ctypes.create_string_buffer(struct.pack("@HP", len(code) // 8, ctypes.addressof(code)))
@@ -383,7 +347,14 @@ def _filter(own: int) -> Iterator[tuple[int, int, int, int]]:
     call, processor, arguments = (load, 0, 0, 0), (load, 0, 0, 4), [(load, 0, 0, 16 + 8 * place) for place in range(3)]
     # The processor is compared first: the numbers of calls differ between the two that one kernel serves, and those of
     # 32 bits would pass a filter for 64.
-    yield from (processor, (equal, 1, 0, _PROCESSORS[platform.machine()]), killed, call, (at_least, 0, 1, 1000), killed)
+    yield from (
+        processor,
+        (equal, 1, 0, landlock.PROCESSORS[platform.machine()]),
+        killed,
+        call,
+        (at_least, 0, 1, 1000),
+        killed,
+    )
     for number, (name, is_allowed) in _calls().items():
         if not is_allowed:
             continue
@@ -417,14 +388,3 @@ def _named(words: str) -> str:
         return f"reading may not call {name} of the kernel"
 
     return re.sub(r"Unknown error (3\d\d\d)", named, words)
-
-
-# For the server, once, as listing folders of all modules takes longer than reading a small file.
-@cache
-def _libraries() -> tuple[str, ...]:
-    """Folders of Python, of packages and of libraries; not all of `sys.path`, where a checkout may be."""
-    installed = {path for path in sys.path if Path(path).name in ("site-packages", "dist-packages")}
-    python = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")}
-    loaded = {path for module in list(sys.modules.values()) for path in list(getattr(module, "__path__", ()))}
-    system = {"/usr", "/lib", "/lib64", "/etc/ld.so.cache", "/dev/null", "/dev/urandom"}
-    return tuple(filter(os.path.exists, installed | python | loaded | system))

@@ -17,7 +17,7 @@ from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import BsmError, DependencyError, FormatError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files import pipes
+from bsm.files import landlock, pipes
 from bsm.files.formats.metadata import Beside, Written, fetched, images_in
 from bsm.files.formats.polygons import Cut, MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
@@ -174,8 +174,7 @@ def is_apart(kinds: Iterable[str], limits: Limits, isolated: bool | None) -> boo
     """Whether files of these formats are read in a process of its own; refused if they must be and cannot."""
     if not (limits.most_memory < math.inf if isolated is None else isolated):
         return False
-    # Through a name, as the module imports resource and seccomp's parts, which Windows does not have.
-    lack = by_name("bsm.files.isolation", "lack")() if sys.platform == "linux" else "Linux"
+    lack = landlock.lack()
     foreign = next((kind for kind in kinds if isolated or kind not in (*MESH_FORMATS, *GLTF, "npy", "")), None)
     if lack is not None and foreign is not None:
         error = DependencyError if "pip" in lack else UnsupportedError

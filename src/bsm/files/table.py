@@ -10,7 +10,9 @@ import importlib
 import os
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -143,6 +145,14 @@ def other_kind(head: bytes, suffix: str) -> str:
 def by_name(module: str, function: str) -> Any:
     """A reader or writer, imported when it is asked for."""
     return getattr(importlib.import_module(module), function)
+
+
+@cache
+def load_modules(kind: str) -> None:
+    """Import the modules that read a format, as far as they are there."""
+    for name in FORMATS[kind].modules if kind else ():
+        with suppress(ImportError):
+            importlib.import_module(name)
 
 
 def format_of_name(path: str | os.PathLike[str]) -> str | None:

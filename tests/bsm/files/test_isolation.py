@@ -15,7 +15,7 @@ from bsm import FormatError, LimitError, Limits, MeshFile, read_mesh
 from bsm.cli import main
 from bsm.files import isolation
 from bsm.files.answer import FRAMES, MESH, found_in, leave
-from bsm.files.isolation import lack
+from bsm.files.landlock import lack
 from bsm.files.mesh import write_mesh
 from bsm.files.motion.frames import Frames, Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
@@ -76,7 +76,8 @@ def acting(monkeypatch, tmp_path, act, before=""):
     (tmp_path / "library" / "evil.py").write_text(f"import os, socket\ndef act(here):\n    {act}\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path / "library"))
     code = (
-        "from bsm.files import mesh, isolation; import evil; plain, known = mesh.read_mesh, isolation._libraries\n"
+        "from bsm.files import mesh, isolation, landlock; import evil\n"
+        "plain, known = mesh.read_mesh, landlock.libraries\n"
         "def taken(source, *given, **more):\n"
         "    if not isinstance(source, bytes): evil.act(source)\n"
         "    return plain(source, *given, **more)\n"
@@ -138,7 +139,7 @@ def test_what_a_library_multiplies_is_ended(kind, library, tmp_path):
 SOCKETS = (("AF_INET", "STREAM"), ("AF_INET6", "DGRAM"), ("AF_UNIX", "STREAM"), ("AF_NETLINK", "RAW"))
 
 
-@pytest.mark.parametrize("before", ["", "isolation._close_files = lambda beside: None; "], ids=["all", "calls alone"])
+@pytest.mark.parametrize("before", ["", "landlock.close_files = lambda folders: None; "], ids=["all", "calls alone"])
 def test_nothing_is_written_and_no_other_folder_read(before, monkeypatch, tmp_path):
     """By the filter of calls alone, too, since old kernels have a Landlock that knows less."""
     victim = tmp_path / "victim"
@@ -172,7 +173,7 @@ def test_nothing_is_written_and_no_other_folder_read(before, monkeypatch, tmp_pa
         "raise KeyError('all were refused', dict(os.environ))",
     )
     monkeypatch.setenv("SECRET", "a key")
-    acting(monkeypatch, tmp_path, "\n    ".join(acts), f"isolation._libraries = lambda: ('/gone', *known()); {before}")
+    acting(monkeypatch, tmp_path, "\n    ".join(acts), f"landlock.libraries = lambda: ('/gone', *known()); {before}")
     with pytest.raises(FormatError, match="all were refused") as refused:
         read_mesh(TRIANGLE, isolated=True)
     assert "SECRET" not in str(refused.value)

@@ -6,9 +6,10 @@ import pytest
 
 from bsm import DependencyError, LimitError, Limits, MeshError, UnsupportedError, read_mesh
 from bsm.cli import main
+from bsm.files import landlock
 from bsm.files.sequence import open_sequence
 
-isolation = pytest.importorskip("bsm.files.isolation")
+pytest.importorskip("bsm.files.isolation")
 TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 SERVICE = Limits.service()
 
@@ -17,7 +18,7 @@ SERVICE = Limits.service()
 def lacking(request, monkeypatch):
     if request.param == "Linux":
         monkeypatch.setattr(sys, "platform", "darwin")
-    monkeypatch.setattr(isolation, "lack", lambda: request.param)
+    monkeypatch.setattr(landlock, "lack", lambda: request.param)
     return (DependencyError if "pip" in request.param else UnsupportedError), f"needs {request.param}"
 
 
@@ -54,4 +55,4 @@ def test_what_we_read_ourselves_is_read(lacking, tmp_path):
 
 def test_the_package_is_looked_for(monkeypatch):
     monkeypatch.setitem(sys.modules, "landlockpy", None)
-    assert "pip install landlockpy" in isolation.lack.__wrapped__()
+    assert "pip install landlockpy" in landlock.lack.__wrapped__()

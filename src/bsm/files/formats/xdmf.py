@@ -15,6 +15,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError, imported
 from bsm.bitstream.limits import Limits
 from bsm.files.formats.cells import runs, skin
+from bsm.files.formats.outside import refuse_outside_hdf
 from bsm.files.formats.polygons import Polygons, joined_parts, part_of
 from bsm.files.motion.folder import read_steps
 from bsm.files.motion.frames import Frames, Wanted
@@ -43,6 +44,7 @@ class _Grids:
             raise FormatError("this format is read from an uncompressed file with a name")
         xml = imported("lxml.etree", "XDMF is read with lxml", "simulation")
         self._folder, self._limits = Path(path).resolve().parent, limits
+        self._own = set[Path]()  # HDF5 files that lead to no other folder
         with as_library_error("lxml"):
             # A file must not make the parser open another one, nor the network.
             self.root = xml.fromstring(
@@ -90,7 +92,11 @@ class _Grids:
         return values.reshape(shape) if shape else values
 
     def _in_hdf(self, path: Path, place: str) -> Any:
-        with as_library_error("h5py"), imported("h5py", "XDMF is read with h5py", "simulation").File(path, "r") as file:
+        h5py = imported("h5py", "XDMF is read with h5py", "simulation")
+        if path not in self._own:
+            refuse_outside_hdf(path, self._folder)
+            self._own.add(path)
+        with as_library_error("h5py"), h5py.File(path, "r") as file:
             table = file[place]
             # HDF5 knows the size of a table before it reads it; compressed tables may be huge.
             require_inflated(table.size * table.dtype.itemsize, path.stat().st_size, self._limits)

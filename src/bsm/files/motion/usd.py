@@ -29,6 +29,7 @@ from bsm.files import conventions, table
 from bsm.files.formats import appearance as looks
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
+from bsm.files.formats.outside import layers_inside, refuse_clips_outside
 from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, between, painted_like
 from bsm.files.parsing import Doubles, Ints, as_format_error, as_library_error, require_counts, single_suffices
 from bsm.files.unread import Said, Taken, rows_of
@@ -330,7 +331,7 @@ MOST_PRIMS, MOST_NAMED = 1 << 16, 12
 
 def import_usd() -> Any:
     """The modules of usd-core; `DependencyError` where they are missing."""
-    for name in ("Gf", "Sdf", "Tf", "Usd", "UsdGeom", "UsdShade", "UsdSkel", "UsdUtils", "Vt"):
+    for name in ("Ar", "Gf", "Sdf", "Tf", "Usd", "UsdGeom", "UsdShade", "UsdSkel", "UsdUtils", "Vt"):
         # One by one: `import pxr` alone loads none of them.
         imported(f"pxr.{name}", "USD files are read and written with usd-core", "usd")
     return sys.modules["pxr"]
@@ -610,7 +611,9 @@ class _Stage:
         self.pxr = pxr = import_usd()
         with as_library_error("usd-core"), _quiet(pxr):
             try:
+                self._layers = layers_inside(pxr, path)  # kept, so that the stage does not read them again
                 self.stage = pxr.Usd.Stage.Open(path)
+                refuse_clips_outside(pxr, self.stage, path)
             except pxr.Tf.ErrorException as error:  # which names its own source before the place in the file
                 said = re.findall(r" : '(.*?)'(?=\s*(?:Error in|$))", " ".join(str(error).split()))
                 raise FormatError(f"usd-core cannot read this file: {' '.join(said)[:300]}") from error

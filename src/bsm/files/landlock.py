@@ -1,0 +1,61 @@
+"""Landlock of Linux: which files a process that reads files of others may open, whatever its libraries try."""
+
+import importlib
+import itertools
+import os
+import platform
+import sys
+import sysconfig
+from collections.abc import Iterable
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+PROCESSORS = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
+"""Processors whose calls of the kernel are known, and their numbers in seccomp."""
+
+
+# Asked once for a process: what it finds cannot change while it runs, and every file asks.
+@cache
+def lack() -> str | None:
+    """Return what this system lacks to keep files of others from readers."""
+    if sys.platform != "linux":
+        return "Linux"
+    try:
+        landlock: Any = importlib.import_module("landlockpy")
+    except ImportError:
+        return "landlockpy: pip install landlockpy"
+    if platform.machine() not in PROCESSORS:
+        return "a processor of x86-64 or ARM"
+    return None if landlock.supported() else "a kernel with Landlock"
+
+
+def folders_of(paths: Iterable[str]) -> set[str]:
+    """Return the folders of files, and of what they link to."""
+    return {os.path.dirname(way(path)) for path in paths for way in (os.path.abspath, os.path.realpath)}
+
+
+# Landlock only knows what is allowed. So the list is of what Python and its packages need to be loaded, and of the
+# folder of the file, whose other files a mesh may name.
+def close_files(folders: set[str]) -> None:
+    """Let this process read nothing but the files in these folders, and those of Python and its packages."""
+    landlock: Any = importlib.import_module("landlockpy")
+    known = landlock.AccessFS.READ_FILE | landlock.AccessFS.READ_DIR
+    scope = landlock.Scope.SIGNAL | landlock.Scope.ABSTRACT_UNIX_SOCKET
+    with landlock.Ruleset(scoped=scope) as rules:
+        for path in itertools.chain(libraries(), folders):
+            with suppress(OSError):  # the folder may have been removed meanwhile
+                rules.allow_path(path, known if os.path.isdir(path) else landlock.AccessFS.READ_FILE)
+        rules.restrict()
+
+
+# For the server, once, as listing folders of all modules takes longer than reading a small file.
+@cache
+def libraries() -> tuple[str, ...]:
+    """Return the folders of Python, of packages and of libraries; not all of `sys.path`, where a checkout may be."""
+    installed = {path for path in sys.path if Path(path).name in ("site-packages", "dist-packages")}
+    python = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")}
+    loaded = {path for module in list(sys.modules.values()) for path in list(getattr(module, "__path__", ()))}
+    system = {"/usr", "/lib", "/lib64", "/etc/ld.so.cache", "/dev/null", "/dev/urandom"}
+    return tuple(filter(os.path.exists, installed | python | loaded | system))
