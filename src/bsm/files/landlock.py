@@ -32,7 +32,7 @@ def lack() -> str | None:
 
 
 def folders_of(paths: Iterable[str]) -> set[str]:
-    """Return the folders of files, and of what they link to."""
+    """Return the folders of files, and of the targets of links."""
     return {os.path.dirname(way(path)) for path in paths for way in (os.path.abspath, os.path.realpath)}
 
 

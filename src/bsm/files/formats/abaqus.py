@@ -14,7 +14,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError
 from bsm.bitstream.limits import Limits
 from bsm.files.formats.cells import skin
-from bsm.files.formats.lines import Keywords, by_number, included, whole
+from bsm.files.formats.lines import Keywords, Numbering, included, whole
 from bsm.files.formats.metadata import named
 from bsm.files.formats.polygons import Part, Polygons, joined_parts, part_of, unit_rows
 from bsm.files.parsing import Doubles, Ints, require_counts
@@ -38,6 +38,7 @@ class _Scope:
     name: str
     nodes: list[tuple[int, list[str]]] = field(default_factory=list)  # a line, and the data lines that follow
     elements: list[tuple[str, str, int, list[str]]] = field(default_factory=list)  # with their kind and set
+    part: "_Scope | None" = None  # of which it is an instance, with nodes and elements of its own
     placed: Doubles = field(default_factory=lambda: np.eye(4))
 
 
@@ -59,8 +60,8 @@ def _keywords(text: str) -> Iterator[_Keyword]:
         raise FormatError(f"line {first + 1}: {lines[first][:40]!r} {what}")
     for begin, end in pairwise([*starts, len(lines)]):
         head, *rows = filter(None, lines[begin:end])
-        while head.endswith(",") and rows:
-            head += rows.pop(0)
+        goes_on = next((number for number, row in enumerate([head, *rows]) if not row.endswith(",")), len(rows))
+        head, rows = "".join([head, *rows[:goes_on]]), rows[goes_on:]
         name, *words = (word.strip() for word in head[1:].split(","))
         pairs = (word.partition("=") for word in words if word)
         given = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
@@ -79,7 +80,7 @@ def read_abaqus(data: bytes, path: str | None, limits: Limits) -> Polygons:
             part = parts.get(given.get("PART", "").upper())
             if part is None or {"LIBRARY", "INSTANCE"} & given.keys():
                 raise table.refusal(f"*INSTANCE of {given.get('PART', 'another model')}", line)
-            scope = _Scope(given.get("NAME", ""), [*part.nodes], [*part.elements], _placed(keyword))
+            scope = _Scope(given.get("NAME", ""), part=part, placed=_placed(keyword))
             instances.append(scope)
         elif name in ("END PART", "END INSTANCE", "ASSEMBLY"):
             assembly |= name == "ASSEMBLY"
@@ -100,10 +101,14 @@ def read_abaqus(data: bytes, path: str | None, limits: Limits) -> Polygons:
     if model.elements and instances:
         raise table.refusal("*ELEMENT outside of parts", model.elements[0][2])
     names = dict[str, int]()
-    made = [_surface(one, names, table, limits) for one in instances or [model, *parts.values()]]
-    shown = [part for part, _ in made if len(part.sizes)]
-    found = joined_parts(shown, None, limits, len(data))
-    lost = dict.fromkeys(name for _, left in made for name in left)
+    surfaces = _Surfaces(names, table, limits)
+    # Those of parts are made once, and their counts are known before the first instance is placed.
+    made = [(one, *surfaces.of(one)) for one in instances or [model, *parts.values()]]
+    shown = [(one, part) for one, part, _ in made if len(part.sizes)]
+    counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for _, part in shown]
+    placed = (replace(part, name=one.name).placed(one.placed) for one, part in shown)
+    found = joined_parts(placed, counts, limits, len(data))
+    lost = dict.fromkeys(name for _, _, left in made for name in left)
     columns = [column for column in found.columns if column.name != "group" or len(names) > 1]
     groups = named(list(names), "group") if any(names) else {}
     return replace(found, dropped=(*lost, *table.named), columns=tuple(columns), metadata={**found.metadata, **groups})
@@ -129,12 +134,35 @@ def _placed(keyword: _Keyword) -> Doubles:
     return found
 
 
+class _Surfaces:
+    """The surfaces of scopes; instances without nodes and elements of their own have that of their part."""
+
+    def __init__(self, names: dict[str, int], table: Keywords, limits: Limits) -> None:
+        self._names, self._table, self._limits = names, table, limits
+        self._known: dict[int, tuple[Part, tuple[str, ...]]] = {}
+        self._lines = 0
+
+    def of(self, scope: _Scope) -> tuple[Part, tuple[str, ...]]:
+        """Return the surface of a scope where its part has it, and the names of the rest."""
+        part = scope.part
+        own = scope if part is None or scope.nodes or scope.elements else part
+        if part is not None and own is scope:
+            own = replace(scope, nodes=[*part.nodes, *scope.nodes], elements=[*part.elements, *scope.elements])
+            # Each such instance reads the lines of its part again.
+            self._lines += sum(len(lines) for _, lines in own.nodes) + sum(len(lines) for *_, lines in own.elements)
+            require_counts(self._limits, vertices=self._lines)
+            return _surface(own, self._names, self._table, self._limits)
+        if id(own) not in self._known:
+            self._known[id(own)] = _surface(own, self._names, self._table, self._limits)
+        return self._known[id(own)]
+
+
 def _surface(scope: _Scope, names: dict[str, int], table: Keywords, limits: Limits) -> tuple[Part, tuple[str, ...]]:
     """The surface of a scope, and the names of the rest."""
     lines = ((line, row.upper().replace("D", "E")) for line, those in scope.nodes for row in those)  # 1.D0 is 1.E0
     rows = [(line, [word.strip() or "0" for word in row.split(",")][:4]) for line, row in lines]
     require_counts(limits, vertices=len(rows))
-    numbers = whole([words[0] for _, words in rows], "*NODE", rows[0][0] if rows else 0)
+    numbers = Numbering(whole([words[0] for _, words in rows], "*NODE", rows[0][0] if rows else 0))
     try:
         places = np.array([(*words[1:], "0", "0", "0")[:3] for _, words in rows], np.float64).reshape(-1, 3)
     except ValueError as error:
@@ -154,7 +182,7 @@ def _surface(scope: _Scope, names: dict[str, int], table: Keywords, limits: Limi
         flat = found is None or found["flat"]
         blocks.append(((("triangle" if count % 3 == 0 and count < 9 else "quad") if flat else _SHAPES[count]), nodes))
         sets += [names.setdefault(called, len(names))] * len(nodes)
-    blocks = [(shape, by_number(numbers, nodes)) for shape, nodes in blocks]
+    blocks = [(shape, numbers.rows(nodes)) for shape, nodes in blocks]
     of_cells = {"group": np.array(sets, np.int32)}
     skinned = skin(places, blocks, {}, of_cells)
-    return part_of(skinned, scope.name).placed(scope.placed), skinned.dropped
+    return part_of(skinned, scope.name), skinned.dropped

@@ -17,15 +17,16 @@ from bsm.bitstream.errors import FormatError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.welding import row_numbers
 from bsm.files.formats.cells import runs, skin
-from bsm.files.formats.lines import Keywords, by_number
+from bsm.files.formats.lines import Keywords, Numbering
 from bsm.files.formats.metadata import named
 from bsm.files.formats.polygons import Polygons
 from bsm.files.motion.folder import read_steps
 from bsm.files.motion.frames import Frames, Wanted
-from bsm.files.parsing import Doubles, Ints, as_format_error, as_integers, ranges, require_counts
+from bsm.files.parsing import AS_NUMBERS, Doubles, Ints, as_format_error, as_integers, ranges, require_counts
 
 _VALUES = ("NodeData", "ElementData")
 _MOST_GROUPS = 64  # that become attributes
+_COPIES = 3  # of a table of values that are there at a time
 _WAY = "write it as text without that, e.g. gmsh FILE.msh -save -bin 0 -o NEW.msh"
 _TYPES = {
     1: "line2", 2: "triangle3", 3: "quad4", 4: "tetra4", 5: "hexahedron8", 6: "wedge6", 7: "pyramid5", 8: "line3",
@@ -85,8 +86,11 @@ class _Gmsh:
     def __init__(self, data: bytes, limits: Limits) -> None:
         self.keywords, self._sections = Keywords("gmsh", _WAY), dict[str, list[bytes]]()
         self._groups: dict[tuple[int, ...], int] = {(): 0}
+        self._limits, self._size = limits, len(data)
+        line, counted = 1, 0
         for found in re.finditer(rb"^\$(?!End)(\w+)[^\n]*\n(.*?)(?=^\$End\1|\Z)", data, re.M | re.S):
-            name, line = found[1].decode(), data.count(b"\n", 0, found.start()) + 1
+            line, counted = line + data.count(b"\n", counted, found.start()), found.start()
+            name = found[1].decode()
             known = self._sections.setdefault(name, [])
             if known and name not in _VALUES and found[2] not in known:  # Gmsh writes all again for each view
                 raise self.keywords.refusal(f"another ${name}", line)
@@ -100,20 +104,41 @@ class _Gmsh:
                 raise FormatError(f"this file has the version {version.decode()}, or numbers of another size; {_WAY}")
             numbers, self.points = self._nodes()
             require_counts(limits, vertices=len(numbers))
-            self.cells = [(shape, own, of, by_number(numbers, nodes)) for shape, own, of, nodes in self._cells()]
+            nodes = Numbering(numbers)
+            self.cells = [(shape, own, of, nodes.rows(corners)) for shape, own, of, corners in self._cells()]
             elements = np.concatenate([np.zeros(0, np.int64), *(cell[1] for cell in self.cells)])
-            self._series: dict[tuple[str, str], dict[float, Any]] = {}
+            self._series: dict[tuple[str, str], dict[float, tuple[Ints, Doubles]]] = {}
+            self._tagged = {"NodeData": nodes}
+            if "ElementData" in self._sections:
+                self._tagged["ElementData"] = Numbering(elements, "element")
             for kind, section in ((whose, one) for whose in _VALUES for one in self._sections.get(whose, ())):
                 called, time, asked, values = self._values(section)
-                tagged = numbers if kind == "NodeData" else elements
-                rows = np.full((len(tagged), values.shape[1]), np.nan)
-                rows[by_number(tagged, asked, "node" if kind == "NodeData" else "element")] = values
+                rows = self._tagged[kind].rows(asked), values
                 if self._series.setdefault((kind, called), {}).setdefault(time, rows) is not rows:
                     raise FormatError(f"the values {called} are there twice for the time {time:g}")
+            self._require_tables()
+            self._names = _names_in(self._sections.get("PhysicalNames", [b""])[0])
         moving = [[*steps] for steps in self._series.values() if len(steps) > 1] or [[0.0]]
         if any(times != moving[0] for times in moving):
             raise FormatError(f"values have times of their own each; {_WAY}")
         self.times = moving[0]
+
+    def _require_memory(self, size: int) -> None:
+        self._limits.check_memory(size, len(self.points), self._size)
+
+    def _require_tables(self) -> None:
+        """Refuse values that take too much memory as tables: a file may have few of many names, or of a wide one."""
+        taken = 0
+        for (kind, _), steps in self._series.items():
+            widths = [values.shape[1] for _, values in steps.values()]
+            taken += len(self._tagged[kind]) * max(widths) * AS_NUMBERS
+        self._require_memory(_COPIES * taken)
+
+    def _table(self, kind: str, rows: Ints, values: Doubles) -> Doubles:
+        """Return a row of values for each node or element; those without any have no numbers."""
+        table = np.full((len(self._tagged[kind]), values.shape[1]), np.nan)
+        table[rows] = values
+        return table
 
     def _section(self, name: str) -> _Numbers:
         return _Numbers(self._sections.get(name, [b""])[0], self._binary)
@@ -229,7 +254,7 @@ class _Gmsh:
         cells = [(shape, nodes[kept]) for (shape, _, _, nodes), kept in zip(self.cells, there)]
         rows: dict[str, dict[str, Any]] = {"NodeData": {}, "ElementData": {}}
         for (kind, called), steps in self._series.items():
-            values = [*steps.values()][step if len(steps) > 1 else 0]
+            values = self._table(kind, *[*steps.values()][step if len(steps) > 1 else 0])
             rows[kind][called] = values if kind == "NodeData" else values[~again]
         metadata, of_cells, lost, notes = self._named_groups(np.concatenate(tables)[:, :2], alike, ~again)
         rows["ElementData"] |= of_cells
@@ -246,19 +271,20 @@ class _Gmsh:
         """
         sets = [groups or (0,) for groups in self._groups]
         flat, sizes = np.array([number for groups in sets for number in groups]), np.array([*map(len, sets)])
+        self._require_memory(_COPIES * 3 * AS_NUMBERS * int(sizes[owned[:, 1]].sum()))  # three columns
         groups = flat[ranges((np.cumsum(sizes) - sizes)[owned[:, 1]], sizes[owned[:, 1]])]
         cell, dimension = (np.repeat(column, sizes[owned[:, 1]]) for column in (alike, owned[:, 0]))
         every = np.column_stack([cell, dimension, groups])
         pairs = np.unique(every, axis=0)
         lost = [f"elements that are there again ({len(every) - len(pairs)})"] * (len(every) > len(pairs))
-        named_by = re.findall(rb'^\s*(\d+)\s+(\d+)\s+"(.*)"', self._sections.get("PhysicalNames", [b""])[0], re.M)
-        names = {(int(dim), int(number)): name.decode("utf-8", "replace") for dim, number, name in named_by}
+        names = dict(self._names)
         grouped = pairs[pairs[:, 2] > 0]
         if not len(grouped):
             return {}, {}, [*lost, *(f"the group {name}" for name in names.values())], []
         kinds = [*map(tuple, np.unique(grouped[:, 1:], axis=0).tolist())]
         called = {kind: names.pop(kind, str(kind[1])) for kind in kinds}
         lost += [f"the group {name}" for name in names.values()]
+        self._require_memory(_COPIES * int(kept.sum()) * len(kinds))
         is_in = np.zeros((int(kept.sum()), len(kinds)), np.uint8)
         for place, kind in enumerate(kinds):
             is_in[:, place] = np.isin(alike[kept], grouped[(grouped[:, 1:] == kind).all(axis=1), 0])
@@ -272,6 +298,12 @@ class _Gmsh:
         masks = {called[kind]: is_in[:, place] for place, kind in enumerate(kinds[:_MOST_GROUPS]) if kind[0] > 1}
         notes = [f"faces are in several groups, each of which is an attribute: {', '.join(masks)}"]
         return metadata, of_cells | masks, lost, notes
+
+
+def _names_in(section: bytes) -> dict[tuple[int, int], str]:
+    """Return the names of physical groups by their dimensions and numbers."""
+    rows = re.findall(rb'^[ \t]*(\d{1,9})[ \t]+(\d{1,9})[ \t]+"(.*)"', section, re.M)
+    return {(int(dimension), int(number)): name.decode("utf-8", "replace") for dimension, number, name in rows}
 
 
 def read_gmsh_mesh(data: bytes, limits: Limits) -> Polygons:

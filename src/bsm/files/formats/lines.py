@@ -41,11 +41,18 @@ class Keywords:
         return (*found[:_MOST_NAMED], *([f"{len(found) - _MOST_NAMED} other keywords"] * (len(found) > _MOST_NAMED)))
 
 
-def included(text: str, pattern: str, path: str | None, known: set[Path] | None = None) -> str:
+def included(text: str, pattern: str, path: str | None) -> str:
     """Text with that of files it includes, each once: a pattern finds the kept part of a line, a name, and the rest."""
-    known = set() if known is None else known
-
-    def content(found: re.Match[str]) -> str:
+    known, pieces, waiting = set[Path](), list[str](), [(text, 0)]
+    find = re.compile(pattern, re.M | re.I).search
+    # A stack and no recursion: files may include each other deeper than Python can call.
+    while waiting:
+        text, begin = waiting.pop()
+        found = find(text, begin)
+        if found is None:
+            pieces.append(text[begin:])
+            continue
+        waiting.append((text, found.end()))
         name = re.sub(r"\s*\n\s*", "", found[2].strip("'\""))
         with about(name):
             if path is None:
@@ -54,22 +61,33 @@ def included(text: str, pattern: str, path: str | None, known: set[Path] | None 
             if file in known:
                 raise FormatError("this file is included twice")
             known.add(file)
-            return f"{found[1]}{found[3]}\n{included(file.read_text('latin-1'), pattern, path, known)}".lstrip("\n")
+            content = file.read_text("latin-1")
+        kept = f"{found[1]}{found[3]}"
+        pieces += [text[begin : found.start()], *([kept, "\n"] if kept else [])]
+        waiting.append((content if kept else content.lstrip("\n"), 0))
+    return "".join(pieces)
 
-    return re.sub(pattern, content, text, flags=re.M | re.I)
 
+class Numbering:
+    """The rows of things by their numbers, which need no order."""
 
-def by_number(known: Ints, asked: Ints, what: str = "node") -> Ints:
-    """Return the rows of things by their numbers, which need no order."""
-    order = np.argsort(known, kind="stable")
-    if (same := np.diff(known[order]) == 0).any():
-        raise MeshError(f"{what} {known[order][1:][same][0]} is there twice")
-    places = np.searchsorted(known, asked, sorter=order).clip(0, max(len(known) - 1, 0))
-    rows: Ints = order[places] if len(known) else np.full(np.shape(asked), -1)
-    missing = np.ones(np.shape(asked), np.bool_) if not len(known) else known[rows] != asked
-    if missing.any():
-        raise MeshError(f"{what} {np.asarray(asked)[missing].ravel()[0]} is not there")
-    return rows
+    def __init__(self, known: Ints, what: str = "node") -> None:
+        self._what, self._order = what, np.argsort(known, kind="stable")
+        self._known = known[self._order]
+        if (same := np.diff(self._known) == 0).any():
+            raise MeshError(f"{what} {self._known[1:][same][0]} is there twice")
+
+    def __len__(self) -> int:
+        return len(self._known)
+
+    def rows(self, asked: Ints) -> Ints:
+        """Return the rows of things with these numbers."""
+        places = np.searchsorted(self._known, asked).clip(0, max(len(self) - 1, 0))
+        missing = self._known[places] != asked if len(self) else np.ones(np.shape(asked), np.bool_)
+        if missing.any():
+            raise MeshError(f"{self._what} {np.asarray(asked)[missing].ravel()[0]} is not there")
+        rows: Ints = self._order[places] if len(self) else np.full(np.shape(asked), -1)
+        return rows
 
 
 def whole(words: Sequence[str], what: str, line: int) -> Ints:

@@ -14,7 +14,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.limits import Limits
 from bsm.files.formats.cells import skin
-from bsm.files.formats.lines import Keywords, by_number, included, whole
+from bsm.files.formats.lines import Keywords, Numbering, included, whole
 from bsm.files.formats.polygons import Polygons, unit_rows
 from bsm.files.parsing import Doubles, Ints, require_counts
 
@@ -29,7 +29,7 @@ _ELEMENTS = {
 _ORDER = {15: [*range(9), 12, 13, 14, 9, 10, 11], 20: [*range(12), 16, 17, 18, 19, 12, 13, 14, 15]}
 """Where nodes on edges are, which Nastran counts from the bottom up."""
 _EXPONENT = re.compile(r"(?<=[\d.])(?:[eEdD])?([+-])(?=\d)|[dD](?=\d)")
-_INCLUDE = r"""^\s*()INCLUDE\s+('[^']*'|"[^"]*"|[^\s'"]+)().*$"""
+_INCLUDE = r"""^[ \t]*()INCLUDE[ \t]+('[^']{0,1100}'|"[^"]{0,1100}"|[^\s'"]+)().*$"""
 _WAY = "write it as .vtu, e.g. with pyNastran or ParaView"
 
 
@@ -46,13 +46,14 @@ def read_nastran(data: bytes, path: str | None, limits: Limits) -> Polygons:
             keywords.leave(name, line)
     require_counts(limits, vertices=len(cards["GRID"]))
     grids = _without_repeats(cards["GRID"])
-    numbers = _integers(grids, 0)
-    points = _placed(_reals([(line, row[2:5]) for line, row in grids]), _integers(grids, 1), numbers, systems)
+    numbers = Numbering(_integers(grids, 0))
+    given, owners = _reals([(line, row[2:5]) for line, row in grids]), _integers(grids, 1)
+    points = _Systems(systems, numbers, given, owners).points() if owners.any() else given
     blocks, properties = [], list[Ints]()
     for name, (shape, counts) in _ELEMENTS.items():
         for count, some in _by_count(name, cards[name], counts, keywords):
             nodes = np.column_stack([_integers(some, 2 + place) for place in range(count)])
-            blocks.append((shape, by_number(numbers, nodes)[:, _ORDER.get(count, [*range(count)])]))
+            blocks.append((shape, numbers.rows(nodes)[:, _ORDER.get(count, [*range(count)])]))
             properties.append(_integers(some, 1))
     of_cells = {"property": np.concatenate(properties)} if properties else {}
     return skin(points, blocks, {}, of_cells, keywords.named)
@@ -60,8 +61,8 @@ def read_nastran(data: bytes, path: str | None, limits: Limits) -> Polygons:
 
 def _cards(lines: Sequence[str], keywords: Keywords) -> Iterator[tuple[str, int, list[str]]]:
     """The cards of bulk data: their names, lines and fields."""
-    starts = [place for place, line in enumerate(lines) if re.match(r"\s*BEGIN\b", line, re.I)]
-    if len(starts) > 1 or (starts and not re.match(r"\s*BEGIN(\s+BULK)?\s*(\$.*)?$", lines[starts[0]], re.I)):
+    starts = [place for place, line in enumerate(lines) if re.match(r"BEGIN\b", line.lstrip(), re.I)]
+    if len(starts) > 1 or (starts and not re.match(r"BEGIN(\s+BULK)?$", _without_remark(lines[starts[0]]), re.I)):
         raise keywords.refusal(lines[starts[-1]].strip()[:40], starts[-1] + 1)
     first = starts[0] + 1 if starts else 0
     name, begun, fields = "", 0, list[str]()
@@ -69,7 +70,7 @@ def _cards(lines: Sequence[str], keywords: Keywords) -> Iterator[tuple[str, int,
         line = given.partition("$")[0].rstrip()
         if not line.strip():
             continue
-        if re.match(r"\s*[\w*+]*\s*,", line):
+        if re.fullmatch(r"[\w*+]*", line.partition(",")[0].strip()) and "," in line:
             words = [word.strip() for word in line.split(",")]
             head, step = words[0], 4 if words[0].endswith("*") else 8
             row = words[1 : 1 + step]
@@ -90,6 +91,10 @@ def _cards(lines: Sequence[str], keywords: Keywords) -> Iterator[tuple[str, int,
             raise FormatError(f"line {number}: {given.strip()[:40]!r} is not a card of Nastran")
     if name:
         yield name, begun, fields
+
+
+def _without_remark(line: str) -> str:
+    return line.partition("$")[0].strip()
 
 
 def _integers(cards: Sequence[Card], place: int) -> Ints:
@@ -130,28 +135,68 @@ def _by_count(
     yield from found.items()
 
 
-def _placed(points: Doubles, owners: Ints, numbers: Ints, systems: Mapping[int, tuple[str, Card]]) -> Doubles:
-    """Points of coordinate systems in basic coordinates."""
+class _Systems:
+    """Coordinate systems, each of which is placed once, after the one that it is in."""
 
-    def place(rows: Doubles, number: int, below: tuple[int, ...] = ()) -> Doubles:
-        if not number:
-            return rows
-        if number not in systems or number in below:
-            raise FormatError(
-                f"the coordinate system {number} {'refers to itself' if below else 'is not there'}; {_WAY}"
-            )
-        name, (line, row) = systems[number]
-        inner = (*below, number)
-        if name[4] == "1":  # three nodes
-            nodes = by_number(numbers, np.array([_integers([(line, row)], k)[0] for k in (1, 2, 3)]))
-            a, b, c = (place(points[[node]], int(owners[node]), inner)[0] for node in nodes)
-        else:
-            corners = _reals([(line, (row[2:11] + [""] * 9)[:9])]).reshape(3, 3)
-            a, b, c = place(corners, int(_integers([(line, row)], 1)[0]), inner)
+    def __init__(
+        self, given: Mapping[int, tuple[str, Card]], numbers: Numbering, points: Doubles, owners: Ints
+    ) -> None:
+        self._given, self._numbers, self._points, self._owners = given, numbers, points, owners
+        self._axes: dict[int, tuple[Doubles, Doubles]] = {}  # origins, and axes as rows, in basic coordinates
+
+    def points(self) -> Doubles:
+        """Return all points in basic coordinates."""
+        found = self._points.copy()
+        order = np.argsort(self._owners, kind="stable")
+        owners, begins = np.unique(self._owners[order], return_index=True)
+        for owner, rows in zip(owners.tolist(), np.split(order, begins[1:])):
+            if owner:
+                self._place(owner)
+                found[rows] = self._moved(self._points[rows], owner)
+        return found
+
+    def _place(self, number: int) -> None:
+        """Find the axes of a system, and of those that it is in."""
+        waiting, begun = [number], set[int]()
+        while waiting:
+            current = waiting[-1]
+            if current in self._axes:
+                waiting.pop()
+                continue
+            if current not in self._given:
+                raise FormatError(f"the coordinate system {current} is not there; {_WAY}")
+            owners, corners = self._corners(current)
+            missing = [owner for owner in owners if owner and owner not in self._axes]
+            if not missing:
+                self._axes[current] = self._axes_of(current, owners, corners)
+            elif current in begun:
+                raise FormatError(f"the coordinate system {current} refers to itself; {_WAY}")
+            begun.add(current)
+            waiting += missing
+
+    def _corners(self, number: int) -> tuple[list[int], Doubles]:
+        """Return the three points of a system, and the systems that these are in."""
+        name, (line, row) = self._given[number]
+        if name[4] == "1":
+            nodes = self._numbers.rows(np.array([_integers([(line, row)], place)[0] for place in (1, 2, 3)]))
+            return self._owners[nodes].tolist(), self._points[nodes]
+        corners = _reals([(line, (row[2:11] + [""] * 9)[:9])]).reshape(3, 3)
+        return [int(_integers([(line, row)], 1)[0])] * 3, corners
+
+    def _axes_of(self, number: int, owners: list[int], corners: Doubles) -> tuple[Doubles, Doubles]:
+        a, b, c = (self._moved(corner[None], owner)[0] for owner, corner in zip(owners, corners))
         z = unit_rows((b - a)[None])[0]
         y = unit_rows(np.cross(z, c - a)[None])[0]
         if not y.any():
+            line = self._given[number][1][0]
             raise MeshError(f"line {line}: the axes of the coordinate system {number} lie on a line")
+        return a, np.array([np.cross(y, z), y, z])
+
+    def _moved(self, rows: Doubles, number: int) -> Doubles:
+        """Return points of a system in basic coordinates."""
+        if not number:
+            return rows
+        name, _ = self._given[number]
         r, s, t = rows.T
         first, second = np.radians(s), np.radians(t)
         if name[5] == "C":
@@ -159,10 +204,6 @@ def _placed(points: Doubles, owners: Ints, numbers: Ints, systems: Mapping[int, 
         elif name[5] == "S":
             flat = r * np.sin(first)
             r, s, t = flat * np.cos(second), flat * np.sin(second), r * np.cos(first)
-        moved: Doubles = np.column_stack([r, s, t]) @ np.array([np.cross(y, z), y, z]) + a
+        origin, axes = self._axes[number]
+        moved: Doubles = np.column_stack([r, s, t]) @ axes + origin
         return moved
-
-    found = points.copy()
-    for number in np.unique(owners).tolist():
-        found[owners == number] = place(points[owners == number], number)
-    return found

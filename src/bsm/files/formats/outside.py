@@ -71,7 +71,7 @@ def _refuse_in_xml(path: Path, folder: Path, limits: Limits) -> None:
 
 def _type_in(path: Path) -> str:
     """Return the type that the first element of a file of VTK says."""
-    parser = ElementTree.XMLPullParser(["start"])
+    parser: Any = ElementTree.XMLPullParser(["start"])
     with open(path, "rb") as file, suppress(ElementTree.ParseError):
         while piece := file.read(_HEAD):
             parser.feed(piece)

@@ -5,8 +5,9 @@ the mesh. Collections in space become parts. Elements, kinds of cells and of num
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from hashlib import blake2b
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from bsm.files.formats.outside import refuse_outside_hdf
 from bsm.files.formats.polygons import Polygons, joined_parts, part_of
 from bsm.files.motion.folder import read_steps
 from bsm.files.motion.frames import Frames, Wanted
-from bsm.files.parsing import Ints, as_library_error, require_inflated
+from bsm.files.parsing import TAG, Ints, as_library_error, require_inflated
 from bsm.files.pipes import about, file_beside
 
 _CELLS = {
@@ -32,7 +33,11 @@ _CELLS = {
 _SHORT = {"tri": "triangle", "tet": "tetra", "tetrahedron": "tetra", "quadrilateral": "quad", "hex": "hexahedron"}
 _COUNTED = (1, 2, 3)  # kinds with a number of points before these
 _KNOWN = ("Topology", "Geometry", "Attribute", "Time", "Information", "Grid", "DataItem")
-_TIME = {"List": lambda v: v, "HyperSlab": lambda v: v[0] + v[1] * np.arange(int(v[2])), "Single": lambda v: v}
+_TIMES = ("List", "HyperSlab", "Single")
+_TEST = r"""\[(?:@\w+ ?= ?(?:"[^"\]]*"|'[^'\]]*')|\d{1,9}|self::\w+(?: or self::\w+){0,8})\]"""
+_STEP = rf"[\w:*]+(?:{_TEST}){{0,3}}"
+_PATH = re.compile(rf"/{{0,2}}{_STEP}(?:/{_STEP})*")
+_LONGEST_PATH = 512
 _WAY = "save it as .vtu, e.g. with ParaView"
 
 
@@ -45,6 +50,7 @@ class _Grids:
         xml = imported("lxml.etree", "XDMF is read with lxml", "simulation")
         self._folder, self._limits = Path(path).resolve().parent, limits
         self._own = set[Path]()  # HDF5 files that lead to no other folder
+        self._present, self._read, self._copied = len(data), 0, 0
         with as_library_error("lxml"):
             # A file must not make the parser open another one, nor the network.
             self.root = xml.fromstring(
@@ -61,14 +67,30 @@ class _Grids:
                 raise FormatError(f"this XDMF includes {include.get('href')}; {_WAY}")
             pointer = str(include.get("xpointer", "")).removeprefix("xpointer(").removesuffix(")")
             # A copy, as an element of lxml has one parent only, and others may point to it, too.
-            element.extend([child.__deepcopy__({}) for child in self.root.xpath(pointer)])
+            element.extend(self._copies(self._found(pointer)))
             element.remove(include)
         if reference := element.get("Reference"):
-            found = self.root.xpath((element.text or "").strip() if reference == "XML" else reference)
+            found = self._found((element.text or "").strip() if reference == "XML" else reference)
             if len(found) != 1 or found[0].get("Reference"):
                 raise FormatError(f"the reference {reference[:80]} does not lead to one element")
-            element[:], element.text = [child.__deepcopy__({}) for child in found[0]], found[0].text
+            element[:], element.text = self._copies(found[0]), found[0].text
             element.attrib.update({**found[0].attrib, **element.attrib})
+
+    def _found(self, pointer: str) -> Any:
+        """Return the elements that a path leads to; paths in paths may take longer than any file is worth."""
+        if len(pointer) > _LONGEST_PATH or not _PATH.fullmatch(pointer):
+            raise FormatError(f"this XDMF refers to {pointer[:80]}, which is more than a path; {_WAY}")
+        return self.root.xpath(pointer)
+
+    def _copies(self, elements: Iterable[Any]) -> list[Any]:
+        """Return copies of elements, which may not take much more memory than the file."""
+        made = []
+        for element in elements:
+            for one in element.iter():
+                self._copied += TAG + len(one.text or "")
+            self._limits.check_memory(self._copied, 0, self._present)
+            made.append(element.__deepcopy__({}))
+        return made
 
     def numbers(self, parent: Any) -> Any:
         """The numbers of the data item in an element."""
@@ -84,6 +106,7 @@ class _Grids:
             raise FormatError(f"this XDMF has data items of the kind {kind}, {form}; {_WAY}")
         if form == "XML":
             values = np.array(words.split(), np.float64)
+            self._take(values.nbytes)
         else:
             name, _, place = words.partition(":")
             with about(name):
@@ -96,11 +119,18 @@ class _Grids:
         if path not in self._own:
             refuse_outside_hdf(path, self._folder)
             self._own.add(path)
+            self._present += path.stat().st_size
         with as_library_error("h5py"), h5py.File(path, "r") as file:
             table = file[place]
             # HDF5 knows the size of a table before it reads it; compressed tables may be huge.
             require_inflated(table.size * table.dtype.itemsize, path.stat().st_size, self._limits)
+            self._take(table.size * table.dtype.itemsize)
             return table[()]
+
+    def _take(self, size: int) -> None:
+        """Charge the bytes of a table of a step: a grid of few bytes may name a large one again."""
+        self._read += size
+        self._limits.check_memory(self._read, 0, self._present)
 
     # ------------------------------------------------------------------------------------------------------- grids
 
@@ -133,28 +163,32 @@ class _Grids:
             given = [step.find("Time") for step in steps]
             return [float(place) if one is None else float(one.get("Value")) for place, one in enumerate(given)]
         kind = time.get("TimeType", "Single")
-        if kind not in _TIME:
+        if kind not in _TIMES:
             raise FormatError(f"this XDMF has times of the kind {kind}; {_WAY}")
         values = (
             self.numbers(time).ravel() if time.find("DataItem") is not None else np.array([float(time.get("Value"))])
         )
-        found: list[float] = np.asarray(_TIME[kind](values), np.float64).tolist()
-        if len(found) != len(steps):
-            raise FormatError(f"there are {len(found)} times for {len(steps)} steps")
+        count = int(values[2]) if kind == "HyperSlab" else len(values)
+        if count != len(steps):
+            raise FormatError(f"there are {count} times for {len(steps)} steps")
+        if kind == "HyperSlab":
+            values = values[0] + values[1] * np.arange(count)
+        found: list[float] = np.asarray(values, np.float64).tolist()
         return found
 
     def surface(self, grids: Sequence[Any], size: int) -> Polygons:
         """The surfaces of grids; those over the same mesh are one."""
+        self._read = 0
         every = [leaf for grid in grids for leaf in self._leaves(grid)]
         shapes = [self._shape(leaf) for leaf in every]
-        merged: dict[int, list[int]] = {}
-        for place, (points, blocks) in enumerate(shapes):
-            same = (first for first in merged if _same(shapes[first], (points, blocks)) and len(grids) > 1)
-            merged.setdefault(next(same, place), []).append(place)
-        parts = [self._part(shapes[first], [every[place] for place in those]) for first, those in merged.items()]
+        merged: dict[Any, list[int]] = {}
+        for place, shape in enumerate(shapes):
+            merged.setdefault(_key_of(shape) if len(grids) > 1 else place, []).append(place)
+        alike = [*merged.values()]
+        parts = [self._part(shapes[places[0]], [every[place] for place in places]) for places in alike]
         if len(parts) == 1:
             return parts[0]
-        names = [str(every[first].get("Name", "")) for first in merged]
+        names = [str(every[places[0]].get("Name", "")) for places in alike]
         made = [part_of(*one) for one in zip(parts, names, strict=True)]
         lost = dict.fromkeys(name for part in parts for name in part.dropped)
         return replace(joined_parts(made, None, self._limits, size), dropped=tuple(lost))
@@ -222,10 +256,11 @@ def _shape_of(word: str) -> str:
     return _SHORT.get(name, name)
 
 
-def _same(shape: tuple[Any, list[tuple[str, Any]]], other: tuple[Any, list[tuple[str, Any]]]) -> bool:
-    pairs = zip(shape[1], other[1], strict=False)
-    alike = len(shape[1]) == len(other[1]) and all(a[0] == b[0] and np.array_equal(a[1], b[1]) for a, b in pairs)
-    return alike and np.array_equal(shape[0], other[0])
+def _key_of(shape: tuple[Any, list[tuple[str, Any]]]) -> Any:
+    """Return a key that is the same for the same points and cells."""
+    points, blocks = shape
+    tables = [("points", np.asarray(points) + 0), *blocks]  # + 0, since -0 is 0
+    return tuple((kind, table.shape, blake2b(np.ascontiguousarray(table).tobytes()).digest()) for kind, table in tables)
 
 
 def _mixed(flat: Ints) -> list[tuple[str, Ints]]:
