@@ -164,11 +164,14 @@ class Limits:
             )
 
 
-def as_limits(limits: Limits) -> Limits:
-    """The limits that were given; `ArgumentError` if it is something else."""
-    if not isinstance(limits, Limits):
-        raise ArgumentError(f"limits must be bsm.Limits, not {limits!r}")
-    return limits
+def as_limits(limits: Limits | str) -> Limits:
+    """Return limits that are given as they are or by their name; raise `ArgumentError` for anything else."""
+    if isinstance(limits, Limits):
+        return limits
+    if not isinstance(limits, str) or limits not in NAMED_LIMITS:
+        names = ", ".join(map(repr, NAMED_LIMITS))
+        raise ArgumentError(f"limits must be bsm.Limits, or one of {names}, not {limits!r}")
+    return NAMED_LIMITS[limits]()
 
 
 def _cure(name: str, enough: Callable[[Limits], bool]) -> str:

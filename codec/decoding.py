@@ -66,7 +66,7 @@ class StreamDecoder:
     _misfit: ClassVar[tuple[type[FormatError | UnsupportedError], str]]
 
     def __init__(
-        self, limits: Limits, threads: int | None, *, tolerant: bool = False, start: int = 0, layers: int = 0
+        self, limits: Limits | str, threads: int | None, *, tolerant: bool = False, start: int = 0, layers: int = 0
     ) -> None:
         self._engine: Engine | None = Engine(as_limits(limits), threads_of(threads), bool(tolerant), start, layers)
         self._turn = RLock()
@@ -252,7 +252,7 @@ class Decoder(StreamDecoder):
 
     def __init__(
         self,
-        limits: Limits = DEFAULT_LIMITS,
+        limits: Limits | str = DEFAULT_LIMITS,
         threads: int | None = None,
         *,
         tolerant: bool = False,
@@ -339,7 +339,12 @@ class SequenceDecoder(StreamDecoder):
     _misfit = FormatError, "this is a mesh, and not a sequence (in Python, bsm.decode)"
 
     def __init__(
-        self, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, *, tolerant: bool = False, start: int = 0
+        self,
+        limits: Limits | str = DEFAULT_LIMITS,
+        threads: int | None = None,
+        *,
+        tolerant: bool = False,
+        start: int = 0,
     ) -> None:
         super().__init__(limits, threads, tolerant=tolerant, start=checked_whole("start", start, 0))
         self._faces: Faces = np.zeros((0, 3), np.int32)
@@ -381,7 +386,7 @@ class SequenceDecoder(StreamDecoder):
             yield attribute if found is None else found[0]
 
 
-def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
+def decode(data: bytes, limits: Limits | str = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
     """Decode a complete stream."""
     with Decoder(limits, threads) as decoder:
         decoder.receive_data(data)

@@ -50,7 +50,7 @@ _NAMES = {
     "bsm.account.comparison": "MeshComparison",
     "bsm.api": (
         "compare decode decode_frames decode_sequence denoise encode encode_frames encode_many "
-        "encode_sequence load look save"
+        "encode_sequence info load look save"
     ),
     "bsm.bitstream.errors": (
         "ArgumentError BsmError BsmWarning CorruptError DependencyError FormatError HarmError LimitError "

@@ -6,17 +6,19 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, Unpack
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias, Unpack
 
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import checked_metadata, checked_whole
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats.metadata import Written
+from bsm.files.inspection import inspect_stream, summarize_stream
 from bsm.files.libraries import as_mesh, read_any, warn
 from bsm.files.mesh import save_written, unknown_suffix, written_mesh
+from bsm.files.partial import decode_blocks, decode_what_is_left
 from bsm.files.pipes import Input, Source, named, read_chunks
 from bsm.files.stream import SequenceStream, decode_whole
 from bsm.files.table import format_of_name
@@ -207,7 +209,13 @@ def encode_many(
 
 
 def decode(
-    stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, progress: Heard = None
+    stream: Source,
+    *,
+    blocks: int | None = None,
+    tolerant: bool = False,
+    limits: Limits | str = DEFAULT_LIMITS,
+    threads: int | None = None,
+    progress: Heard = None,
 ) -> TriangleMesh:
     """Restore a mesh.
 
@@ -215,7 +223,11 @@ def decode(
     ----------
     stream : bytes, any buffer, path or binary file
         The function reads a file to its end; it need not be seekable.
-    limits : Limits
+    blocks : int, optional
+        Stop after this many blocks, and return the faces whose vertices have arrived.
+    tolerant : bool
+        Go on after damage, and return the faces that are left.
+    limits : Limits, or "default", "service" or "wide"
         Limits on the memory and work of the stream.
     threads : int, optional
         None: one per core.
@@ -226,6 +238,11 @@ def decode(
     -------
     TriangleMesh
         The mesh with its attributes and metadata.
+
+    Warns
+    -----
+    BsmWarning
+        For each loss, if `tolerant`.
 
     Raises
     ------
@@ -240,8 +257,46 @@ def decode(
     >>> mesh.positions.dtype, mesh.faces.shape[1]
     (dtype('float64'), 3)
     """
+    if blocks is not None and tolerant:
+        raise OptionError("a stream is decoded tolerantly to its end; leave out blocks or tolerant")
+    limits, chunks = as_limits(limits), read_chunks(stream)
     with watched("decoding", progress) as reported:
-        return decode_whole(read_chunks(stream), limits, threads, progress=reported if progress else None)
+        if blocks is not None:
+            return decode_blocks(chunks, checked_whole("blocks", blocks, 1), reported, limits)
+        if tolerant:
+            losses: list[str] = []
+            mesh = decode_what_is_left(chunks, losses.append, limits)
+            warn(losses)
+            return mesh
+        return decode_whole(chunks, limits, threads, progress=reported if progress else None)
+
+
+def info(stream: Source, *, limits: Limits | str = DEFAULT_LIMITS) -> dict[str, Any]:
+    """List the contents of a stream without decoding it.
+
+    Parameters
+    ----------
+    stream, limits
+        As in `decode`.
+
+    Returns
+    -------
+    dict
+        The facts that ``bsm info --json`` prints: version, counts, bytes by their use, attributes, metadata, ...
+
+    Raises
+    ------
+    BsmError
+        As in `decode`.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> facts = bsm.info("bunny.bsm")
+    >>> facts["vertices"] > 0, facts["bytes"]["total"] > 0
+    (True, True)
+    """
+    return summarize_stream(inspect_stream(read_chunks(stream), as_limits(limits)))
 
 
 def encode_sequence(
@@ -384,7 +439,7 @@ def _as_frame(given: Any) -> TriangleMesh:
 
 
 def decode_frames(
-    stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
+    stream: Source, *, limits: Limits | str = DEFAULT_LIMITS, threads: int | None = None
 ) -> Iterator[TriangleMesh]:
     """Restore an animation frame by frame, whether its faces change or not.
 
@@ -409,13 +464,13 @@ def decode_frames(
     >>> for frame in bsm.decode_frames("dance.bsm"):
     ...     bounds = frame.positions.min(axis=0), frame.positions.max(axis=0)
     """
-    decoded = SequenceStream(read_chunks(stream), limits=limits, threads=threads)
+    decoded = SequenceStream(read_chunks(stream), limits=as_limits(limits), threads=threads)
     for _, positions in decoded.changing_frames():
         yield TriangleMesh(positions, decoded.faces, decoded.attributes, decoded.metadata)
 
 
 def decode_sequence(
-    stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, progress: Heard = None
+    stream: Source, *, limits: Limits | str = DEFAULT_LIMITS, threads: int | None = None, progress: Heard = None
 ) -> tuple[Positions, Faces]:
     """Restore an animated mesh.
 
@@ -445,14 +500,17 @@ def decode_sequence(
     import numpy as np
 
     with watched("decoding", progress) as reported:
-        decoded, frames = SequenceStream(read_chunks(stream), limits=limits, threads=threads), list[Positions]()
+        decoded, frames = (
+            SequenceStream(read_chunks(stream), limits=as_limits(limits), threads=threads),
+            list[Positions](),
+        )
         for _, positions in decoded.frames():
             frames.append(positions)
             reported(len(frames), decoded.header.frames)
     return np.array(frames or np.empty((0, 0, 3))), decoded.faces
 
 
-def load(source: Source, *, limits: Limits = DEFAULT_LIMITS) -> TriangleMesh:
+def load(source: Source, *, limits: Limits | str = DEFAULT_LIMITS, format: str | None = None) -> TriangleMesh:
     """Read a mesh from a mesh file or a stream.
 
     `read_mesh` also returns notes on changes and losses.
@@ -462,8 +520,10 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS) -> TriangleMesh:
     source : path, or anything else that `decode` takes
         OBJ, OFF, PLY, STL, VTP, npz and BSM; with trimesh installed (``pip install 'bsm-codec[formats]'``) also GLB,
         glTF, 3MF, DAE and others.
-    limits : Limits
+    limits : Limits, or "default", "service" or "wide"
         Largest memory and work that the file may take.
+    format : str, optional
+        The format as a suffix without the dot; None: by the name or the contents.
 
     Returns
     -------
@@ -481,11 +541,16 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS) -> TriangleMesh:
     >>> [attribute.name for attribute in mesh.attributes][:1]
     ['texcoord']
     """
-    return read_any(Input(source), limits=limits)
+    return read_any(Input(source), file_format=format, limits=as_limits(limits))
 
 
 def save(
-    mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **keywords: Unpack[EncodeKeywords]
+    mesh: Any,
+    path: str | os.PathLike[str] | BinaryIO,
+    *,
+    overwrite: bool = True,
+    format: str | None = None,
+    **keywords: Unpack[EncodeKeywords],
 ) -> tuple[str, ...]:
     """Write a mesh to a file in the format of its name. If it fails, no partial file remains.
 
@@ -495,17 +560,20 @@ def save(
     ----------
     mesh : mesh, pair of arrays, or path
         As `encode` takes it.
-    path : path
-        A path that ends in .bsm, .3mf (with lib3mf), .glb, .npz, .obj, .off, .ply, .stl or .vtp.
+    path : path or binary file
+        A path that ends in .bsm, .3mf (with lib3mf), .glb, .npz, .obj, .off, .ply, .stl or .vtp; or an open file, such
+        as `io.BytesIO`, next to which nothing is written.
     overwrite : bool
         Whether to replace an existing file.
+    format : str, optional
+        The format as a suffix without the dot; an open file needs it.
     **keywords
         As in `encode`, for .bsm only.
 
     Returns
     -------
     tuple of str
-        The names of attributes and metadata that the format cannot store.
+        The names of attributes and metadata that the format cannot store, and of files that would stand next to it.
 
     Raises
     ------
@@ -514,30 +582,43 @@ def save(
 
     Examples
     --------
-    >>> import bsm
+    >>> import bsm, io
     >>> mesh = bsm.load("spot.obj")
     >>> bsm.save(mesh, "again.bsm", preset="fine")
     ()
     >>> "texcoord" in bsm.save(mesh, "again.stl")  # what STL cannot hold
     True
+    >>> file = io.BytesIO()
+    >>> lost = bsm.save(mesh, file, format="glb")
+    >>> file.getvalue()[:4]
+    b'glTF'
     """
-    named(path)
-    suffix = Path(path).suffix.lower()
-    kind = format_of_name(path)
-    if suffix == ".bsm":
-        written = Written(encode(mesh, **keywords))
-    elif kind is None:
-        raise unknown_suffix(path, "bsm")
-    elif keywords:
-        raise OptionError(f"{path}: {next(iter(keywords))} is an option of .bsm files only")
-    else:
-        written = written_mesh(as_mesh(mesh), kind, path)
-    try:
-        return save_written(path, written, overwrite=overwrite)
-    except FileExistsError as error:
-        # The message of the command line names its option -f, which Python does not have.
-        error.strerror = "the file exists already; overwrite=True replaces it"
-        raise
+    if isinstance(path, str | os.PathLike):
+        name = named(path) if format is None else f"{named(path)}.{format}"
+        written = _as_file(mesh, name, keywords)
+        try:
+            return save_written(path, written, overwrite=overwrite)
+        except FileExistsError as error:
+            # The message of the command line names its option -f, which Python does not have.
+            error.strerror = "the file exists already; overwrite=True replaces it"
+            raise
+    if format is None or not hasattr(path, "write"):
+        raise ArgumentError(f"a path is expected, or an open binary file and its format, not {type(path).__name__}")
+    written = _as_file(mesh, f"mesh.{format}", keywords)
+    path.write(written.data)
+    return (*written.left_out, *written.beside)
+
+
+def _as_file(mesh: Any, name: str, keywords: EncodeKeywords) -> Written:
+    """Return a mesh as a file of the format that its name tells."""
+    if Path(name).suffix.lower() == ".bsm":
+        return Written(encode(mesh, **keywords))
+    kind = format_of_name(name)
+    if kind is None:
+        raise unknown_suffix(name, "bsm")
+    if keywords:
+        raise OptionError(f"{name}: {next(iter(keywords))} is an option of .bsm files only")
+    return written_mesh(as_mesh(mesh), kind, name)
 
 
 def denoise(

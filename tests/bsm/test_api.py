@@ -1,6 +1,7 @@
 """The façade: real meshes in, bytes out, and back."""
 
 import io
+import json
 import mmap
 
 import numpy as np
@@ -109,7 +110,7 @@ def test_what_cannot_be_saved(mesh, tmp_path):
         bsm.save(mesh, tmp_path / "a.dae")
     with pytest.raises(bsm.OptionError, match=r"step is an option of \.bsm files"):
         bsm.save(mesh, tmp_path / "a.ply", step=1)
-    with pytest.raises(bsm.ArgumentError, match="a path is expected, not TriangleMesh"):
+    with pytest.raises(bsm.ArgumentError, match=r"a path is expected, or an open .* not TriangleMesh"):
         bsm.save(tmp_path / "a.ply", mesh)
     bsm.save(mesh, tmp_path / "a.ply")
     with pytest.raises(FileExistsError, match="overwrite=True"):
@@ -160,3 +161,74 @@ def test_denoise_warns_of_normals_that_it_leaves_out():
     with pytest.warns(bsm.BsmWarning, match="normal"):
         moved = bsm.denoise(dressed, keep=0.05, force=True)
     assert not moved.attributes
+
+
+# ---------------------------------------------------------------------------------------------- in memory, and in part
+
+
+@pytest.mark.parametrize("kind", ["ply", "stl", "off", "obj", "glb", "npz", "vtp", "bsm"])
+def test_files_in_memory_are_those_on_disk(mesh, kind, tmp_path):
+    file = io.BytesIO()
+    lost = bsm.save(mesh, file, format=kind)
+    path = tmp_path / f"mesh.{kind}"
+    assert lost == bsm.save(mesh, path)
+    if kind != "npz":  # archives hold the time of writing
+        assert file.getvalue() == path.read_bytes()
+    from_memory = bsm.load(file.getvalue(), format=None if kind == "bsm" else kind)
+    assert same(from_memory, bsm.load(path))
+
+
+def test_files_beside_one_in_memory_are_named(tmp_path):
+    flat = bsm.TriangleMesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    (tmp_path / "a.mtl").write_text("newmtl red\nKd 1 0 0\n")
+    bsm.save(flat, tmp_path / "a.obj")
+    text = (tmp_path / "a.obj").read_text().replace("f ", "usemtl red\nf ")
+    (tmp_path / "a.obj").write_text(f"mtllib a.mtl\n{text}")
+    file = io.BytesIO()
+    assert bsm.save(bsm.load(tmp_path / "a.obj"), file, format="obj") == ("mesh.mtl",)
+
+
+def test_an_open_file_needs_a_format(mesh):
+    with pytest.raises(bsm.ArgumentError, match="its format"):
+        bsm.save(mesh, io.BytesIO())
+    with pytest.raises(bsm.OptionError, match="nonsense"):
+        bsm.save(mesh, io.BytesIO(), format="nonsense")
+
+
+def test_info_is_that_of_the_command(stream, tmp_path, capsys):
+    (tmp_path / "a.bsm").write_bytes(stream)
+    assert main(["info", "--json", str(tmp_path / "a.bsm")]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    facts = bsm.info(tmp_path / "a.bsm")
+    assert printed["vertices"] == facts["vertices"] and printed["bytes"] == facts["bytes"]
+    assert bsm.info(stream) == facts
+    with pytest.raises(bsm.FormatError):
+        bsm.info(b"nonsense")
+
+
+def test_a_stream_in_part_and_a_damaged_one(decoded):
+    stream = bsm.encode(torus(40, 30), block_size=150, step=0.004)
+    whole = bsm.decode(stream)
+    part = bsm.decode(stream, blocks=1)
+    assert 0 < len(part.faces) < len(whole.faces)
+    damaged = bytearray(stream)
+    damaged[len(stream) * 3 // 4] ^= 255
+    with pytest.raises(bsm.CorruptError):
+        bsm.decode(damaged)
+    with pytest.warns(bsm.BsmWarning, match="lost"):
+        left = bsm.decode(damaged, tolerant=True)
+    assert 0 < len(left.faces) <= len(whole.faces)
+    with pytest.raises(bsm.OptionError, match="leave out"):
+        bsm.decode(stream, blocks=1, tolerant=True)
+
+
+def test_limits_have_names_everywhere(mesh, stream, tmp_path):
+    bsm.save(mesh, tmp_path / "a.ply")
+    for name in ("default", "service", "wide"):
+        assert same(bsm.decode(stream, limits=name), bsm.decode(stream))
+        assert same(bsm.load(tmp_path / "a.ply", limits=name), bsm.load(tmp_path / "a.ply"))
+        assert bsm.info(stream, limits=name)["vertices"] == len(mesh.positions)
+        with bsm.Decoder(name) as decoder:
+            assert any(isinstance(event, bsm.EndEvent) for event in decoder.events([stream]))
+    with pytest.raises(bsm.ArgumentError, match="'service'"):
+        bsm.decode(stream, limits="services")

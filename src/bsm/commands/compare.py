@@ -29,13 +29,14 @@ from bsm.account.drawing import Panel, drawing, last_color
 from bsm.account.images import compare_images
 from bsm.account.overview import load_mesh, report_kind, write_page, write_table
 from bsm.bitstream.errors import BsmError, MeshError, OptionError, counted
+from bsm.bitstream.limits import as_limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh, require_sizes
 from bsm.codec.geometry.metrics import Reference, distances_to_surface, folded_edges, rms_over_edge, surface_distance
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
-from bsm.commands.flags import add_flags, limits_of
+from bsm.commands.flags import add_flags
 from bsm.files.images import with_linked_images
 from bsm.files.mesh import read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
@@ -290,7 +291,7 @@ def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh
     with about(path):
         if is_stream(path):
             # Streams of a batch may have their images beside them. Without these, all images would count as missing.
-            return with_linked_images(decode_whole(read_chunks(path), limits_of(args.limits)), path)
+            return with_linked_images(decode_whole(read_chunks(path), as_limits(args.limits)), path)
         source = read_mesh(path)
     for note in source.notes:
         console.note(f"{path}: {note}")
@@ -345,7 +346,7 @@ def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -
             header, chunks = peek_header(iter([moving]) if moving else read_chunks(path))
             if header is None or not header.gop_frames:
                 return None
-            stream = SequenceStream(chunks, limits=limits_of(args.limits))
+            stream = SequenceStream(chunks, limits=as_limits(args.limits))
             return [(frame, stream.faces, stream.attributes) for _, frame in stream.changing_frames()]
         source = open_sequence(path, wanted=wanted)
         if source is None:

@@ -13,9 +13,10 @@ from pathlib import Path
 import numpy as np
 
 from bsm.bitstream.errors import BsmError, OptionError, counted
+from bsm.bitstream.limits import as_limits
 from bsm.codec.arrays import Faces, Order
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.commands.flags import add_flags, add_inputs, adder, asked, limits_of, refuse_two_on_one_pipe
+from bsm.commands.flags import add_flags, add_inputs, adder, asked, refuse_two_on_one_pipe
 from bsm.files.formats.metadata import Written
 from bsm.files.images import is_link, linked_images, with_linked_images
 from bsm.files.inspection import inspect_stream
@@ -124,7 +125,7 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         raise OptionError("--frames is for sequences; this is a single mesh")
     output, kind = _mesh_output(args)
     begin = time.perf_counter()
-    limits = limits_of(args.limits)
+    limits = as_limits(args.limits)
     with console.progress("decoding", until=0.6) as progress:
         # Whole, in part and damaged streams have three readers, since each promises something else: everything or an
         # error, a prefix, and whatever is left.
@@ -191,7 +192,7 @@ def _mesh_output(args: DecodeJob) -> tuple[str, str]:
 
 def _decode_scene(args: DecodeJob, console: Console) -> Facts:
     """Decode the sequence in a glTF scene; write other scenes without compressed geometry, or as meshes at rest."""
-    document = by_name("bsm.gltf.document", "read_document")(args.input, limits_of(args.limits))
+    document = by_name("bsm.gltf.document", "read_document")(args.input, as_limits(args.limits))
     # A scene that wraps a sequence of ours holds the whole stream, and decodes as that would.
     if (moving := document.moving) is not None:
         return _decode_sequence(args, console, iter([moving]))
@@ -277,7 +278,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
 
 
 def _opened(args: DecodeJob, console: Console, chunks: Iterator[bytes], start: int) -> SequenceStream:
-    return SequenceStream(chunks, console.note if args.tolerant else None, start, limits_of(args.limits))
+    return SequenceStream(chunks, console.note if args.tolerant else None, start, as_limits(args.limits))
 
 
 def _is_of_one_frame(output: str, file_format: str | None) -> bool:

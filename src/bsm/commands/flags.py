@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from bsm.bitstream.errors import OptionError
-from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.choices import suggestion
 from bsm.files.output import refuse_terminal
 
@@ -253,7 +252,3 @@ def asked(kind: type[_Asked], args: argparse.Namespace, **more: Any) -> _Asked:
     """Return the flags of a command line as a dataclass with fields of the same names."""
     given = {field.name: getattr(args, field.name) for field in fields(kind) if hasattr(args, field.name)}  # type: ignore[arg-type]
     return kind(**{**given, **more})
-
-
-def limits_of(name: str) -> Limits:
-    return NAMED_LIMITS[name]()

@@ -1,15 +1,15 @@
 """bsm info: list the contents of a stream without decoding it."""
 
 import argparse
-import base64
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 from bsm.bitstream.errors import counted
-from bsm.commands.flags import add_flags, add_inputs, asked, limits_of
+from bsm.bitstream.limits import as_limits
+from bsm.commands.flags import add_flags, add_inputs, asked
 from bsm.files.images import linked_images
-from bsm.files.inspection import StreamInfo, inspect_stream
+from bsm.files.inspection import inspect_stream, summarize_stream
 from bsm.files.motion.frames import MOST_LISTED, describe_runs
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import is_scene, is_tiles, refuse_mesh
@@ -36,63 +36,18 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def info_of_one(args: InfoJob, console: Console) -> Facts:
-    limits = limits_of(args.limits)
+    limits = as_limits(args.limits)
     if is_tiles(args.input):
         return {"input": args.input, **by_name("bsm.tiles.shards", "open_tiles")(args.input).manifest}
     # A scene may hold many streams, and each is described on its own.
     if is_scene(args.input):
         document = by_name("bsm.gltf.document", "read_document")(args.input, limits)
-        streams = {n: summarize(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}
+        streams = {n: summarize_stream(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}
         return {"input": args.input, "primitives": len(list(document.primitives())), "streams": streams}
     refuse_mesh(args.input)
     info = inspect_stream(read_chunks(args.input), limits)
     images = {image.name: image.fault or "is there" for image in linked_images(info.metadata, args.input)}
-    return {"input": args.input, **summarize(info), "linked_images": images}
-
-
-def summarize(info: StreamInfo) -> dict[str, Any]:
-    header, sizes = info.header, info.sizes
-    extensions = {
-        "order": sizes["order"] > 0,
-        "light": header.light > 0,
-        "congruence": header.congruence > 0,
-        # A part of the law of its own: older drafts had none, and decoders may lack it.
-        "whole": header.whole,  # vertices where images of others are take one decision
-        "turn": any(header.turn),
-        "base": bool(header.base),
-        "brief": info.brief,
-        "paper": bool(header.paper) or sizes["partition"] > 0,
-        "attributes": header.attributes > 0,
-        "sequence": bool(header.sequence),
-    }
-    return {
-        "version": f"{info.version >> 4}.{info.version & 15}",
-        "extensions": [name for name, used in extensions.items() if used],
-        "preset": "paper" if info.is_paper else None,
-        "vertices": header.vertices,
-        "faces": header.faces,
-        "blocks": header.blocks,
-        "block_size": header.block_size,
-        "coefficients": list(info.coefficients),
-        "bytes": info.sizes,
-        "positions": info.positions,
-        "checksum": None if info.checksum is None else f"{info.checksum:08x}",
-        "frames": info.frames,
-        "gops": [asdict(gop) for gop in info.gops],
-        "runs": [asdict(run) for run in info.runs],
-        "attributes": [asdict(attribute) for attribute in info.attributes],
-        "bpv_total": info.bpv(),
-        "bpvf_total": info.bpvf_total,
-        "bpv_geometry": info.bpv("coefficients"),
-        "bpv_paper": info.bpv_paper,
-        "header": {name: getattr(header, name) for name in header.__dataclass_fields__},
-        "metadata": {
-            # JSON has no bytes.
-            name: base64.b64encode(value).decode() if isinstance(value, bytes) else value
-            for name, value in info.metadata.items()
-        },
-        "metadata_bytes": {n: len(value) for n, value in info.metadata.items() if isinstance(value, bytes)},
-    }
+    return {"input": args.input, **summarize_stream(info), "linked_images": images}
 
 
 def _worded(summary: Facts) -> str:

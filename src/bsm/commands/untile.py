@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.flags import add_flags, adder, limits_of
+from bsm.bitstream.limits import as_limits
+from bsm.commands.flags import add_flags, adder
 from bsm.files.output import refuse_terminal, refuse_to_overwrite
 from bsm.files.table import by_name
 from bsm.ground.console import Console
@@ -20,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    tiles = open_tiles(args.input, limits_of(args.limits))
+    tiles = open_tiles(args.input, as_limits(args.limits))
     refuse_to_overwrite(args.output, args.force)
     levels = [level["level"] for level in tiles.manifest["levels"]]
     if args.level is not None and not levels[0] <= args.level <= levels[-1]:

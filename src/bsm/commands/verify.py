@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import TypeAlias
 
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError, OptionError, counted
+from bsm.bitstream.limits import as_limits
 from bsm.codec.geometry.mesh import Metadata
-from bsm.commands.flags import add_flags, add_inputs, asked, limits_of
+from bsm.commands.flags import add_flags, add_inputs, asked
 from bsm.files.images import LinkedImage, is_link, linked_images
 from bsm.files.inspection import StreamInfo, inspect_stream
 from bsm.files.pipes import digest_of, is_url, read_chunks
@@ -103,7 +104,7 @@ def _verify(args: VerifyJob, console: Console) -> Verdict:
 
 
 def _check_stream(chunks: list[bytes], args: VerifyJob) -> StreamInfo:
-    limits = limits_of(args.limits)
+    limits = as_limits(args.limits)
     info = inspect_stream(iter(chunks), limits)
     if not args.quick:
         decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
@@ -158,7 +159,7 @@ def _output_faults(args: VerifyJob, result: Facts, output: str) -> list[Fault]:
     if not Path(output).is_file() or not is_stream(output):
         return []
     # Equal bytes were decoded when they were written; only files beside the stream are left.
-    return _image_faults(output, inspect_stream(read_chunks(output), limits_of(args.limits)).metadata)
+    return _image_faults(output, inspect_stream(read_chunks(output), as_limits(args.limits)).metadata)
 
 
 def _state_of(faults: Sequence[Fault]) -> str:
@@ -170,7 +171,7 @@ def _state_of(faults: Sequence[Fault]) -> str:
 
 def _verify_scene(args: VerifyJob) -> Verdict:
     """Check every stream of a glTF scene."""
-    document = by_name("bsm.gltf.document", "read_document")(args.input, limits_of(args.limits))
+    document = by_name("bsm.gltf.document", "read_document")(args.input, as_limits(args.limits))
     sizes = [_check_stream([document.view(number)], args).sizes["total"] for number in document.streams]
     if not sizes:
         raise FormatError(f"{args.input}: this scene has no streams; bsm glb makes one that has")
@@ -179,7 +180,7 @@ def _verify_scene(args: VerifyJob) -> Verdict:
 
 def _verify_tiles(args: VerifyJob) -> Verdict:
     """Check every tile of every shard."""
-    tiles = by_name("bsm.tiles.shards", "open_tiles")(args.input, limits_of(args.limits))
+    tiles = by_name("bsm.tiles.shards", "open_tiles")(args.input, as_limits(args.limits))
     faults = list(tiles.faults(not args.quick))
     shards = tiles.manifest["shards"]
     return Verdict(

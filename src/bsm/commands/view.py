@@ -10,7 +10,8 @@ from threading import Thread
 
 from bsm.account.overview import load_mesh, write_page
 from bsm.bitstream.errors import FormatError, OptionError
-from bsm.commands.flags import add_flags, adder, limits_of
+from bsm.bitstream.limits import as_limits
+from bsm.commands.flags import add_flags, adder
 from bsm.files.inspection import inspect_stream
 from bsm.files.output import write_output
 from bsm.files.pipes import about, read_chunks
@@ -103,7 +104,7 @@ def _opened(
 ) -> Content | Arrival | Tiled:
     """Open an input. The page reports a damaged stream, unless it is compared or the page is saved."""
     if is_tiles(path):
-        manifest = open_tiles(path, limits_of(args.limits)).manifest
+        manifest = open_tiles(path, as_limits(args.limits)).manifest
         shards = {shard["file"]: Ranged(path, shard["file"], shard["size"]) for shard in manifest["shards"]}
         return Tiled(name, {MANIFEST: json.dumps(manifest).encode(), **shards})
     if args.follow or (path == "-" and not (args.save or args.static or args.original)):
@@ -112,7 +113,7 @@ def _opened(
         with about(args.original):
             before = given_at(args.original)
         with about(path):
-            content = against(before, given_at(path), limits_of(args.limits))
+            content = against(before, given_at(path), as_limits(args.limits))
         for note in content.facts["notes"]:
             console.note(note)
         return content
@@ -121,7 +122,7 @@ def _opened(
         if isinstance(given.source, bytes):
             # A page on a disk is opened by people who were not there. A damaged stream must be found now.
             if args.save or args.static:
-                inspect_stream(iter([given.source]), limits_of(args.limits))
+                inspect_stream(iter([given.source]), as_limits(args.limits))
             return alone(name, given.source)
         content = made(name, given.size, given.source, args.preset, progress.stage)
     for note in content.facts["notes"]:

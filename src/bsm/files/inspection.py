@@ -1,9 +1,11 @@
 """Reports on streams, without decoding them."""
 
+import base64
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from itertools import chain
+from typing import Any
 
 import numpy as np
 
@@ -192,3 +194,49 @@ def _attribute_info(packet: SkimmedPacket, size: int) -> AttributeInfo:
     coding = "moving levels" if packet.moves else ("levels", "octahedral", "bits", "recomputed")[packet.coding]
     meant = DOMAINS[packet.domain], SEMANTICS[packet.semantic], KINDS[packet.kind]
     return AttributeInfo(packet.name, *meant, packet.components, packet.rows, coding, packet.data, size)
+
+
+def summarize_stream(info: StreamInfo) -> dict[str, Any]:
+    """Return the facts of a stream, ready for JSON."""
+    header, sizes = info.header, info.sizes
+    extensions = {
+        "order": sizes["order"] > 0,
+        "light": header.light > 0,
+        "congruence": header.congruence > 0,
+        # A part of the law of its own: older drafts had none, and decoders may lack it.
+        "whole": header.whole,  # vertices where images of others are take one decision
+        "turn": any(header.turn),
+        "base": bool(header.base),
+        "brief": info.brief,
+        "paper": bool(header.paper) or sizes["partition"] > 0,
+        "attributes": header.attributes > 0,
+        "sequence": bool(header.sequence),
+    }
+    return {
+        "version": f"{info.version >> 4}.{info.version & 15}",
+        "extensions": [name for name, used in extensions.items() if used],
+        "preset": "paper" if info.is_paper else None,
+        "vertices": header.vertices,
+        "faces": header.faces,
+        "blocks": header.blocks,
+        "block_size": header.block_size,
+        "coefficients": list(info.coefficients),
+        "bytes": info.sizes,
+        "positions": info.positions,
+        "checksum": None if info.checksum is None else f"{info.checksum:08x}",
+        "frames": info.frames,
+        "gops": [asdict(gop) for gop in info.gops],
+        "runs": [asdict(run) for run in info.runs],
+        "attributes": [asdict(attribute) for attribute in info.attributes],
+        "bpv_total": info.bpv(),
+        "bpvf_total": info.bpvf_total,
+        "bpv_geometry": info.bpv("coefficients"),
+        "bpv_paper": info.bpv_paper,
+        "header": {name: getattr(header, name) for name in header.__dataclass_fields__},
+        "metadata": {
+            # JSON has no bytes.
+            name: base64.b64encode(value).decode() if isinstance(value, bytes) else value
+            for name, value in info.metadata.items()
+        },
+        "metadata_bytes": {n: len(value) for n, value in info.metadata.items() if isinstance(value, bytes)},
+    }

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
+import bsm
 from bsm import PRESETS, look
 from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.codec.decoding import decode
@@ -22,8 +23,6 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import Contract, Target
 from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_grid, grid_of, sampled_size
-from bsm.commands.info import summarize
-from bsm.files.inspection import inspect_stream
 from tests.refined import header_of
 from tools.surgery import with_header
 from tools.vectors.meshes import together, torus
@@ -185,7 +184,7 @@ def test_streams_and_their_estimates_have_whole_vertices():
     split = replace(whole, whole=False)
     assert whole.congruence == draft.header.congruence == split.congruence + 17
     assert next(encode_grid(faces, whole, places)) in draft.body
-    assert {"congruence", "whole"} <= set(summarize(inspect_stream(iter(draft.frames)))["extensions"])
+    assert {"congruence", "whole"} <= set(bsm.info(b"".join(draft.frames))["extensions"])
     less, more = (sampled_size(faces, either, places) for either in (whole, split))
     assert less < more
 
