@@ -36,6 +36,7 @@ BSM_STRUCT(Creases, ConstInts2, ConstInts2, ConstBytes, ConstDoubles, ConstInts,
 using namespace nb::literals;
 
 void bind_codec(nb::module_ &m) {
+    CHECKED(equal_rows)
     GUARDED(vertex_faces) GUARDED(normals_apart) GUARDED(geometric_laplacian) GUARDED(build_tree)
     GUARDED(nearest_distances) CHECKED(shown_normals) CHECKED(draw_shaded) CHECKED(paint_colors) CHECKED(paint_checker)
     CHECKED(averaged) CHECKED(contrast) GUARDED(add_copies) GUARDED(collect_edges) GUARDED(patch_guidance)

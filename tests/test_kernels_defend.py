@@ -32,7 +32,7 @@ BEYOND = 10**6
 KERNELS = {name: kernel for room in (of_bytes, of_arrays) for name, kernel in vars(room).items() if callable(kernel)}
 REFUSALS = 40
 """Of a kernel, after which it is left alone."""
-NOTHING_SHORT = {"priors", "start", "constant", "fields", "frames_kept"}
+NOTHING_SHORT = {"priors", "start", "constant", "fields", "frames_kept", "return_free_memory"}
 """Kernels that are given no array, or one that may be of any length."""
 
 

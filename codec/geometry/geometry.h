@@ -47,6 +47,7 @@ INLINE void cross_of_face(const double *positions, const int32_t *face, double *
 }
 
 int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second);
+int64_t equal_rows(ConstLongs2 rows, int64_t seed, Ints places, Ints numbers);
 int64_t label_components(ConstInts offsets, ConstInts neighbors, Ints waiting, Ints labels);
 bool reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch);
 void vertex_faces(ConstInts2 faces, Longs starts, Ints members);

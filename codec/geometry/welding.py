@@ -1,11 +1,13 @@
 """Vertices at one position made one, and vertices whose corners differ made several, as most files have them."""
 
+import os
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Indices, Mask, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -30,21 +32,11 @@ def group_rows(values: npt.NDArray[Any]) -> Indices:
     if values.dtype == np.float64:
         # Both zeros are one place, but their bits differ.
         values = values + 0.0  # -0.0 + 0.0 is 0.0
-    # No two rows can be equal where one number made of each is not: one sort, where all of them need one each. A hash
-    # of each row, sorted. Most meshes have no copies at all, and this finds that out much sooner than sorting rows
-    # does.
-    bits = values.view(np.uint64)
-    mixed = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15)
-    for axis in range(1, values.shape[1]):
-        mixed = (mixed ^ (mixed >> np.uint64(29)) ^ bits[:, axis]) * np.uint64(0xBF58476D1CE4E5B9)
-    mixed.sort()
-    if (mixed[1:] != mixed[:-1]).all():
-        return np.arange(len(values), dtype=np.int32)
-    numbers = row_numbers(values)
-    first = np.empty(numbers.max() + 1, np.int64)
-    first[numbers[::-1]] = np.arange(len(numbers))[::-1]  # the last one that is written is the first
-    # In order of first appearance, so that a mesh without copies keeps its numbers.
-    return np.argsort(np.argsort(first)).astype(np.int32)[numbers]
+    rows = np.ascontiguousarray(values).view(np.int64)
+    numbers = np.empty(len(rows), np.int32)
+    places = np.empty(1 << (2 * len(rows)).bit_length(), np.int32)
+    _kernels.equal_rows(rows, int.from_bytes(os.urandom(7), "little"), places, numbers)
+    return numbers
 
 
 def first_of(index: Indices) -> Order:

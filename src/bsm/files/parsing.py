@@ -19,6 +19,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
+from bsm.bitstream.once import cached_property
 
 Ints = npt.NDArray[np.int64]
 Doubles = npt.NDArray[np.float64]
@@ -55,6 +56,24 @@ class Rows:
             raise MeshError(f"{self.what} {int(np.argmax(sizes < 0))} has a negative number of corners")
         self.require(before + 1 + sizes)
         return sizes, as_integers(self.values[ranges(self.starts + before + 1, sizes)], "a vertex index")
+
+
+class EvenRows(Rows):
+    """A table of numbers, shape (lines, numbers)."""
+
+    def __init__(self, table: Doubles, what: str) -> None:
+        self.what, self._table = what, table
+        self.counts = np.broadcast_to(np.int64(table.shape[1]), len(table))
+        self.values = table.reshape(-1)
+
+    @cached_property
+    def starts(self) -> Ints:  # type: ignore[override]
+        return np.arange(len(self._table)) * self._table.shape[1]
+
+    def columns(self, first: int, count: int) -> Doubles:
+        self.require(first + count)
+        columns: Doubles = self._table[:, first : first + count]
+        return columns
 
 
 def _numbers(lines: Sequence[bytes], what: str, first: int) -> Doubles:

@@ -7,16 +7,27 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from bsm import _core as _kernels
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.limits import Limits
-from bsm.codec.arrays import Mask
+from bsm.codec.arrays import Mask, sealed
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of
 from bsm.files.formats import metadata as materials
 from bsm.files.formats.appearance import is_mtl, one_line, text_of, write_mtl
 from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact, grouped, polygon_normals
-from bsm.files.parsing import Doubles, Ints, Rows, as_integers, continued, point_row, require_counts, text_table
+from bsm.files.parsing import (
+    Doubles,
+    EvenRows,
+    Ints,
+    Rows,
+    as_integers,
+    continued,
+    point_row,
+    require_counts,
+    text_table,
+)
 
 STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
 """The value of a keyword for the faces after it, and the keyword."""
@@ -30,6 +41,9 @@ _OF_EXPORTERS = re.compile(r"(?i)\W*(\d+ |object|group|mesh|material|vert|textur
 """Comments amid the data that exporters write."""
 _MOST_NAME = 1 << 10  # characters: a name is repeated wherever a group of faces begins
 _MOST_NUMBERS = 3  # of a texture coordinate or a normal
+_NOWHERE = _kernels.NO_REFERENCE  # the index of a corner without a texture coordinate or normal
+_NOTHING = (*3 * [((0, 0), np.float64)], *4 * [(0, np.int64)], *2 * [((0, 0), np.int64)])  # while lines are counted
+_ENDS = (b"", b"\n")  # before the beginning of a line
 
 
 def read_obj(data: bytes, limits: Limits, seen: tuple[int, int, int] | None = None) -> Polygons:
@@ -38,22 +52,9 @@ def read_obj(data: bytes, limits: Limits, seen: tuple[int, int, int] | None = No
     if b"\0" in data:
         raise FormatError("this is not an OBJ file: it holds binary data")
     require_counts(limits, **{name: data.count(begin) for name, begin in _COUNTED.items()})  # before lines are objects
-    lines = _Lines(continued(data))
-    points = Rows(lines.of(b"v"), "vertex")
-    is_face = lines.are(b"f")
-    polygons = lines.of(b"f")
-    sizes = np.fromiter((len(line.split()) for line in polygons), np.int64, len(polygons))
-    references = _References(polygons)
-    before = np.flatnonzero(is_face)
-
-    def placed(which: int, keyword: bytes) -> Ints:
-        """Indices from 0 on; a negative one counts back from the last line before the face."""
-        present = np.repeat(np.cumsum(lines.are(keyword))[before], sizes) + (seen[which] if seen else 0)
-        written = references.of(which)
-        return np.where(written > 0, written - 1, written + present)
-
-    if (references.of(0) == 0).any():
-        raise MeshError("a face refers to vertex 0, but OBJ files count from 1")
+    text = continued(data)
+    lines = _plain_lines(text, seen or (0, 0, 0)) or _Lines(text, seen or (0, 0, 0))
+    points, sizes = lines.rows(b"v", "vertex"), lines.sizes
     numbers, most = int(points.counts.min(initial=100)), int(points.counts.max(initial=0))
     # A fourth number alone is a weight. A color is only taken for one if all vertices have it, with or without an
     # opacity.
@@ -63,31 +64,38 @@ def read_obj(data: bytes, limits: Limits, seen: tuple[int, int, int] | None = No
     dropped = [f"lines that begin with {unread}"] if unread else []
     if most > 3 and not colored and (most > 4 or (points.values[(points.starts + 3)[points.counts > 3]] != 1).any()):
         dropped.append(f"numbers after the coordinates ({int((points.counts > 3).sum())} vertices have some)")
-    dropped += ["colors in comments (#MRGB)"] if re.search(rb"^#MRGB ", data, re.M) else []
+    dropped += ["colors in comments (#MRGB)"] if b"#MRGB " in data and re.search(rb"^#MRGB ", data, re.M) else []
     notes: list[str] = []
+    positions, corners = points.columns(0, 3), lines.places(0)
     for which, (keyword, name) in enumerate(_OF_CORNERS.items(), 1):
-        rows = lines.of(keyword)
+        rows = lines.rows(keyword, name)
         if seen is not None and name == "texcoord":
-            indices = np.where(references.of(which) != 0, placed(which, keyword), -1)
-            columns.append(Column(name, _texcoords(Rows(rows, name)), "corner", name, indices))
-        elif rows:
-            flat = (points.columns(0, 3), sizes, placed(0, b"v")) if name == "normal" else None
-            column, note = _corner_column(rows, name, references.of(which), placed(which, keyword), flat)
+            indices = lines.places(which)
+            indices = np.where(indices == _NOWHERE, -1, indices)
+            columns.append(Column(name, _texcoords(rows), "corner", name, indices))
+        elif len(rows.counts):
+            flat = (positions, sizes, corners) if name == "normal" else None
+            column, note = _corner_column(rows, name, lines.places(which), flat)
             columns += column
             notes += note
-    states, names = _states(lines, is_face)
+    states, names = _states(lines)
     metadata: dict[str, materials.Value] = {**names}
-    libraries = dict.fromkeys(text_of(library) for library in lines.of(b"mtllib"))
+    libraries = dict.fromkeys(text_of(library) for library in lines.named(b"mtllib"))
     metadata |= {"mtllib": "\n".join(libraries)} if libraries else {}
     metadata |= _comments(data, dropped)
     found = (*columns, *states)
-    return Polygons(points.columns(0, 3), sizes, placed(0, b"v"), tuple(notes), tuple(dropped), found, metadata)
+    return Polygons(sealed(positions), sizes, corners, tuple(notes), tuple(dropped), found, metadata)
 
 
 def _comments(data: bytes, dropped: list[str]) -> dict[str, materials.Value]:
     """Return what comments say: metadata of ours, and the text ahead of the first line of data."""
+    if b"#" not in data:
+        return {}
     begin = re.search(rb"^[ \t]*[^#\s]", data, re.M)
-    lines = [(found.start(), text_of(found[1])) for found in re.finditer(rb"^#([^\r\n]*)", data, re.M)]
+    # The sign first: a search for beginnings of lines looks at each of them.
+    signs = re.finditer(rb"#([^\r\n]*)", data)
+    comments = (sign for sign in signs if data[sign.start() - 1 : sign.start()] in _ENDS)
+    lines = [(found.start(), text_of(found[1])) for found in comments]
     found = materials.parse_remarks(line for _, line in lines)
     others = [(at, line) for at, line in lines if line and not line.startswith(("meta ", "MRGB "))]
     ahead = "\n".join(line for at, line in others if begin is None or at < begin.start())
@@ -99,22 +107,94 @@ def _comments(data: bytes, dropped: list[str]) -> dict[str, materials.Value]:
     return {**({"comment": ahead} if 0 < len(ahead) < materials.MOST_TEXT else {}), **found}
 
 
-class _Lines:
-    """The lines of a text by their keywords; # begins a comment at the start of a line, and after numbers."""
+class _PlainLines:
+    """The lines of a text that the kernel reads."""
 
-    def __init__(self, text: bytes) -> None:
+    def __init__(self, text: bytes, counts: Ints, seen: Ints) -> None:
+        points, point_numbers, texcoords, texcoord_numbers, normals, normal_numbers = counts[:6].tolist()
+        faces, corners, others, words, with_texcoords, with_normals = counts[6:].tolist()
+        tables = (
+            np.empty((points, point_numbers)),
+            np.empty((texcoords, texcoord_numbers)),
+            np.empty((normals, normal_numbers)),
+        )
+        self.sizes: Ints = np.empty(faces, np.int64)
+        used = (corners, corners if with_texcoords else 0, corners if with_normals else 0)
+        self._places = tuple(np.empty(count, np.int64) for count in used)
+        lines, hard = np.empty((others, 3), np.int64), np.empty((words, 4), np.int64)
+        arrays = (*tables, self.sizes, *self._places, lines, hard)
+        _kernels.scan_obj(np.frombuffer(text, np.uint8), seen, True, np.empty_like(counts), arrays)
+        for table, place, begin, end in hard.tolist():
+            tables[table].reshape(-1)[place] = float(text[begin:end])
+        self._rows = dict(zip((b"v", b"vt", b"vn"), tables, strict=True))
+        self._others: dict[bytes, list[tuple[int, bytes]]] = {}
+        for before, begin, end in lines.tolist():
+            keyword, *rest = text[begin:end].split(None, 1)
+            self._others.setdefault(keyword, []).append((before, b"".join(rest).strip()))
+        self.keywords = {*self._others}
+
+    def rows(self, keyword: bytes, what: str) -> Rows:
+        return EvenRows(self._rows[keyword], what)
+
+    def places(self, which: int) -> Ints:
+        places = self._places[which]
+        return places if len(places) == len(self._places[0]) else np.full(len(self._places[0]), _NOWHERE)
+
+    def named(self, keyword: bytes) -> list[bytes]:
+        return [name for _, name in self._others.get(keyword, ())]
+
+    def before_faces(self, keyword: bytes) -> Ints:
+        begins = [before for before, _ in self._others.get(keyword, ())]
+        return np.cumsum(np.bincount(begins, minlength=len(self.sizes) + 1))[: len(self.sizes)]
+
+
+def _plain_lines(text: bytes, seen: tuple[int, int, int]) -> _PlainLines | None:
+    """Read the lines as nearly all programs write them; None: some need another reader, or an error in words."""
+    counts, before = np.empty(_kernels.OBJ_COUNTS, np.int64), np.array(seen, np.int64)
+    nothing = tuple(np.empty(shape, kind) for shape, kind in _NOTHING)
+    if _kernels.scan_obj(np.frombuffer(text, np.uint8), before, False, counts, nothing):
+        return None
+    return _PlainLines(text, counts, before)
+
+
+class _Lines:
+    """The lines of any text by their keywords; # begins a comment at the start of a line, and after numbers."""
+
+    def __init__(self, text: bytes, seen: tuple[int, int, int]) -> None:
+        self._seen = seen
         self._lines = text.splitlines()
         keywords = [(line.split(None, 1) or [b""])[0] for line in self._lines] or [b""]
         self.keywords = {word for word in set(keywords) if not word.startswith(b"#")}
         self._keywords = np.array(keywords, dtype="S8")
         self._commented = b"#" in text
 
-    def are(self, keyword: bytes) -> Mask:
+        polygons = self.named(b"f")
+        self.sizes: Ints = np.fromiter((len(line.split()) for line in polygons), np.int64, len(polygons))
+        self._references = _References(polygons)
+        if (self._references.of(0) == 0).any():
+            raise MeshError("a face refers to vertex 0, but OBJ files count from 1")
+
+    def _are(self, keyword: bytes) -> Mask:
         found: Mask = self._keywords == keyword
         return found
 
-    def of(self, keyword: bytes) -> list[bytes]:
-        found = [b"".join(self._lines[i].split(None, 1)[1:]) for i in np.flatnonzero(self.are(keyword)).tolist()]
+    def rows(self, keyword: bytes, what: str) -> Rows:
+        """Return the numbers of the lines with a keyword."""
+        return Rows(self.named(keyword), what)
+
+    def places(self, which: int) -> Ints:
+        """Return the indices of corners, from 0 on; a negative one counts back from the last line before the face."""
+        present = np.repeat(self.before_faces(_NUMBERS[which]), self.sizes) + self._seen[which]
+        written = self._references.of(which)
+        return np.where(written > 0, written - 1, np.where(written < 0, written + present, _NOWHERE))
+
+    def before_faces(self, keyword: bytes) -> Ints:
+        """Return how many lines with a keyword are before each face."""
+        return np.cumsum(self._are(keyword), dtype=np.int64)[self._are(b"f")]
+
+    def named(self, keyword: bytes) -> list[bytes]:
+        """Return the rest of each line with a keyword."""
+        found = [b"".join(self._lines[i].split(None, 1)[1:]) for i in np.flatnonzero(self._are(keyword)).tolist()]
         numbers = self._commented and keyword in _NUMBERS
         return [line.partition(b"#")[0] for line in found] if numbers else [line.strip() for line in found]
 
@@ -141,17 +221,12 @@ class _References:
 
 
 def _corner_column(
-    rows: list[bytes],
-    name: Literal["texcoord", "normal"],
-    written: Ints,
-    indices: Ints,
-    flat: tuple[Doubles, Ints, Ints] | None,
+    table: Rows, name: Literal["texcoord", "normal"], indices: Ints, flat: tuple[Doubles, Ints, Ints] | None
 ) -> tuple[list[Column], list[str]]:
     """Return the values of `vt` or `vn` lines, for the corners that have them."""
-    present = written != 0
+    present = indices != _NOWHERE
     if not present.any():
         return [], []
-    table = Rows(rows, name)
     values, notes = _texcoords(table) if name == "texcoord" else table.columns(0, 3), []
     if not present.all():  # after all other values there are those of the faces, or zeros
         more = np.zeros((1, values.shape[1])) if flat is None else polygon_normals(*flat)
@@ -173,13 +248,13 @@ def _texcoords(table: Rows) -> Doubles:
     return values if values[:, 2].any() else values[:, :2]
 
 
-def _states(lines: _Lines, is_face: Mask) -> tuple[list[Column], dict[str, str]]:
+def _states(lines: _Lines | _PlainLines) -> tuple[list[Column], dict[str, str]]:
     """Materials, groups, objects and smoothing groups of the faces: numbers, and their names as metadata."""
     columns: list[Column] = []
     metadata: dict[str, str] = {}
     for what, keyword in STATES.items():
-        names = ["", *map(text_of, lines.of(keyword.encode()))]
-        column, known = grouped(what, names, np.cumsum(lines.are(keyword.encode()), dtype=np.int64)[is_face])
+        names = ["", *map(text_of, lines.named(keyword.encode()))]
+        column, known = grouped(what, names, lines.before_faces(keyword.encode()))
         columns += column
         metadata |= known
     return columns, metadata

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, imported, public
 from bsm.bitstream.limits import Limits
+from bsm.codec.arrays import sealed
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, MOST_NAME_BYTES, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.conventions import shares_of
@@ -318,7 +319,7 @@ class Polygons:
         notes += [f"left out: {', '.join(left_out)}"] if left_out else []
         notes += [f"left out: {name}, because {why}" for name, why in (refused | too_large).items()]
         faces = corners[places].astype(np.int32)
-        return MeshFile(TriangleMesh(positions, faces, attributes, metadata), tuple(notes), dropped)
+        return MeshFile(TriangleMesh(positions, sealed(faces), attributes, metadata), tuple(notes), dropped)
 
 
 def turned_corners(sizes: Ints, turned: Array) -> Ints:

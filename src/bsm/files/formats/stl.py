@@ -8,6 +8,7 @@ import numpy as np
 from bsm._core import GivenMesh
 from bsm.bitstream.errors import FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
+from bsm.codec.arrays import sealed
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import group_rows
@@ -71,12 +72,12 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
         metadata = {said: header.decode("latin-1")} if header.strip(b"\0 ") else {}
         if records["attribute"].any():
             columns = [Column(_ATTRIBUTE, records["attribute"][:, None], "face")]
-    faces = np.arange(len(soup), dtype=np.int32).reshape(-1, 3)
     # Only exactly equal corners: a tolerance would close slits that somebody has drawn.
+    faces = np.arange(len(soup), dtype=np.int32).reshape(-1, 3)
     corners, first, *_ = GivenMesh(faces, group_rows(soup)).join(True, True)
     note = f"STL knows no vertices: {len(soup)} corners with equal coordinates were joined to {len(first)} vertices"
     sizes, dropped = np.full(len(soup) // 3, 3), (wrong,) if wrong else ()
-    return Polygons(soup[first], sizes, corners.astype(np.int64), (note,), dropped, tuple(columns), metadata)
+    return Polygons(sealed(soup[first]), sizes, corners.astype(np.int64), (note,), dropped, tuple(columns), metadata)
 
 
 def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str], str]:
