@@ -2,6 +2,7 @@
 
 import json
 import shlex
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -197,3 +198,32 @@ def test_a_command_that_is_named_can_be_pasted_whatever_the_file_is_called(folde
     (folder / "my scans").mkdir()
     assert run("decode", "my scans") != 0
     assert "my scans" in shlex.split(capsys.readouterr().err.partition("run: ")[2].partition(";")[0])
+
+
+@pytest.mark.parametrize("pattern", ["walk", "walk/w_####.ply", "walk/w_%04d.ply", "walk/*.ply"])
+def test_frames_are_named_in_each_usual_way(walk, pattern, capsys):
+    assert run("decode", "walk.bsm", "-o", "walk/w_####.ply") == 0
+    assert sorted(path.name for path in Path("walk").iterdir())[0] == "w_0000.ply"
+    frames = len(walk)
+    # Streams of an earlier run in the same folder are not input.
+    assert run("encode", "walk/w_0000.ply", "-q") == 0
+    assert run("encode", "-f", "--json", pattern, "-o", "all.bsm") == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["frames"] == frames
+    assert facts["input_bytes"] == sum(path.stat().st_size for path in Path("walk").glob("*.ply"))
+    assert run("encode", "-f", "--json", pattern, "--frames", "2:5", "-o", "some.bsm") == 0
+    assert json.loads(capsys.readouterr().out)["frames"] == 3
+    some, all_frames = (bsm.decode_sequence(name)[0] for name in ("some.bsm", "all.bsm"))
+    assert np.allclose(some.mean(axis=1), all_frames[2:5].mean(axis=1), atol=0.02)
+    assert run("encode", "-f", pattern, "--frames", "40:50", "-o", "none.bsm") == 2
+
+
+def test_a_range_of_frames_is_taken_from_each_kind_of_sequence(walk, capsys):
+    for name in ("walk.npz", "walk.pc2"):
+        if name.endswith("pc2"):
+            assert run("decode", "walk.bsm", "-o", "walk.pc2") == 0
+        capsys.readouterr()
+        assert run("encode", "-f", "--json", name, "--frames", "2:5", "-o", "some.bsm") == 0
+        assert json.loads(capsys.readouterr().out)["frames"] == 3
+    assert run("encode", "ring.ply", "--frames", "2:5") == 2
+    assert run("encode", "walk.npz", "--frames", "5:2") == 2

@@ -1,8 +1,6 @@
 """bsm decode: streams to mesh files and sequences."""
 
 import argparse
-import re
-import sys
 import time
 from collections.abc import Iterator
 from contextlib import suppress
@@ -22,6 +20,7 @@ from bsm.files.images import is_link, linked_images, with_linked_images
 from bsm.files.inspection import inspect_stream
 from bsm.files.libraries import as_decoded
 from bsm.files.mesh import save_written, unheard, unknown_suffix, written_mesh
+from bsm.files.motion.folder import frame_range
 from bsm.files.output import default_output, no_link, output_inside, refuse_collisions, refuse_to_overwrite
 from bsm.files.parsing import PRECISION
 from bsm.files.partial import decode_blocks, decode_what_is_left
@@ -230,7 +229,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
 
     if args.blocks is not None or args.layers is not None:
         raise OptionError("--blocks and --layers are for single meshes; this is a sequence")
-    output, (first, last) = _sequence_output(args), _range(args.frames)
+    output, (first, last) = _sequence_output(args), frame_range(args.frames or ":")
     if last - first == 1 and _is_of_one_frame(output, args.format):
         return _decode_frame(args, console, chunks, first, output)
     kind = sequence_kind(output, args.format)
@@ -331,12 +330,3 @@ def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], nu
     facts = {"frames": 1, "vertices": len(mesh.positions), "faces": len(mesh.faces)}
     file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
     return facts | _saved(args, console, output, kind, file, f"frame {number}, ", time.perf_counter() - begin)
-
-
-def _range(text: str | None) -> tuple[int, int]:
-    """First frame, and the one after the last."""
-    found = re.fullmatch("([0-9]*):([0-9]*)", text or ":")
-    first, last = (int(found[1] or 0), int(found[2] or sys.maxsize)) if found else (0, 0)
-    if first >= last:
-        raise OptionError(f"--frames {text}: give A:B with 0 <= A < B; either may be left out")
-    return first, last

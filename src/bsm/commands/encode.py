@@ -48,12 +48,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
+    piped = args.frames is not None and ":" not in args.frames
+    # The flag stands for a pipe of frames, too, and argparse takes the input behind it for its value.
+    if piped and args.frames:
+        args.inputs.insert(0, args.frames)
+    args.frames = None if piped else args.frames
     _refuse_other_formats(args.inputs, args.output)
     # The option of other programs chooses the format of the output. Here it is that of the input.
     if args.format in GLTF and format_of_name(args.inputs[0]) not in (None, "glb"):
         given = shlex.quote(args.inputs[0])
         raise OptionError(f"--format is the format of the input; for a scene, run: bsm glb {given} -o OUT.glb")
-    if args.piped_frames and args.format not in (None, "npy"):
+    if piped and args.format not in (None, "npy"):
         raise OptionError(f"--frames takes npy arrays; it cannot be combined with --format {args.format}")
     jobs, members = _planned(args, console)
     refuse_two_on_one_pipe(args, jobs[0].output)
@@ -74,7 +79,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         # Decoders of images are a usual way into a process. Bytes of strangers never reach Pillow.
         if args.untrusted:
             raise OptionError("--images lets Pillow read images; leave it out with --untrusted")
-    more["format"] = "npy" if args.piped_frames else args.format
+    more["format"] = "npy" if piped else args.format
     job = asked(EncodeJob, args, **more)
     others = (path for folder in args.inputs for path in Path(folder).rglob("*") if args.recursive)
     # Without any other file in the folders there can be no shared image, and the meshes need not be read twice.

@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 
 from bsm.bitstream.errors import OptionError
 from bsm.codec.choices import suggestion
+from bsm.files.motion.folder import frame_range
 from bsm.files.output import refuse_terminal
 
 
@@ -99,6 +100,16 @@ def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
         return found
 
     return parsed
+
+
+def frames_or_input(text: str) -> str:
+    """Check a range of frames; return an input that stands after the flag as it is."""
+    if ":" in text and "://" not in text:
+        try:
+            frame_range(text)
+        except OptionError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+    return text
 
 
 def named_setting(text: str) -> tuple[str, Any]:
@@ -199,7 +210,8 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     add = adder(group)
     add("--animation", "NAME", "encode this animation of a GLB or glTF, by name or number (0)")
     add("--mesh", "FILE", "mesh of a PC2 or MDD (default: the file of the same name beside it)", dest="cache_mesh")
-    add("--frames", "", "the pipe contains frames, as with --format npy", dest="piped_frames")
+    about = "encode frames A to B - 1 only, counted from 0. Without A:B, the pipe contains frames, as with --format npy"
+    add("--frames", "A:B", about, nargs="?", const="", type=frames_or_input)
 
 
 def add_preset_flags(parser: argparse.ArgumentParser) -> None:

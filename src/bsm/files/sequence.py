@@ -111,12 +111,20 @@ def open_frames(
     return folder.read_files([", ".join(group) for group in groups], read, wanted)
 
 
+def _files_of_frames(path: str) -> Iterable[str]:
+    """Return the files that a sequence is read from, without streams and others in its folder."""
+    meshes = sorted(folder.mesh_files(path)) if folder.names_many(path) else []
+    return meshes or files_behind(path)
+
+
 def size_of_sequence(paths: Sequence[str], metadata: Metadata, mesh: str | None = None) -> int | None:
     """The bytes of all files that a sequence was read from, each once: lists and theirs, caches and their mesh."""
-    if any(is_url(path) or path == "-" or size_of(path) is None for path in paths):
+    if any(is_url(path) or path == "-" for path in paths):
         return size_of(paths[0])
+    if any(size_of(path) is None for path in paths if not folder.names_many(path)):
+        return None
     found: list[str] = []
-    for path in (file for name in paths for file in files_behind(name)):
+    for path in (file for name in paths for file in _files_of_frames(name)):
         kind = Path(path).suffix[1:].lower()
         found += [path, *(folder.listed(path, kind, DEFAULT_LIMITS)[0] if kind in folder.LISTS else ())]
         found += [mesh or mesh_beside(path)] if kind in CACHES else []

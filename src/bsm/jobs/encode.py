@@ -23,6 +23,7 @@ from bsm.files.formats.metadata import images_in
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.images import ImageRule, digests_in, is_link, with_links, with_smaller_images
 from bsm.files.mesh import read_mesh, size_with_parts
+from bsm.files.motion.folder import frame_files, frame_range, is_numbered, names_many
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
 from bsm.files.pipes import is_url
@@ -49,6 +50,7 @@ class EncodeJob(Task):
     options: Mapping[str, Any] = field(default_factory=dict)
     threads: int | None = None
     members: tuple[str, ...] = ()
+    frames: str | None = None
     animation: str | None = None
     cache_mesh: str | None = None
     provenance: bool | None = None
@@ -99,24 +101,40 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     wishes.check()
     for name in job.members or (job.input,):
         # Of a pipe, a URL or a pattern, reading tells.
-        if name != "-" and not is_url(name) and not glob.has_magic(name) and "%" not in name:
+        if name != "-" and not is_url(name) and not glob.has_magic(name) and not is_numbered(name):
             os.stat(name)
     runs = bool(job.options.get("runs"))
-    asked = (job.animation, job.cache_mesh, *(job.options.get(name) for name in _OF_SEQUENCES))
+    asked = (job.animation, job.cache_mesh, job.frames, *(job.options.get(name) for name in _OF_SEQUENCES))
     plain = all(choice is None for choice in asked)
     limits, apart = (Limits.service(), True) if job.untrusted else (DEFAULT_LIMITS, None)
     wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
+    members = _frame_files(job)
     # Several meshes in one stream: the user has said that they are frames.
-    if job.members:
-        members = open_frames(job.members, job.format, limits, wanted, isolated=apart)
-        return _encode_sequence(job, wishes, console, members)
+    if members:
+        frames = open_frames(members, job.format, limits, wanted, isolated=apart)
+        return _encode_sequence(replace(job, members=tuple(members)), wishes, console, frames)
     sequence = open_sequence(job.input, job.format, None if plain else wanted, limits, isolated=apart)
     if sequence is not None:
+        if job.frames is not None:
+            sequence = sequence.between(*frame_range(job.frames))
         return _encode_sequence(job, wishes, console, sequence)
-    for name, given in (("animation", job.animation), ("mesh", job.cache_mesh)):
+    for name, given in (("animation", job.animation), ("mesh", job.cache_mesh), ("frames", job.frames)):
         if given is not None:
             raise OptionError(f"--{name} is for sequences; this is a single mesh")
     return _encode_mesh(job, wishes, console)
+
+
+def _frame_files(job: EncodeJob) -> Sequence[str]:
+    """Return the files of frames that are named one by one, or those of a range in a folder or pattern."""
+    if job.frames is None:
+        return job.members
+    first, last = frame_range(job.frames)
+    files: Sequence[str] = job.members
+    if not files and not is_url(job.input) and names_many(job.input):
+        files = frame_files(job.input)
+    if files and not files[first:last]:
+        raise OptionError(f"{job.input} has {counted(frames=len(files))}; --frames {job.frames} names none of them")
+    return files[first:last]
 
 
 def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:

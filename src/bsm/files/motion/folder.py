@@ -5,11 +5,12 @@ import json
 import math
 import os
 import re
+import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -32,11 +33,12 @@ _NUMBERS = re.compile(r"((?:(?<![^\W_])-)?\d+)")  # a "-" that follows a letter 
 _SIGNED, _UNITS = re.compile(r"-?\d+"), re.compile(r"\d([fpnuµm]?s|min|h)(?![^\W_])")
 # Fortran writes 1.0D-05; without the point, it is a name such as model3d-01.
 _DECIMALS = re.compile(r"((?:(?<![^\W_])-)?(?:\d*\.\d+[dD][-+]\d+|(?:\d+(?:\.\d+)?|(?<![^_])\.\d+)(?:[eE][-+]?\d+)?))")
-_PLACE = re.compile(r"%(0?)(\d*)d")
+_PLACE = re.compile(r"%(0?)(\d*)d|(##+)")
+"""The place of a frame's number in a pattern: %04d, or #### as animation programs write it."""
 
 
 def names_many(path: str) -> bool:
-    """Whether a path is that of a folder, or a pattern: ``run/*.obj`` or ``run/%04d.obj``."""
+    """Whether a path is that of a folder, or a pattern: ``run/*.obj``, ``run/%04d.obj`` or ``run/####.obj``."""
     return os.path.isdir(path) or ((glob.has_magic(path) or is_numbered(path)) and not os.path.exists(path))
 
 
@@ -55,6 +57,16 @@ def frame_files(path: str) -> list[str]:
     if not (found := mesh_files(path)):
         raise FormatError(f"no mesh files in {path} ({', '.join(MESH_SUFFIXES)}); -r looks in the folders below, too")
     return in_order(found)
+
+
+def frame_range(text: str) -> tuple[int, int]:
+    """Return the first frame of a range A:B, and the one after the last."""
+    match = re.fullmatch("([0-9]*):([0-9]*)", text)
+    first = int(match[1] or 0) if match else 0
+    last = int(match[2] or sys.maxsize) if match else 0
+    if first >= last:
+        raise OptionError(f"--frames {text}: give A:B with 0 <= A < B; either may be left out")
+    return first, last
 
 
 def separate_meshes(path: str, file_format: str | None = None) -> list[str]:
@@ -332,8 +344,15 @@ def _as_in(mesh: TriangleMesh, attribute: Attribute) -> Attribute | None:
 
 
 def is_numbered(path: str) -> bool:
-    """Whether a path has a place for the number of a frame, as ``walk/%04d.obj`` has."""
+    """Whether a path has a place for the number of a frame, as ``walk/%04d.obj`` and ``walk/####.obj`` have."""
     return len(_PLACE.findall(os.path.basename(path))) == 1 and "%" not in _PLACE.sub("", os.path.basename(path))
+
+
+def _number_at(number: int, place: re.Match[str]) -> str:
+    """Write the number of a frame as its place in a pattern asks."""
+    if place[3]:
+        return f"{number:0{len(place[3])}d}"
+    return f"{number:{place[1]}{place[2]}d}"
 
 
 @contextmanager
@@ -349,7 +368,7 @@ def write_files(path: str, kind: str, *, overwrite: bool) -> Iterator[Callable[[
     written: list[Path] = []
 
     def write(mesh: TriangleMesh, number: int) -> tuple[str, ...]:
-        target = pattern.parent / _PLACE.sub(lambda place: f"{number:{place[1]}{place[2]}d}", pattern.name)
+        target = pattern.parent / _PLACE.sub(partial(_number_at, number), pattern.name)
         nothing = FORMATS[kind].empty if is_empty(mesh.attributes) else None
         file = written_mesh(mesh, kind, target) if nothing is None else Written(nothing)
         # Only files that are new are removed after an error: a frame of before, half overwritten or not, is the user's.

@@ -4,12 +4,13 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
+from itertools import islice
 from operator import lt
 from typing import Protocol
 
 import numpy as np
 
-from bsm.bitstream.errors import MeshError
+from bsm.bitstream.errors import MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
@@ -40,6 +41,13 @@ class Frames:
     def __post_init__(self) -> None:
         # Checked while they are read: a sequence may be larger than the memory, and most readers go through it once.
         object.__setattr__(self, "frames", self._checked(self.frames, int(self.faces.max(initial=0))))
+
+    def between(self, first: int, last: int) -> "Frames":
+        """Return the frames from `first` on, up to `last`, which is not among them."""
+        if self.meshes is not None:
+            raise OptionError("the faces of this sequence change; write its frames as files, and name those")
+        count = len(range(self.count)[first:last])
+        return replace(self, frames=islice(self.frames, first, last), count=count)
 
     @staticmethod
     def _checked(frames: Iterator[Positions], last: int) -> Iterator[Positions]:
