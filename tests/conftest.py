@@ -16,7 +16,7 @@ LACKING = re.compile(r"module '(os|signal)' has|privilege|platform \w+ is not|(n
 def pytest_configure(config: pytest.Config) -> None:
     """Let examples take their time, and signals reach programs under test."""
     # What a shell runs in the background passes on that it ignores them.
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in (signal.SIGINT, signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)):
         if signal.getsignal(number) == signal.SIG_IGN:
             signal.signal(number, signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL)
     # How long an example takes says how busy the machine is; half as many as usual are enough every time.

@@ -19,9 +19,10 @@ static bool check_shape(Encoder *encoder) {
     for (int64_t i = 0; i < 3 * mesh->faces; i++)
         if (mesh->corners[i] >= (uint64_t)mesh->vertices)
             return FAIL(context, MISUSED, "corner # is vertex # of #", i, mesh->corners[i], mesh->vertices);
-    int64_t frames = largest(mesh->frames, 1), rows = frames * mesh->vertices;
+    int64_t frames = largest(mesh->frames, 1);
     if (mesh->frames < 0 || frames > MOST_FRAMES / mesh->vertices)
         return FAIL(context, MISUSED, "a sequence cannot have # frames", mesh->frames);
+    int64_t rows = frames * mesh->vertices;
     Doubles2 positions = {(double *)mesh->positions, rows, 3}; /* only read */
     if (mesh->positions == NULL) {
         if (!take_doubles2(&encoder->writer.arena, rows, 3, &positions)) return false;

@@ -207,6 +207,25 @@ def test_an_order_counts_vertices_that_no_face_uses(tmp_path):
             bsm.compare(mesh, decoded, order=wrong)
 
 
+@pytest.mark.parametrize("preset", ["lossless", "grid14"])
+def test_vertices_that_differ_in_the_sign_of_zero_are_as_many_as_the_encoder_keeps(preset):
+    """Lossless streams join vertices by their bits, others by their values."""
+    mesh = torus(9, 7)
+    places = np.concatenate([mesh.positions, mesh.positions[:3], mesh.positions[:1]])
+    places[0] = places[-4] = (0.0, 1.0, 2.0)
+    places[-1] = (-0.0, 1.0, 2.0)
+    faces = mesh.faces.copy()
+    uses = np.argwhere(faces == 0)
+    for (row, column), other in zip(uses[:2], (len(mesh.positions), len(places) - 1)):
+        faces[row, column] = other
+    mesh = TriangleMesh(places, faces)
+    encoder = Encoder(mesh, EncodeOptions(preset=preset))
+    decoded = decode(encoder.encode())
+    found = bsm.compare(mesh, decoded, order=encoder.vertex_order)
+    assert found.max_error_relative < 1e-3
+    assert len(decoded.positions) == len(np.unique(mesh.positions[np.unique(faces)], axis=0)) + (preset == "lossless")
+
+
 def test_a_mesh_that_a_file_split_is_compared_where_rounding_merged_vertices():
     decoded = decode(bsm.encode(SAMPLE, grid=4))
     found = bsm.compare(SAMPLE, soup(decoded))

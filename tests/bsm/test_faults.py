@@ -38,7 +38,7 @@ def printed(done):
     return text
 
 
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGINT", "SIGKILL"])
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT", "SIGKILL"])
 def test_killed_in_mid_encode(name, folder, tmp_path):
     output, number = tmp_path / "a.bsm", getattr(signal, name)
     command = [*BSM, "encode", folder / "large.ply", "-o", output, "--set", "block-size=300", "--set", "keep=1"]
@@ -48,7 +48,7 @@ def test_killed_in_mid_encode(name, folder, tmp_path):
             time.sleep(0.05)
         process.send_signal(number)
         errors = process.communicate(timeout=120)[1].decode()
-    assert process.returncode == {"SIGTERM": 143, "SIGINT": 130, "SIGKILL": -9}[name], errors
+    assert process.returncode == {"SIGTERM": 143, "SIGHUP": 143, "SIGINT": 130, "SIGKILL": -9}[name], errors
     assert not output.exists()
     if name != "SIGKILL":
         assert list(tmp_path.iterdir()) == []

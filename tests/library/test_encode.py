@@ -168,6 +168,10 @@ def test_misuse_is_told(encoder):
         setattr(mesh, what.replace("bute", "butes"), kept and ctypes.addressof(kept))
         found = bsmenc.run(encoder, mesh, bsmenc.Options(ctypes.sizeof(bsmenc.Options)))
         assert found.status == 2 and words in found.message
+    endless = bsmenc.Mesh(ctypes.sizeof(bsmenc.Mesh), 3, 1, positions.ctypes.data, None, corners.ctypes.data)
+    endless.frames = 2**63 - 1
+    found = bsmenc.run(encoder, endless, bsmenc.Options(ctypes.sizeof(bsmenc.Options)))
+    assert found.status == 2 and "9223372036854775807 frames" in found.message
     assert encoder.bsmenc_encode(ctypes.byref(mesh), None, None) == 2
 
 

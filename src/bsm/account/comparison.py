@@ -80,10 +80,11 @@ def numbering(original: TriangleMesh, other: TriangleMesh, order: Order | None =
     """Return the vertex of `other` that each vertex of `original` is; -1: it lost its faces when vertices merged."""
     count = len(other.positions)
     if len(original.positions) > count:
-        joined = join(original, keep=False)
-        if len(joined.mesh.positions) == count:
-            by_joined = None if order is None else joined.index[order].astype(np.int64)
-            return np.append(numbering(joined.mesh, other, by_joined), -1)[joined.index]
+        for exact in (False, True):  # lossless streams keep the sign of zero, and vertices that differ only there
+            joined = join(original, keep=False, exact=exact)
+            if len(joined.mesh.positions) == count:
+                by_joined = None if order is None else joined.index[order].astype(np.int64)
+                return np.append(numbering(joined.mesh, other, by_joined), -1)[joined.index]
     if len(original.positions) != count or len(original.faces) != len(other.faces):
         raise MeshError(
             f"the meshes have different faces: {len(original.positions)} and {count} vertices in faces, "

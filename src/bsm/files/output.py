@@ -26,6 +26,7 @@ except ImportError:  # not a POSIX system
     fcntl = None  # type: ignore[assignment]
 
 _TEMPORARY = ".part"
+_ENDING = tuple(filter(None, (signal.SIGTERM, getattr(signal, "SIGHUP", None))))  # Windows has no SIGHUP
 _HELD = "/proc/self/fd"  # Linux names folders that are open there
 _UMASK = threading.Lock()  # the process has one mask, which can only be read by setting it
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
@@ -137,7 +138,7 @@ def _signals_wait() -> Iterator[None]:
     """Hold signals until a new file has an owner that removes it."""
     came: list[int] = []
     try:
-        with handled((signal.SIGINT, signal.SIGTERM), lambda number, _: came.append(number)):
+        with handled((signal.SIGINT, *_ENDING), lambda number, _: came.append(number)):
             yield
     finally:
         for number in came:
@@ -287,12 +288,13 @@ def _rename_unless_present(name: str, target: Path) -> None:
 
 
 def termination_as_exception() -> AbstractContextManager[None]:
-    """Let SIGTERM unwind the stack, as Ctrl-C does."""
+    """Let SIGTERM, and the end of the terminal, unwind the stack, as Ctrl-C does."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         raise Terminated(128 + number)
 
-    return handled((signal.SIGTERM,), stop)
+    # nohup has such a program ignore the end of the terminal, and it stays so.
+    return handled((number for number in _ENDING if signal.getsignal(number) is not signal.SIG_IGN), stop)
 
 
 def default_output(path: str, suffix: str) -> str:

@@ -69,6 +69,12 @@ def file_beside(folder: Path, name: str) -> Path:
     return path
 
 
+def refuse_link_out(folder: str, path: str) -> None:
+    """Refuse a file that was found in a folder, and is a link to another one."""
+    if not Path(path).resolve().is_relative_to(Path(folder).resolve()):
+        raise errors.FormatError("this is a link to another folder; name the file itself, or copy it here")
+
+
 def place_of(folder: str, name: str) -> str:
     """Return where a file of a folder or URL is; `FormatError` for a link out of the folder, or if it is not a file."""
     path = posixpath.join(folder, name)
@@ -288,7 +294,8 @@ class Input:
 
     def _hold(self, size: int) -> None:
         pieces, held = [self._held], len(self._held)
-        while held < size and (piece := self._receive()):
+        most = min(size, _MAX_BYTES + 1)  # `read_all` refuses more
+        while held < most and (piece := self._receive()):
             pieces.append(piece)
             held += len(piece)
         self._held = b"".join(pieces)

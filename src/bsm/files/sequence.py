@@ -20,6 +20,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.runs import is_empty
+from bsm.files import landlock
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
 from bsm.files.formats.polygons import CutAlike, MeshFile, joined_files
 from bsm.files.mesh import is_apart, kind_of, parts_of, read_cut, read_mesh, save_written, written_mesh
@@ -27,7 +28,7 @@ from bsm.files.motion import folder
 from bsm.files.motion.caches import CACHES, mesh_beside, mesh_of, read_cache, write_cache
 from bsm.files.motion.frames import USUAL_RATE, Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
-from bsm.files.pipes import Input, Source, as_input, files_behind, is_pipe, is_url, size_of
+from bsm.files.pipes import Input, Source, about, as_input, files_behind, is_pipe, is_url, refuse_link_out, size_of
 from bsm.files.table import (
     FORMATS,
     GLTF,
@@ -58,11 +59,20 @@ def open_sequence(
         return None
     given, asked = as_input(source), wanted or Wanted()
     if not is_url(given.name) and folder.names_many(given.name):
-        return open_frames(folder.frame_files(given.name), file_format, limits, asked, isolated=isolated)
+        names = folder.frame_files(given.name)
+        if is_apart((), limits, isolated):
+            # Otherwise the process that reads could open the folders of links, too.
+            for name in names:
+                with about(name):
+                    refuse_link_out(os.path.dirname(name), name)
+        return open_frames(names, file_format, limits, asked, isolated=isolated)
     kind = file_format or Path(given.name).suffix[1:].lower()
     if kind == "abc":
         raise UnsupportedError("Alembic is not read here: export it from Blender as USD, or with the extension for BSM")
     if kind in folder.LISTS and given.is_file:
+        if is_apart((), limits, isolated) and landlock.lack() is None:
+            listed: Frames = by_name(*_ISOLATED)(given, file_format, limits, kind, wanted)
+            return listed
         names, times, parts = folder.listed(given.name, kind, limits)
         return open_frames(names, None, limits, replace(asked, times=times, parts=parts), isolated=isolated)
     moves = kind in SEQUENCES_READ and kind not in ("npz", "npy") and (kind not in GLTF or wanted is not None)

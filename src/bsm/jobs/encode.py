@@ -23,7 +23,7 @@ from bsm.files.formats.metadata import images_in
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.images import ImageRule, digests_in, is_link, with_links, with_smaller_images
 from bsm.files.mesh import read_mesh, size_with_parts
-from bsm.files.motion.folder import frame_files, frame_range, is_numbered, names_many
+from bsm.files.motion.folder import LISTS, frame_files, frame_range, is_numbered, names_many
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
 from bsm.files.pipes import is_url
@@ -64,7 +64,9 @@ class EncodeJob(Task):
     @property
     def wishes(self) -> Wishes:
         # A tree that is decoded with --format same gets the names of its sources back.
-        origin = {"source_name": Path(self.input).name} if self.recursive else {}
+        # Names of files may be bytes that are not UTF-8; metadata is.
+        name = os.fsencode(Path(self.input).name).decode("utf-8", "replace")
+        origin = {"source_name": name} if self.recursive else {}
         return Wishes(
             keywords={**self.options, "threads": self.threads},
             metadata={**origin, **self.metadata},
@@ -77,7 +79,7 @@ class EncodeJob(Task):
 def shared_images(run: Batch, asked: EncodeJob, console: Console, jobs: Sequence[Job]) -> tuple[str, ...]:
     """Return the digests of the images that several meshes have in files beside them; reads these meshes first."""
     kinds = [asked.format or Path(job.input).suffix[1:].lower() for job in jobs]
-    naming = [Job(job.input) for job, kind in zip(jobs, kinds) if kind in WITH_IMAGES_BESIDE]
+    naming = [Job(job.input, within=job.within) for job, kind in zip(jobs, kinds) if kind in WITH_IMAGES_BESIDE]
     # Images of a batch are compared by their digests in a first pass. Held in memory until the end, they would not fit.
     with console.progress("finding images of several meshes"):
         done = run_many(replace(run, report=None, resume=False), asked, console, _digests_one, naming)
@@ -293,7 +295,10 @@ def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: F
     kept = "" if seen is None or look == math.inf else f"look {seen:.2f} of {look:g} in the worst frame drawn, "
     done, vertices, faces = next(numbers), len(encoder.vertex_order), len(encoder.face_order)
     bpvf = 8 * size / encoder.samples
-    taken = size_of_sequence(job.members or (job.input,), source.metadata, job.cache_mesh)
+    paths = job.members or (job.input,)
+    is_list = Path(job.input).suffix[1:].lower() in LISTS
+    # A list from a stranger is only parsed in a process of its own.
+    taken = None if job.untrusted and is_list else size_of_sequence(paths, source.metadata, job.cache_mesh)
     summary = f"{counted(frames=done)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
     summary += f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}"
     unit, per_own = given.unit

@@ -66,7 +66,7 @@ def plan_trees(
     jobs = []
     for folder, path in files_in(folders, read):
         place = path if output is None else Path(output, path.relative_to(folder))
-        jobs.append(Job(str(path), no_link(str(place.with_suffix(suffix))), follow=output or folder))
+        jobs.append(Job(str(path), no_link(str(place.with_suffix(suffix))), follow=output or folder, within=folder))
     jobs = apart(jobs, lambda _: suffix)
     refuse_collisions([job.input for job in jobs], [job.output for job in jobs])
     for parent in {Path(job.output).parent for job in jobs}:

@@ -214,6 +214,7 @@ def task_of(asked: Task, job: Job, earlier: "Earlier | None" = None) -> Task:
         input=job.input,
         output=job.output,
         follow=job.follow,
+        within=job.within,
         before=before,
         replaceable=mine,
         doubtful=frozenset() if asked.force else frozenset(named - mine),

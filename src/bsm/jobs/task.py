@@ -20,6 +20,7 @@ class Job:
     output: str = ""
     after: tuple[int, ...] = ()  # numbers of the jobs before it whose outputs it needs
     follow: bool | str = False  # the user gave the name of the output, or a folder: see `open_output`
+    within: str = ""  # the folder in which the input was found
 
 
 # Frozen and plain, since tasks are pickled for other processes and machines.
@@ -30,6 +31,7 @@ class Task:
     input: str = ""
     output: str = ""
     follow: bool | str = True  # the user gave the name of the output, or a folder: see `open_output`
+    within: str = ""  # the folder in which the input was found
     force: bool = False
     quiet: bool = False
     before: Facts | None = None  # what an earlier report says of it
@@ -72,6 +74,8 @@ def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
     """Do one job; failures are outcomes, except signals and broken pipes."""
     try:
         with pipes.about(task.input):
+            if task.within:
+                pipes.refuse_link_out(task.within, task.input)
             return Outcome(work(task, console), notes=tuple(console.kept or ()))
     # A fault of one file is an outcome like any other. Signals and closed pipes concern the whole run, and pass.
     except Exception as error:

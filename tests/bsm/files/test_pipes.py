@@ -111,3 +111,18 @@ def test_the_command_line_takes_what_a_shell_gives(line, tmp_path):
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, timeout=120, check=True)
     assert b"Traceback" not in done.stderr
     assert len(read_mesh(tmp_path / "out.ply").mesh.faces) == len(read_mesh(tmp_path / "in.ply").mesh.faces)
+
+
+def test_a_pipe_without_end_is_refused_at_its_bound(monkeypatch):
+    class Endless(io.RawIOBase):
+        taken = 0
+
+        def read(self, size=-1):
+            self.taken += 1 << 16
+            return bytes(1 << 16)
+
+    monkeypatch.setattr(pipes, "_MAX_BYTES", 1 << 20)
+    source = Endless()
+    with pytest.raises(LimitError, match="larger than 1048576 bytes"):
+        read_mesh(source)
+    assert source.taken < 1 << 21

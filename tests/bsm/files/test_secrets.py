@@ -2,6 +2,8 @@
 
 import base64
 import json
+import os
+import sys
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -13,6 +15,7 @@ import bsm
 from bsm.files import landlock
 from bsm.files.motion.frames import Wanted
 from bsm.files.sequence import open_sequence
+from tests.bsm.program import bsm as bsm_of
 from tests.grids import save_grid
 
 h5py = pytest.importorskip("h5py", reason="needs the extra simulation")
@@ -453,3 +456,63 @@ UNREAD = ("raw", "exo", "foam", "entity", "include", "relation", "expression", "
 @pytest.mark.parametrize("name", [name for name in CASES if not any(word in name for word in UNREAD)])
 def test_files_of_the_own_folder_are_read_by_the_same_means(name, tmp_path):
     assert outcome(written(tmp_path, name, "own"), isolated=None)
+
+
+# ------------------------------------------------------------------------------------------------------- links
+
+
+@pytest.mark.parametrize("words", [(), ("--untrusted",)])
+def test_links_to_other_folders_are_not_followed_in_folders(words, tmp_path):
+    if words and landlock.lack() is not None:
+        pytest.skip(f"no wall here: it needs {landlock.lack()}")
+    secret(tmp_path / "secret.obj")
+    (tmp_path / "passwords").write_text(f"{WORD}\n")
+    (tmp_path / "in" / "below").mkdir(parents=True)
+    (tmp_path / "in" / "own.obj").write_text(TRIANGLE)
+    for name, target in (("a", "secret.obj"), ("below/b", "passwords")):
+        (tmp_path / "in" / f"{name}.obj").symlink_to(tmp_path / target)
+    (tmp_path / "in" / "c.obj").symlink_to("own.obj")
+    done = bsm_of("encode", "-r", tmp_path / "in", "-o", tmp_path / "out", *words, text=True)
+    assert done.returncode != 0 and WORD not in done.stderr + done.stdout
+    assert done.stderr.count("this is a link to another folder") == 2
+    assert sorted(path.name for path in (tmp_path / "out").rglob("*.bsm")) == ["c.bsm", "own.bsm"]
+
+
+def test_frames_of_strangers_are_no_links_to_other_folders(tmp_path):
+    if landlock.lack() is not None:
+        pytest.skip(f"no wall here: it needs {landlock.lack()}")
+    secret(tmp_path / "secret.obj")
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "0.obj").write_text(TRIANGLE)
+    (tmp_path / "in" / "1.obj").symlink_to(tmp_path / "secret.obj")
+    with pytest.raises(bsm.FormatError, match="link to another folder"):
+        open_sequence(tmp_path / "in", isolated=True)
+    assert open_sequence(tmp_path / "in").count == 2
+
+
+def test_a_list_of_strangers_is_parsed_in_their_process(tmp_path, monkeypatch):
+    if landlock.lack() is not None:
+        pytest.skip(f"no wall here: it needs {landlock.lack()}")
+    path = written(tmp_path, "pvd, files", "own")
+    monkeypatch.setattr("bsm.files.motion.folder.listed", lambda *given: 1 // 0)
+    assert open_sequence(path, isolated=True).count == 2
+
+
+@pytest.mark.skipif(os.name != "posix" or sys.platform == "darwin", reason="names are text here")
+def test_a_name_that_is_not_utf8_is_stored_as_text(tmp_path):
+    (tmp_path / "in").mkdir()
+    Path(os.fsdecode(os.fsencode(tmp_path / "in") + b"/\xff\xfe.obj")).write_text(TRIANGLE)
+    done = bsm_of("encode", "-r", tmp_path / "in", "-o", tmp_path / "out", text=True)
+    assert done.returncode == 0, done.stderr
+    (stream,) = (tmp_path / "out").iterdir()
+    assert bsm.decode(stream.read_bytes()).metadata["source_name"] == "\ufffd\ufffd.obj"
+
+
+@pytest.mark.parametrize("kind", ["xdmf", "vtkhdf"])
+def test_errors_of_hdf5_are_those_of_h5py(kind, tmp_path):
+    (tmp_path / "own.h5").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
+    (tmp_path / "a.xdmf").write_text(xdmf("own.h5:/heat"))
+    if kind == "vtkhdf":
+        (tmp_path / "own.h5").replace(tmp_path / "a.vtkhdf")
+    with pytest.raises(bsm.FormatError, match="h5py cannot read"):
+        bsm.read_mesh(tmp_path / f"a.{kind}")
