@@ -207,6 +207,11 @@ def compact(values: Array) -> Array:
 
 def color_column(values: Array, domain: Domain, *, written_whole: bool = False) -> Column:
     """Colors as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known."""
+    whole = np.isfinite(values).all(axis=1) if values.dtype.kind == "f" else np.ones(len(values), np.bool_)
+    if whole.any() and not whole.all():  # some have no color, and the others tell what they are
+        known = color_column(values[whole], domain, written_whole=written_whole)
+        is_bytes = known.values.dtype == np.uint8 and (written_whole or values[whole].max() > 1)
+        return replace(known, values=compact(values / 255 if is_bytes else values))
     if values.dtype.kind == "f" and values.size and np.isfinite(values).all():
         exact = values if written_whole or values.max() > 1 else values * 255
         bytes_ = np.rint(exact)
@@ -507,7 +512,7 @@ def _finite(column: Column, dropped: list[str]) -> list[Column]:
     name = PLURALS.get(column.name, column.name)
     dropped.append(f"values of {name} that are not numbers ({int(lost.sum())}); {column.name}{NONE} marks them")
     usual = column.values.dtype.type(np.median(column.values[~lost]))
-    rows: Array = lost.any(axis=1)
+    rows = np.asarray(lost.any(axis=1))
     marks = replace(column, name=f"{column.name}{NONE}", values=rows.astype(np.uint8)[:, None])
     marks = replace(marks, semantic="generic", called="", components=())
     return [replace(column, values=np.where(lost, usual, column.values)), marks]

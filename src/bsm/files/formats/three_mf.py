@@ -118,6 +118,7 @@ class _Model:
             number, matrix, above = waiting.pop()
             item = self._objects[number]
             name = str(item.GetName()) or above
+            self._left |= {f"the assembly {above}": None} if above and name != above else {}
             if item.IsMeshObject():
                 yield number, matrix, name
             elif item.IsComponentsObject():
