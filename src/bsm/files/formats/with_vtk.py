@@ -95,13 +95,13 @@ def _show_sets(reader: Any, *, shown: bool) -> dict[str, None]:
         number = getattr(reader, f"{kind.upper()}_SET")
         for place in range(reader.GetNumberOfObjects(number)):
             reader.SetObjectStatus(number, place, int(shown))
-            name = _UNNAMED.sub(rf"{kind.lower()} set \1", reader.GetObjectName(number, place))
+            name = _UNNAMED.sub(rf"{kind.lower()} set \1", _text(reader.GetObjectName(number, place)))
             left |= {} if shown else {f"the {kind.lower()} set {name}": None}
         for place in range(reader.GetNumberOfObjectArrays(number)):
-            left[f"{reader.GetObjectArrayName(number, place)} of {kind.lower()} sets"] = None
+            left[f"{_text(reader.GetObjectArrayName(number, place))} of {kind.lower()} sets"] = None
     for kind in ("Edge", "Face"):
         number = getattr(reader, f"{kind.upper()}_BLOCK")
-        names = (reader.GetObjectName(number, place) for place in range(reader.GetNumberOfObjects(number)))
+        names = (_text(reader.GetObjectName(number, place)) for place in range(reader.GetNumberOfObjects(number)))
         left |= {f"the {kind.lower()} block {name}": None for name in names}
     return left
 
@@ -208,7 +208,7 @@ def _leaves(data: Any, name: str) -> Iterator[tuple[Any, str]]:
     what = next((what for kind, what in below.items() if data.IsA(kind)), of_one)
     for place in range(getattr(data, f"GetNumberOf{what}s")() if what else 0):
         about = data.GetMetaData(place) if data.HasMetaData(place) else None
-        called = about.Get(data.NAME()) if about is not None and about.Has(data.NAME()) else name
+        called = _text(about.Get(data.NAME())) if about is not None and about.Has(data.NAME()) else name
         if (one := getattr(data, f"Get{what}")(place)) is not None:
             yield from _leaves(one, called)
     if not what:
@@ -306,6 +306,11 @@ def _inward(data: Any, cells: Ints, positions: Doubles, sizes: Ints, corners: In
     return (polygon_normals(positions, sizes, corners) * (centers - middles)).sum(axis=1) < 0
 
 
+def _text(name: str | bytes) -> str:
+    """A name, which VTK hands over as bytes where it is not UTF-8."""
+    return name.decode(errors="replace").split("\0")[0] if isinstance(name, bytes) else name
+
+
 def _marks(data: Any) -> Any:
     """The marks of ghosts of the cells of a set of data."""
     marks = data.GetCellData().GetArray(GHOSTS)
@@ -316,14 +321,18 @@ def _components(given: Any) -> dict[str, list[str]]:
     """The names of the components of arrays, of those that name all."""
     arrays = (given.GetAbstractArray(place) for place in range(given.GetNumberOfArrays()))
     named = (array for array in arrays if array.GetName() and array.HasAComponentName())
-    found = {a.GetName(): [a.GetComponentName(n) or "" for n in range(a.GetNumberOfComponents())] for a in named}
+    found = {
+        _text(a.GetName()): [_text(a.GetComponentName(n) or "") for n in range(a.GetNumberOfComponents())]
+        for a in named
+    }
     return {name: words for name, words in found.items() if all(words) and len(words) > 1}
 
 
 def _arrays(given: Any, left: dict[str, None]) -> Iterator[tuple[str, Any]]:
     """The arrays of data that VTK holds, by their names."""
     for place in range(given.GetNumberOfArrays()):
-        array, name = given.GetAbstractArray(place), given.GetAbstractArray(place).GetName() or f"array {place}"
+        array = given.GetAbstractArray(place)
+        name = _text(array.GetName() or f"array {place}")
         if isinstance(array, vtkStringArray):
             yield name, np.array([array.GetValue(row) for row in range(array.GetNumberOfValues())])
         elif not array.IsA("vtkDataArray"):
