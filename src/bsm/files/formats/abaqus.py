@@ -89,6 +89,8 @@ def read_abaqus(data: bytes, path: str | None, limits: Limits) -> Polygons:
             if {"SYSTEM", "INPUT"} & given.keys() and given.get("SYSTEM", "").upper() != "R":
                 raise table.refusal(f"*NODE with {' and '.join(given)}", line)
             scope.nodes.append((line, keyword.rows))
+            if "NSET" in given:
+                table.leave(f"NSET {given['NSET']}", line)
         elif name == "ELEMENT":
             if "INPUT" in given or "OFFSET" in given or (assembly and scope not in instances):
                 raise table.refusal(f"*ELEMENT with {', '.join(given)}", line)

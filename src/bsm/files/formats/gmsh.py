@@ -281,22 +281,31 @@ class _Gmsh:
         grouped = pairs[pairs[:, 2] > 0]
         if not len(grouped):
             return {}, {}, [*lost, *(f"the group {name}" for name in names.values())], []
-        kinds = [*map(tuple, np.unique(grouped[:, 1:], axis=0).tolist())]
-        called = {kind: names.pop(kind, str(kind[1])) for kind in kinds}
+        table, kind_of = np.unique(grouped[:, 1:], axis=0, return_inverse=True)
+        kinds = [*map(tuple, table.tolist())]
+        called = [names.pop(kind, str(kind[1])) for kind in kinds]
+        called = [name if called.count(name) == 1 else f"{name} ({kind[0]}D)" for name, kind in zip(called, kinds)]
         lost += [f"the group {name}" for name in names.values()]
-        self._require_memory(_COPIES * int(kept.sum()) * len(kinds))
-        is_in = np.zeros((int(kept.sum()), len(kinds)), np.uint8)
-        for place, kind in enumerate(kinds):
-            is_in[:, place] = np.isin(alike[kept], grouped[(grouped[:, 1:] == kind).all(axis=1), 0])
-        not_in, places = np.unique(1 - is_in, axis=0, return_inverse=True)  # the first group first
-        used = 1 - not_in
-        together = [" + ".join(called[kind] for kind, there in zip(kinds, row) if there) for row in used.tolist()]
+        further = len(grouped) - len(np.unique(grouped[:, 0]))
+        masks = dict[str, Any]()
+        if further and len(kinds) <= _MOST_GROUPS:
+            self._require_memory(_COPIES * len(alike) * len(kinds))
+            is_in = np.zeros((len(alike), len(kinds)), np.uint8)
+            is_in[grouped[:, 0], kind_of.ravel()] = 1
+            is_in = is_in[alike[kept]]
+            not_in, places = np.unique(1 - is_in, axis=0, return_inverse=True)  # the first group first
+            together = [" + ".join(np.array(called)[row == 0].tolist()) for row in not_in]
+            masks = {name: is_in[:, place] for place, name in enumerate(called) if kinds[place][0] > 1}
+        else:
+            lost += [f"further groups of faces that are in several ({further})"] if further else []
+            first = np.full(len(alike), len(kinds))
+            np.minimum.at(first, grouped[:, 0], kind_of.ravel())
+            used, places = np.unique(first[alike[kept]], return_inverse=True)
+            named_so = [*called, ""]
+            together = [named_so[place] for place in used.tolist()]
         metadata = named([name or "0" for name in together], "group")
-        of_cells: dict[str, Any] = {"group": places.ravel().astype(np.int32)} if len(used) > 1 else {}
-        if (is_in.sum(axis=1) < 2).all():
-            return metadata, of_cells, lost, []
-        masks = {called[kind]: is_in[:, place] for place, kind in enumerate(kinds[:_MOST_GROUPS]) if kind[0] > 1}
-        notes = [f"faces are in several groups, each of which is an attribute: {', '.join(masks)}"]
+        of_cells: dict[str, Any] = {"group": places.ravel().astype(np.int32)} if len(together) > 1 else {}
+        notes = [f"faces are in several groups, each of which is an attribute: {', '.join(masks)}"] if masks else []
         return metadata, of_cells | masks, lost, notes
 
 

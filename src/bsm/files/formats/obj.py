@@ -1,6 +1,7 @@
 """OBJ: lines of text, each with a keyword."""
 
 import re
+from collections import Counter
 from itertools import chain
 from typing import Any, Literal
 
@@ -78,7 +79,8 @@ def read_obj(data: bytes, limits: Limits, seen: tuple[int, int, int] | None = No
             column, note = _corner_column(rows, name, lines.places(which), flat)
             columns += column
             notes += note
-    states, names = _states(lines)
+    states, names, again = _states(lines)
+    notes += [f"objects of one name became one: {', '.join(again)}"] if again else []
     metadata: dict[str, materials.Value] = {**names}
     libraries = dict.fromkeys(text_of(library) for library in lines.named(b"mtllib"))
     metadata |= {"mtllib": "\n".join(libraries)} if libraries else {}
@@ -248,16 +250,21 @@ def _texcoords(table: Rows) -> Doubles:
     return values if values[:, 2].any() else values[:, :2]
 
 
-def _states(lines: _Lines | _PlainLines) -> tuple[list[Column], dict[str, str]]:
-    """Materials, groups, objects and smoothing groups of the faces: numbers, and their names as metadata."""
+def _states(lines: _Lines | _PlainLines) -> tuple[list[Column], dict[str, str], list[str]]:
+    """Materials, groups, ... of the faces: numbers, their names as metadata, and names that several objects have."""
     columns: list[Column] = []
     metadata: dict[str, str] = {}
+    again = dict[str, None]()
     for what, keyword in STATES.items():
         names = ["", *map(text_of, lines.named(keyword.encode()))]
-        column, known = grouped(what, names, lines.before_faces(keyword.encode()))
+        of_face = lines.before_faces(keyword.encode())
+        column, known = grouped(what, names, of_face)
         columns += column
         metadata |= known
-    return columns, metadata
+        if what == "object":
+            counts = Counter(names[place] for place in np.unique(of_face).tolist())
+            again |= {name: None for name, count in counts.items() if name and count > 1}
+    return columns, metadata, [*again][:_FEW]
 
 
 # ------------------------------------------------------------------------------------------------------------ writing

@@ -107,18 +107,17 @@ def _show_sets(reader: Any, *, shown: bool) -> dict[str, None]:
 
 
 def _fields(every: Sequence[Any], steps: int, left: dict[str, None]) -> dict[str, Any]:
-    """The field data of sets of data: the numbers of all steps as a text, and a line for each value that differs."""
-    found = dict[str, dict[str, Any]]()
+    """The field data of sets of data: the numbers of all steps as a text, and a line for each number that differs."""
+    found = dict[str, Any]()
+    lines = dict[str, dict[str, None]]()
     for name, values in (field for data in every for field in _arrays(data.GetFieldData(), left)):
+        found[name] = values
         if 1 < steps == values.size and values.dtype.kind in "iuf":
-            values = np.array(" ".join(map(repr, values.ravel().tolist())))
-        found.setdefault(name, {})[repr(values.tolist())] = values
-    shown = dict[str, Any]()
-    for name, by_text in found.items():
-        tables = [*by_text.values()]
-        several = len(tables) > 1 and all(values.size == 1 for values in tables)
-        shown[name] = np.array("\n".join(str(values.item()) for values in tables)) if several else tables[-1]
-    return shown
+            found[name] = np.array(" ".join(map(repr, values.ravel().tolist())))
+        elif values.size == 1:
+            lines.setdefault(name, {})[str(values.item())] = None
+    differing = {name: np.array("\n".join(texts)) for name, texts in lines.items() if len(texts) > 1}
+    return found | differing
 
 
 class _Sets:
@@ -128,35 +127,43 @@ class _Sets:
         self._faces, self._points = dict[str, Any](), dict[str, Any]()
         for place in range(data.GetNumberOfBlocks()):
             kind = data.GetMetaData(place).Get(data.NAME())
-            for leaf, name in _leaves(data.GetBlock(place), "") if kind.endswith(" Sets") else ():
-                called = _UNNAMED.sub(rf"{kind[:-1].lower()} \1", name)
-                part = _part(leaf, name, {}) if kind == "Side Sets" else None
-                full = len(self._faces) + len(self._points) >= _MOST_SETS
-                if kind == "Node Sets" and not full:
-                    self._points[called] = _FINE * vtk_to_numpy(leaf.GetPointData().GetArray("GlobalNodeId"))
-                elif part is not None and not full:
-                    self._faces[called] = _nodes_of_faces(part)
-                else:
-                    left[f"the {kind[:-1].lower()} {called}"] = None
-            if kind.endswith(" Sets"):
-                data.SetBlock(place, None)
+            if not kind.endswith(" Sets"):
+                continue
+            for leaf, name in _leaves(data.GetBlock(place), ""):
+                self._add(kind[:-1].lower(), leaf, name, left)
+            data.SetBlock(place, None)
+
+    def _add(self, kind: str, leaf: Any, name: str, left: dict[str, None]) -> None:
+        called = _UNNAMED.sub(rf"{kind} \1", name)
+        part = _part(leaf, name, {}) if kind == "side set" else None
+        if len(self._faces) + len(self._points) >= _MOST_SETS:
+            left[f"the {kind} {called}"] = None
+        elif kind == "node set":
+            self._points[called] = _FINE * vtk_to_numpy(leaf.GetPointData().GetArray("GlobalNodeId"))
+        elif part is not None:
+            self._faces[called] = _nodes_of_faces(part)
+        else:
+            left[f"the {kind} {called}"] = None
 
     def mark(self, parts: Sequence[Part], left: dict[str, None]) -> list[Part]:
         """Return the parts with a column for each set, one where a face or point is in it."""
-        marked, missing = list[Part](), {name: len(rows) for name, rows in self._faces.items()}
-        for part in parts:
-            faces, points = _nodes_of_faces(part), _nodes_of_points(part)
-            columns = [column for column in part.columns if column.name != _NODE]
-            for name, rows in self._faces.items():
-                numbers = row_numbers(np.concatenate([faces, rows]))
-                is_in = np.isin(numbers[: len(faces)], numbers[len(faces) :])
-                missing[name] -= int(is_in.sum())
-                columns.append(Column(name, is_in.astype(np.uint8)[:, None], "face"))
-            for name, nodes in self._points.items():
-                columns.append(Column(name, np.isin(points, nodes).astype(np.uint8)[:, None]))
-            marked.append(replace(part, columns=columns))
-        left |= {f"faces of the side set {name} inside of volumes ({n})": None for name, n in missing.items() if n > 0}
-        return marked
+        tables = [*map(_nodes_of_faces, parts), *self._faces.values()]
+        numbers = row_numbers(np.concatenate([np.zeros((0, MOST_CORNERS), np.int64), *tables]))
+        pieces = np.split(numbers, np.cumsum([len(rows) for rows in tables])[:-1])
+        columns = [[column for column in part.columns if column.name != _NODE] for part in parts]
+        for name, of_set in zip(self._faces, pieces[len(parts) :], strict=True):
+            is_in = np.zeros(len(numbers), np.uint8)
+            is_in[of_set] = 1
+            marks = [is_in[of_part][:, None] for of_part in pieces[: len(parts)]]
+            inside = len(of_set) - sum(int(mark.sum()) for mark in marks)
+            left |= {f"faces of the side set {name} inside of volumes ({inside})": None} if inside > 0 else {}
+            for own, mark in zip(columns, marks, strict=True):
+                own.append(Column(name, mark, "face"))
+        for own, part in zip(columns, parts, strict=True):
+            points = _nodes_of_points(part)
+            marked = ((name, np.isin(points, nodes)) for name, nodes in self._points.items())
+            own += [Column(name, is_in.astype(np.uint8)[:, None]) for name, is_in in marked]
+        return [replace(part, columns=own) for part, own in zip(parts, columns, strict=True)]
 
 
 def _nodes_of_points(part: Part) -> Ints:
