@@ -284,7 +284,6 @@ class _Gmsh:
         table, kind_of = np.unique(grouped[:, 1:], axis=0, return_inverse=True)
         kinds = [*map(tuple, table.tolist())]
         called = [names.pop(kind, str(kind[1])) for kind in kinds]
-        called = [name if called.count(name) == 1 else f"{name} ({kind[0]}D)" for name, kind in zip(called, kinds)]
         lost += [f"the group {name}" for name in names.values()]
         further = len(grouped) - len(np.unique(grouped[:, 0]))
         masks = dict[str, Any]()
@@ -295,7 +294,10 @@ class _Gmsh:
             is_in = is_in[alike[kept]]
             not_in, places = np.unique(1 - is_in, axis=0, return_inverse=True)  # the first group first
             together = [" + ".join(np.array(called)[row == 0].tolist()) for row in not_in]
-            masks = {name: is_in[:, place] for place, name in enumerate(called) if kinds[place][0] > 1}
+            for place, name in enumerate(called):
+                if kinds[place][0] > 1:
+                    unique = f"{name} ({kinds[place][0]}D)" if name in masks else name
+                    masks[unique] = is_in[:, place]
         else:
             lost += [f"further groups of faces that are in several ({further})"] if further else []
             first = np.full(len(alike), len(kinds))
