@@ -42,7 +42,7 @@ _ALL_OF = ("PointArrays", "CellArrays", "Bases", "Families", "PatchArrays")
 _CELL = "vtkCell"
 _HIDDEN_CELL = 32  # a bit of the marks of ghosts
 MOST_CORNERS = 9  # of polygons that are compared, in a table: one of thousands would make it gigabytes
-_SETTINGS = Path(__file__).parents[1] / "settings.csv"
+_SETTINGS = [*csv.DictReader((Path(__file__).parents[1] / "settings.csv").read_text().splitlines())]
 _NODE, _FINE = "vtkNode", 8
 """Numbers of points, by which faces are known in several blocks; the middle of a curved side has eighths of them."""
 _UNNAMED = re.compile(r"Unnamed set ID: (\d+).*")
@@ -183,7 +183,7 @@ def _nodes_of_faces(part: Part) -> Ints:
 
 def _opened(reader: Any, kind: str, size: int, limits: Limits) -> tuple[float, ...]:
     """Let a reader read all that is in a file, and return its times; refuse images and grids by their header."""
-    for row in csv.DictReader(_SETTINGS.read_text().splitlines()):
+    for row in _SETTINGS:
         for setting in row["settings"].split() if row["value"] and reader.IsA(row["reader"]) else ():
             getattr(reader, f"Set{setting}")(int(row["value"]))
     reader.UpdateInformation()
