@@ -21,7 +21,21 @@ from bsm.files.mesh import read_mesh, write_mesh
 from tests.codec.denoise.denoise_shapes import grid
 from tests.shapes import torus
 from tools.laplacians import dense_laplacian
-from tools.replicate import ablation, denoising, fetch, outside, paper, quotes, rates, report, run, stages
+from tools.replicate import __main__ as main
+from tools.replicate import (
+    ablation,
+    denoising,
+    fetch,
+    outside,
+    paper,
+    quotes,
+    rates,
+    report,
+    run,
+    shares,
+    stages,
+    verdicts,
+)
 from tools.replicate.fetch import Source, fetch_meshes, listed
 from tools.replicate.measures import FOLDED, STED_TIME, Judge, dihedral_angles, sted, surface_distance
 from tools.replicate.paper import coherence, dictionaries, dynamic, iterations, models, published, rivals
@@ -151,9 +165,48 @@ class TestTables:
         assert done.returncode == 0, done.stderr
         titles = [row["title"] for row in json.loads((tmp_path / "made" / "results.json").read_text())["paper"]]
         assert titles and all("Table 7" in title for title in titles)
-        for wrong, said in ((["5", str(tmp_path / "ring.ply")], "name 4 more"), (["7", "gone.ply"], "no such file")):
-            done = subprocess.run([*paper, *wrong], capture_output=True, text=True)
+        assert "segments, about as large as 10 of" in (tmp_path / "made" / "paper-0.md").read_text()
+        nowhere = {name: value for name, value in os.environ.items() if name != "BSM_MESHES"}
+        for wrong, said in ((["5", str(tmp_path / "ring.ply")], "name five"), (["7", "gone.ply"], "no such file")):
+            done = subprocess.run([*paper, *wrong], capture_output=True, text=True, env=nowhere)
             assert done.returncode == 2 and said in done.stderr
+
+    def test_every_job_of_the_paper_is_listed_and_has_a_name(self):
+        assert tuple(main.JOBS) == tuple(paper.TABLES) and {*main.PRINTED.values()} == {*paper.TABLES}
+        lines = main.listed_jobs()
+        assert len(lines) == 24 and "overlap (2, 3, 4): 6.3, Tables 2 to 4" in "\n".join(lines)
+        assert {*map(str, range(1, 8)), "figure-12", "figure-16", "temporal-basis"} <= main.PRINTED.keys()
+        assert set(verdicts.JUDGED) < paper.TABLES.keys()
+
+    def test_a_claim_holds_on_a_mesh_only_if_it_always_does_there(self):
+        claim = {"says": "It is so", "unit": "dB"}
+        rows = [
+            {**claim, "mesh": "a", "vertices": 1200, "holds": True, "value": 0.5},
+            {**claim, "mesh": "a", "vertices": 1200, "holds": False, "value": 12.4},
+            {**claim, "mesh": "b", "vertices": 7, "holds": True, "value": float("nan")},
+        ]
+        assert verdicts.verdict_lines(rows) == [("It is so", "1 of 2", "0.50 to 12 dB")]
+        assert verdicts.quoted(rows) == {"lines": "| It is so | 1 of 2 | 0.50 to 12 dB |", "meshes": "a (1,200), b (7)"}
+
+    def test_named_meshes_are_judged_and_play_every_role(self, tmp_path):
+        pytest.importorskip("pymetis", reason="needs METIS")
+        write_mesh(tmp_path / "ring.ply", torus(24, 16))
+        (source,) = fetch.sources_of([tmp_path / "ring.ply"], models.NAMED)
+        rows = verdicts.judge_mesh(verdicts.MeshJob("coarse-to-fine", source))
+        assert [(row["mesh"], row["holds"] in (True, False)) for row in rows] == [("ring", True)]
+        assert math.isfinite(rows[0]["value"])
+
+    def test_shares_add_up_and_a_stream_without_blocks_still_keeps_its_promise(self, tmp_path):
+        mesh = torus(150, 110)
+        noise = np.random.default_rng(2).normal(scale=1e-3, size=mesh.positions.shape)
+        write_mesh(tmp_path / "scan.ply", TriangleMesh(mesh.positions + noise, mesh.faces))
+        (source,) = fetch.sources_of([tmp_path / "scan.ply"], models.NAMED)
+        size, info = shares.stream_of(source.mesh())
+        with shares.fixed_width(1):
+            _, without = shares.stream_of(source.mesh())
+        assert info.header.base and set(without.coefficients) <= {1} and max(info.coefficients) > 1
+        assert sum(info.positions.values()) == info.sizes["coefficients"] < size
+        assert 0 < without.positions["blocks"] < info.positions["blocks"]
 
     def test_tables_and_figures_of_every_stage(self, tmp_path):
         pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
@@ -340,12 +393,14 @@ def test_the_paper_s_numbers_stand_in_brackets_and_stand_ins_are_not_judged(stud
     assert table["rows"] == [["near", "1.05 (1)", "2"], ["none", "3", "2"]] and table["note"] == "a remark"
     assert table["numbers"] == {"n": "1"}
     other, real = study.model("bunny"), replace(study.model("julio"), own=True)
-    assert published.claim("It is so", False, "it was not.", real) == (
-        f'"It is so" does not hold on {real.name}. It was not.'
-    )
-    assert published.claim("It is so", True, "it was.", real, other) == (
-        f'"It is so" is not judged: {other.name} stands in for the Bunny.'
-    )
+    judged = published.claim("It is so", False, "it was not.", real, value=2.0, unit="dB")
+    assert judged.words == f'"It is so" does not hold on {real.name}. It was not.'
+    assert published.printed("t", (), [], judged)["claims"] == [
+        {"says": "It is so", "holds": False, "value": 2.0, "unit": "dB"}
+    ]
+    unjudged = published.claim("It is so", True, "it was.", real, other, value=2.0, unit="dB")
+    assert unjudged.words == f'"It is so" is not judged: {other.name} stands in for the Bunny.'
+    assert unjudged.judged is None
     assert len({study.model(role).name for role in ("bunny", "julio", "twelve")}) == 3  # no mesh plays two roles
 
 
