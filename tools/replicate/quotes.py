@@ -11,7 +11,9 @@ TEXTS = Path(__file__).with_name("passages")
 ROOT = Path(__file__).parents[2]
 WIDTH = 120
 PASSAGES = {
+    "shares": "codec/PAPER.md",
     "claims": "codec/PAPER.md",
+    "verdicts": "codec/PAPER.md",
     "speed": "codec/PAPER.md",
     "warm": "docs/how-it-works.md",
     "results": "docs/guides/research.md",
