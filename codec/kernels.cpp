@@ -56,6 +56,7 @@ void bind_codec(nb::module_ &m) {
     m.def("frames_kept", &frames_kept, "vertices"_a);
     GUARDED(label_components) GUARDED(weighted_angle)
     GUARDED(local_frames) GUARDED(tangent_steps) CHECKED(add_heights) CHECKED(add_slides)
+    CHECKED(list_flaps)
     GUARDED(collect_flaps) GUARDED(shape_levels) CHECKED(collect_creases)
     CHECKED(find_motions) CHECKED(settle_levels) GUARDED(count_folds) GUARDED(unfold_levels) GUARDED(shape_grid)
 }

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, public
-from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.arrays import Faces, Matrix, Positions, end_phase
 from bsm.codec.geometry.attributes import Attribute, Semantic, at_corners
 from bsm.codec.geometry.mesh import LARGEST, TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_normals
@@ -300,6 +300,8 @@ class LookMetric:
     def _seen(
         self, pictures: Gallery, placed: Positions, faces: Faces, normals: Normals, sides: Sequence[int] | None = None
     ) -> Look:
+        end_phase(len(placed))
+
         def sums(canvas: Canvas, side: int) -> Matrix:
             drawn = canvas.draw(placed, faces, normals, self._cameras[side], owned=False)
             return difference(pictures.picture(canvas, side), drawn)

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._core import codec as _kernels
-from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.arrays import Faces, Matrix, Positions, end_phase
 from bsm.codec.geometry.graph import Lists, vertex_faces
 from bsm.codec.geometry.mesh import box_around
 from bsm.codec.geometry.metrics import face_geometry
@@ -61,6 +61,7 @@ class Shape:
     @classmethod
     def of(cls, positions: Positions, faces: Faces, known: Shape | None = None) -> Shape:
         """The shape of positions, shape (n, 3), within a box of diagonal 1: a known one of these faces if it is so."""
+        end_phase(len(positions))  # what follows takes many arrays
         index = group_rows(np.rint(positions * _GRID))
         # Grouped on a grid of 2^-24 of the diagonal: finer distances are rounding.
         joined = index[faces]

@@ -87,6 +87,7 @@ typedef struct {
 } Flaps;
 
 int64_t collect_flaps(ConstInts2 faces, ConstInts starts, ConstInts members, Ints pending, Ints2 flaps);
+int64_t list_flaps(ConstInts2 flaps, Ints starts, Ints members);
 int64_t shape_levels(Wanted wanted, Aim aim, Shaped shaped, ConstDoubles2 directions, ConstDoubles scales, double pull);
 int64_t shape_grid(
     Wanted wanted, Aim aim, Shaped shaped, double step, Flaps edges, Ints2 bends, ConstDoubles rates);

@@ -394,3 +394,19 @@ int64_t collect_flaps(ConstInts2 faces, ConstInts starts, ConstInts members, Int
         }
     return count;
 }
+
+/* The flaps of each vertex, from its start on: twice their rows, and 1 where it is an opposite corner. */
+int64_t list_flaps(ConstInts2 flaps, Ints starts, Ints members) {
+    int64_t size = starts.size - 1, count = 4 * flaps.rows;
+    if (size < 0 || flaps.columns != 4 || members.size != count || count > INT32_MAX
+        || !all_below(flaps.data, count, size))
+        return MISUSED;
+    for (int64_t v = 0; v <= size; v++) starts.data[v] = 0;
+    for (int64_t i = 0; i < count; i++) starts.data[flaps.data[i]]++;
+    int32_t sum = 0;
+    for (int64_t v = 0; v <= size; v++) sum += starts.data[v], starts.data[v] = sum;
+    /* From the last one back, so that each start falls to its place and rows ascend. */
+    for (int64_t f = flaps.rows - 1; f >= 0; f--)
+        for (int k = 3; k >= 0; k--) members.data[--starts.data[flaps.data[4 * f + k]]] = (int32_t)(2 * f + (k >= 2));
+    return 0;
+}

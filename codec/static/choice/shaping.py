@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Indices, Levels, Matrix, Positions
+from bsm.codec.arrays import Indices, Levels, Matrix, Positions, end_phase
 from bsm.codec.geometry.graph import Graph, vertex_faces
 from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.geometry.metrics import Original
@@ -62,6 +62,7 @@ class Shaper:
 
     def unfold(self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix) -> Levels | None:
         """Levels, shape (n, 3), that fold fewer edges, along `directions`, shape (n or 1, 9); None: few are folded."""
+        end_phase(len(levels))  # the choice of these levels has taken many arrays
         chosen, most = np.array(levels, np.int32, order="C"), -(-len(self._original.faces) // 10_000)
         given = (np.array(positions), chosen, self._open), np.ascontiguousarray(directions), self._flaps, most
         wrong = np.empty(len(self._flaps[0]), np.uint8)
@@ -102,7 +103,10 @@ class Shaper:
         flaps = np.empty((len(graph.neighbors) // 2, 4), np.int32)
         pending = np.empty(len(graph.neighbors), np.int32)
         count = _kernels.collect_flaps(faces, graph.offsets, graph.neighbors, pending, flaps)
-        flaps = flaps[:count].copy()
-        starts, members = vertex_faces(flaps, graph.size)
-        own, (c, d) = np.repeat(np.arange(graph.size, dtype=np.int32), np.diff(starts)), flaps.T[2:].copy()
-        return flaps, starts.astype(np.int32), 2 * members + ((c[members] == own) | (d[members] == own))
+        del pending
+        if count < len(flaps):
+            flaps = flaps[:count].copy()
+        starts, members = np.empty(graph.size + 1, np.int32), np.empty(flaps.size, np.int32)
+        _kernels.list_flaps(flaps, starts, members)
+        end_phase(graph.size)
+        return flaps, starts, members
