@@ -347,7 +347,7 @@ def in_words(names: Iterable[str], metadata: Metadata) -> list[str]:
 
 def name_in_file(metadata: Metadata, attribute: Attribute) -> str:
     """The name that the file of a mesh has for an attribute."""
-    return str(metadata.get(f"{CALLED}{attribute.name}", attribute.name))
+    return str(metadata.get(f"{CALLED}{attribute.name}") or attribute.name)
 
 
 def components_in_file(metadata: Metadata, attribute: Attribute) -> list[str]:

@@ -20,7 +20,6 @@ from bsm.bitstream.errors import CorruptError, FormatError, MeshError, Truncated
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
-from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats.metadata import (
     CALLED,
     COMPONENTS,
@@ -30,6 +29,7 @@ from bsm.files.formats.metadata import (
     in_words,
     name_in_file,
     plain_fields,
+    split_at_seams,
     unsaid,
     with_none,
 )
@@ -290,7 +290,7 @@ def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:
 def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
     """Return the VTP of a mesh, with arrays as bytes after the XML; ParaView colors by the first number of vertices."""
     # VTK has values of points and of cells, and none of corners.
-    mesh = split_by_attributes(mesh)
+    mesh = split_at_seams(mesh, *mesh.attributes)
     kind = np.float32 if single_suffices(mesh.positions) else np.float64
     blocks: list[bytes] = []
     at = 0

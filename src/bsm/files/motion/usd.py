@@ -362,7 +362,8 @@ class _Shape:
             self._instances = instancer.count(time)
             own = {primvar.GetPrimvarName() for primvar in self._primvars}
             self._of_instance = [p for p in instancer.primvars if p.GetPrimvarName() not in own]
-        moving = [primvar for primvar in self._primvars if primvar.ValueMightBeTimeVarying()]
+        every = (*self._primvars, *self._of_instance)
+        moving = [primvar for primvar in every if primvar.ValueMightBeTimeVarying()]
         self.left_out = [f"how {p.GetPrimvarName()} changes" for p in moving if p.GetAttr() not in self.painted]
 
     @cached_property
