@@ -28,7 +28,7 @@ from bsm.files.motion import folder
 from bsm.files.motion.caches import CACHES, mesh_beside, mesh_of, read_cache, write_cache
 from bsm.files.motion.frames import USUAL_RATE, Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
-from bsm.files.pipes import Input, Source, about, as_input, files_behind, is_pipe, is_url, refuse_link_out, size_of
+from bsm.files.pipes import Input, Source, as_input, files_behind, is_pipe, is_url, size_of
 from bsm.files.table import (
     FORMATS,
     GLTF,
@@ -59,12 +59,7 @@ def open_sequence(
         return None
     given, asked = as_input(source), wanted or Wanted()
     if not is_url(given.name) and folder.names_many(given.name):
-        names = folder.frame_files(given.name)
-        if is_apart((), limits, isolated):
-            # Otherwise the process that reads could open the folders of links, too.
-            for name in names:
-                with about(name):
-                    refuse_link_out(os.path.dirname(name), name)
+        names = folder.frame_files(given.name, follow=not is_apart((), limits, isolated))
         return open_frames(names, file_format, limits, asked, isolated=isolated)
     kind = file_format or Path(given.name).suffix[1:].lower()
     if kind == "abc":

@@ -133,7 +133,7 @@ def _frame_files(job: EncodeJob) -> Sequence[str]:
     first, last = frame_range(job.frames)
     files: Sequence[str] = job.members
     if not files and not is_url(job.input) and names_many(job.input):
-        files = frame_files(job.input)
+        files = frame_files(job.input, follow=not job.untrusted)
     if files and not files[first:last]:
         raise OptionError(f"{job.input} has {counted(frames=len(files))}; --frames {job.frames} names none of them")
     return files[first:last]

@@ -487,6 +487,9 @@ def test_frames_of_strangers_are_no_links_to_other_folders(tmp_path):
     (tmp_path / "in" / "1.obj").symlink_to(tmp_path / "secret.obj")
     with pytest.raises(bsm.FormatError, match="link to another folder"):
         open_sequence(tmp_path / "in", isolated=True)
+    for words in ((), ("--frames", "0:2")):
+        done = bsm_of("encode", tmp_path / "in", "-o", tmp_path / "a.bsm", "--untrusted", *words, text=True)
+        assert done.returncode != 0 and "link to another folder" in done.stderr
     assert open_sequence(tmp_path / "in").count == 2
 
 

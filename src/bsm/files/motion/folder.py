@@ -25,7 +25,7 @@ from bsm.files.formats.metadata import Written
 from bsm.files.formats.polygons import CutAlike, MeshFile, Polygons
 from bsm.files.mesh import read_cut, save_written, written_mesh
 from bsm.files.motion.frames import Frames, Wanted, rate_of_times, timing_of
-from bsm.files.pipes import about, file_beside, is_pipe, is_url
+from bsm.files.pipes import about, file_beside, is_pipe, is_url, refuse_link_out
 from bsm.files.table import FORMATS, MESH_SUFFIXES, START, STEP
 
 # A sign counts in names such as t_-5, while step-5 has a hyphen.
@@ -52,10 +52,14 @@ def mesh_files(path: str) -> list[str]:
     return [name for name in read if not os.path.basename(name).startswith(".")]
 
 
-def frame_files(path: str) -> list[str]:
-    """The mesh files of a folder or pattern, by the numbers in their names."""
+def frame_files(path: str, *, follow: bool = True) -> list[str]:
+    """The mesh files of a folder or pattern, by the numbers in their names; `follow` links to other folders."""
     if not (found := mesh_files(path)):
         raise FormatError(f"no mesh files in {path} ({', '.join(MESH_SUFFIXES)}); -r looks in the folders below, too")
+    # A process that reads files from strangers could open the folders of links, too.
+    for name in found if not follow else ():
+        with about(name):
+            refuse_link_out(os.path.dirname(name), name)
     return in_order(found)
 
 
