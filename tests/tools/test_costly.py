@@ -9,6 +9,7 @@ import pytest
 import bsm
 from bsm.codec.look.pictures import Canvas
 from tools.attack.costly import KINDS, Recipe, changed, drawn, encoded, search
+from tools.attack.costly_files import FILES, File, changed_file, drawn_file, read_file
 from tools.attack.manifests import Folder, used, walk
 
 FEWER = 2.5e8  # samples that a search may draw, about a second
@@ -59,6 +60,18 @@ def test_recipes_are_files_that_are_read_and_mutants_are_others():
             assert len(bsm.load(small.ply, limits=bsm.Limits.service()).faces)
         except bsm.MeshError as error:
             assert str(error)
+
+
+@pytest.mark.parametrize("kind", FILES)
+def test_files_that_repeat_something_are_read_or_refused(kind):
+    if kind == "xdmf":
+        pytest.importorskip("lxml", reason="needs the extra simulation")
+    assert read_file(File(kind, ())).outcome.endswith(" bytes")
+    for way in FILES[kind][2]:
+        taken = read_file(File(kind, ((way, 40),)))
+        assert taken.outcome.endswith(" bytes") or "Error: " in taken.outcome, way
+    random, file = Random(kind), drawn_file(kind, Random(kind))
+    assert any(changed_file(file, random).data != file.data for _ in range(9))
 
 
 @pytest.mark.slow

@@ -1,8 +1,8 @@
 """`python -m tools.attack costly`: search for small files of meshes that take long to encode, by mutating the worst.
 
-Each file is a binary PLY file with few bytes for its mesh. It is read under the limits of a service and encoded on one
-thread, as a sequence of some frames for that kind. The CPU time of both is compared with the bound of
-src/bsm/SERVICE.md: `SECONDS` and `SECONDS_PER_BYTE`.
+Each file is a binary PLY file with few bytes for its mesh, read under the limits of a service, or a file of a kind of
+`costly_files`, which is trusted. It is encoded on one thread, as a sequence of some frames for that kind. The CPU time
+of both is compared with the bound of src/bsm/SERVICE.md: `SECONDS` and `SECONDS_PER_BYTE`.
 """
 
 import time
@@ -17,6 +17,7 @@ import numpy as np
 
 import bsm
 from bsm.bitstream.errors import BsmError
+from tools.attack.costly_files import FILES, File, changed_file, drawn_file, read_file
 from tools.attack.taken import Taken, taken_by_each, warm_up
 from tools.command import parser_of
 
@@ -160,13 +161,12 @@ def share(taken: Taken) -> float:
     return float("inf") if taken.escaped else taken.seconds / (SECONDS + SECONDS_PER_BYTE * taken.size)
 
 
-def search(seconds: float, seed: str, kept: int = 12, kind: str = "meshes") -> list[tuple[float, Recipe, Taken]]:
+def search(seconds: float, seed: str, kept: int = 12, kind: str = "meshes") -> list[tuple[float, Recipe | File, Taken]]:
     """Return the worst files found within a time, the worst first."""
-    random, worst, end = Random(seed), list[tuple[float, Recipe, Taken]](), time.monotonic() + seconds
+    random, worst, end = Random(seed), list[tuple[float, Recipe | File, Taken]](), time.monotonic() + seconds
     while time.monotonic() < end:
         new = not worst or random.random() < 0.3
-        of = KINDS[kind]
-        recipes = [drawn(random, of) if new else changed(random.choice(worst)[1], random, of) for _ in range(4)]
+        recipes = [_drawn(kind, random) if new else _changed(random.choice(worst)[1], kind, random) for _ in range(4)]
         works = [partial(_prepared, recipe, kind) for recipe in recipes]
         found = zip(recipes, taken_by_each(works, seconds=120), strict=True)
         worst = sorted([*worst, *((share(taken), recipe, taken) for recipe, taken in found)], key=lambda row: -row[0])
@@ -174,7 +174,17 @@ def search(seconds: float, seed: str, kept: int = 12, kind: str = "meshes") -> l
     return worst
 
 
-def _prepared(recipe: Recipe, kind: str) -> partial[Taken]:
+def _drawn(kind: str, random: Random) -> Recipe | File:
+    return drawn_file(kind, random) if kind in FILES else drawn(random, KINDS[kind])
+
+
+def _changed(recipe: Recipe | File, kind: str, random: Random) -> Recipe | File:
+    return changed_file(recipe, random) if isinstance(recipe, File) else changed(recipe, random, KINDS[kind])
+
+
+def _prepared(recipe: Recipe | File, kind: str) -> partial[Taken]:
+    if isinstance(recipe, File):
+        return partial(read_file, recipe)
     return partial(encoded, recipe.ply, recipe.preset, kind)
 
 
@@ -183,7 +193,7 @@ def main() -> int:
     parser = parser_of(__doc__)
     parser.add_argument("--seconds", type=float, default=600, help="how long to search (default: %(default)s)")
     parser.add_argument("--seed", default="0")
-    parser.add_argument("--kind", choices=KINDS, default="meshes", help="default: %(default)s")
+    parser.add_argument("--kind", choices=(*KINDS, *FILES), default="meshes", help="default: %(default)s")
     parser.add_argument("--save", type=Path, metavar="FILE", help="write the worst file here")
     args = parser.parse_args()
     warm_up()
@@ -191,5 +201,6 @@ def main() -> int:
     for part, recipe, taken in worst:
         print(f"{part:.2f} of the bound: {taken.seconds:.2f} s, {taken.size} bytes, {taken.outcome[:60]}; {recipe}")
     if args.save:
-        args.save.write_bytes(worst[0][1].ply)
+        recipe = worst[0][1]
+        args.save.write_bytes(recipe.data if isinstance(recipe, File) else recipe.ply)
     return 1 if worst[0][0] > 1.0 else 0
