@@ -29,6 +29,9 @@ INLINE double grid_chunk_work(double bytes) { return 3.5e4 + 800 * bytes; }
 INLINE double light_chunk_work(double bytes) { return 5e4 + 120 * bytes; }
 INLINE double floats_work(double n, double span) { return 400 * n + 4 * span; }
 INLINE double chunk_work(double bytes, double values) { return 8e4 + 800 * bytes + 2 * values; }
+/* Values of attributes that are quick to decode. */
+INLINE double swift_work(double n, double m, double axes) { return n * (300 + 180 * axes) + 160 * m; }
+INLINE double swift_chunk_work(double bytes, double values) { return 8e4 + 120 * bytes + 2 * values; }
 /* What twins add to a grid, with so many images (V 17). */
 INLINE double twins_work(double n, double images) { return (1500 + 200 * images) * n; }
 static const double LOOK_WORK = 100; /* at a place that no cache has */

@@ -17,6 +17,7 @@ typedef struct {
     Corners corners;
     ValueModel model;
     Values values;         /* of vertices or corners */
+    Swift swift;           /* the same, where the header has `swift` */
     FaceValues face_values;
     Ints order;            /* empty: rows come as they are numbered */
     Ints2 pieces;

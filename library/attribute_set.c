@@ -5,7 +5,7 @@
 #include "bitstream/payloads/payloads.h"
 
 enum { GUESSES_PLAIN = MOST_COMPONENTS * BASES * VALENCES, GUESSES_OTHERS = 2 * BASES * VALENCES, FACE_MEMORY = 257,
-    DIRECTIONS = 12 };
+    DIRECTIONS = 12, AXES = 3 };
 static const double DECLARED_WORK = 6e5, ATTRIBUTE_WORK = 4e5;
 
 void begin_attributes(Attributes *attributes, Context *context, const Header *header, ConstInts2 faces, Arena *arena) {
@@ -201,6 +201,40 @@ static bool start_learners(Arena *arena, ValueKind kind, Longs2 *learners) {
     return true;
 }
 
+/* Whether values are quick to decode (A 9.1). */
+static bool is_swift(const Attributes *attributes, const Declaration *d) {
+    return attributes->header->swift > 0 && d->domain != BSMDEC_FACE;
+}
+
+/* The state of values that are quick to decode (A 9). */
+static bool begin_swift_group(Attributes *attributes, Attribute *attribute, Group *group, ConstInts largest,
+    ConstInts2 geometry, Arena *scratch) {
+    Context *context = attributes->context;
+    Arena *arena = &attributes->coding;
+    Swift *swift = &group->swift;
+    int64_t size = attribute->rows, columns = largest.size;
+    bool normals = value_kind(&attribute->declaration) == NORMALS;
+    *swift = (Swift){.normals = normals, .mixed = attributes->header->swift > 1};
+    swift->slots_of_one = swift->mixed ? LEAN_INPUTS * SWIFT_CONTEXTS * LEAN_NODES : LIGHT_SLOTS;
+    swift->own = (Values){.largest = largest, .geometry = geometry, .values = group->pieces};
+    if (!link_mesh(context, attribute->faces, size, arena, scratch, &swift->corners)
+        || !zero_ints2(arena, size, SWIFT_TALLIES, &swift->tallies)
+        || !zero_ints2(arena, normals ? size : 0, 2 * AXES, &swift->directions)
+        || !take_words(arena, columns * swift->slots_of_one, &swift->slots)
+        || !take_ints(arena, swift->mixed ? columns * LEAN_NODES * LEAN_INPUTS : 0, &swift->weights)
+        || !zero_longs(arena, 2, &swift->own.chart))
+        return false;
+    for (int64_t i = 0; i < swift->slots.size; i++) swift->slots.data[i] = 1u << 31;
+    for (int64_t i = 0; i < swift->weights.size; i++) swift->weights.data[i] = ONE * 3 / 8;
+    if (!normals || geometry.rows == 0) return true;
+    Mark mark = mark_of(scratch);
+    Longs sums;
+    bool done = zero_longs(scratch, AXES * size, &sums);
+    if (done) expect_directions(swift, sums.data);
+    release_to(scratch, mark);
+    return done;
+}
+
 static bool begin_vertex_group(Attributes *attributes, Attribute *attribute, Group *group, ConstInts largest,
     int32_t most, ConstInts2 geometry, Arena *scratch) {
     Context *context = attributes->context;
@@ -233,10 +267,12 @@ static bool begin_group(Attributes *attributes, Attribute *attribute, Group *gro
     double n = (double)attribute->rows, m = (double)attribute->faces.rows, c = group->columns,
            model = VALUE_MODEL_BYTES + (1 << 17);
     double own = value_kind(&attribute->declaration) == NORMALS ? 48 : 0;
+    bool quick = is_swift(attributes, &attribute->declaration);
     double needed = of_faces ? (72 + 48 + 8 * c) * m + model : (84 + 16 * c + own) * n + 48 * m + model + c * (1 << 17);
     if (!WITHIN(context, field_bytes, needed)) return false;
     Ints largest;
-    if (!take_ints(arena, group->columns, &largest) || !make_value_model(arena, &group->model, false)
+    if (!take_ints(arena, group->columns, &largest)
+        || (!quick && !make_value_model(arena, &group->model, false))
         || !zero_ints2(arena, attribute->rows, group->columns, &group->pieces))
         return false;
     int32_t most = 0;
@@ -244,6 +280,7 @@ static bool begin_group(Attributes *attributes, Attribute *attribute, Group *gro
         largest.data[j] = pieces[j];
         most = pieces[j] > most ? pieces[j] : most;
     }
+    if (quick) return begin_swift_group(attributes, attribute, group, const_ints(largest), geometry, scratch);
     if (!of_faces)
         return begin_vertex_group(attributes, attribute, group, const_ints(largest), most, geometry, scratch);
     group->face_values = (FaceValues){.largest = const_ints(largest), .values = group->pieces};
@@ -275,10 +312,11 @@ bool start_attribute(Attributes *attributes, Attribute *attribute, ConstInts2 pl
     ConstInts2 geometry;
     int32_t pieces[MOST_PIECES];
     int count = 0;
+    double work = is_swift(attributes, d) ? swift_work(rows, m, d->components) : layer_work(rows, m, d->components);
     release_all(&attributes->coding);
     attribute->begun = true;
     attribute->coding = (84 + 16 * wide + 48) * rows + 48 * m + VALUE_MODEL_BYTES + wide * (1 << 17) + (1 << 17);
-    if (!reserve(context, attribute->coding, 0) || !charge(context, layer_work(rows, m, d->components), 0)
+    if (!reserve(context, attribute->coding, 0) || !charge(context, work, 0)
         || !find_geometry(attributes, attribute, places, &geometry))
         return false;
     for (int i = 0; i < d->words; i++) {
@@ -301,6 +339,8 @@ bool code_group(Context *context, const Attribute *attribute, Group *group, Span
     if (!begin_coding(context, payload, &coding)) return false;
     if (attribute->declaration.domain == BSMDEC_FACE) {
         done = code_faces(&coding.coder, group->model, group->corners, group->face_values, first, count);
+    } else if (group->swift.slots.size > 0) {
+        done = code_swift(&coding.coder, &group->swift, first, count);
     } else {
         ValueKind kind = value_kind(&attribute->declaration);
         Work work = {.coder = &coding.coder, .model = group->model, .corners = group->corners, .values = group->values,
@@ -328,8 +368,10 @@ static bool decode_chunk(Attributes *attributes, Attribute *attribute, const Pac
     double bytes = (double)packet->data.size;
     if (attribute->whole) return FAIL(context, CORRUPT, "its values are complete already");
     if (!attribute->begun && !start_attribute(attributes, attribute, places, scratch)) return false;
-    if (!reserve(context, 0, bytes) || !charge(context, chunk_work(bytes, (double)attribute->rows), bytes))
-        return false;
+    double rows = (double)attribute->rows;
+    bool swift = is_swift(attributes, &attribute->declaration);
+    double work = swift ? swift_chunk_work(bytes, rows) : chunk_work(bytes, rows);
+    if (!reserve(context, 0, bytes) || !charge(context, work, bytes)) return false;
     if (packet->first != attribute->coded)
         return FAIL(context, CORRUPT, "the values before number # are missing", packet->first);
     Cursor cursor = {context, packet->data};

@@ -91,11 +91,12 @@ bool begin_refinement(CodedField *field, Context *context, Source given) {
 }
 
 bool begin_attribute(CodedField *field, Context *context, Source given, const Declaration *declaration,
-    int64_t vertices, const int32_t *at, const int32_t *places) {
+    int64_t vertices, const int32_t *at, const int32_t *places, int swift) {
     Attribute *attribute = &field->attribute;
     begin(field, context, given);
     field->kind = OF_VALUES;
     field->header.vertices = vertices;
+    field->header.swift = swift;
     begin_attributes(&field->attributes, context, &field->header, const_ints2(field->faces), &field->arena);
     attribute->declaration = *declaration;
     attribute->rows = given.rows;
@@ -108,7 +109,8 @@ bool begin_attribute(CodedField *field, Context *context, Source given, const De
     for (int g = 0; g < attribute->groups; g++) {
         Group *group = &attribute->group[g];
         bool of_faces = declaration->domain == BSMDEC_FACE;
-        const int32_t *largest = (of_faces ? group->face_values.largest : group->values.largest).data;
+        const int32_t *largest = (of_faces ? group->face_values.largest : swift > 0 ? group->swift.own.largest
+                                       : group->values.largest).data;
         if (!fill(context, group->pieces, given, MOST_COMPONENTS * g, largest, false)) return false;
     }
     return true;

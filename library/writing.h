@@ -39,14 +39,14 @@ typedef struct {
 } CodedField;
 
 /* Begin a field: positions on a grid, of floats in its cells also `exact` ones; levels; values of an attribute on rows
- * at vertices, with their places on a grid or NULL. A grid has the header's `congruence`, and rows of so many
- * `transforms` (specification, V 17.2). */
+ * at vertices, with their places on a grid or NULL, coded by the header's `swift`. A grid has the header's
+ * `congruence`, and rows of so many `transforms` (specification, V 17.2). */
 bool begin_positions(CodedField *field, const GridField *like, Context *context, Source given,
     const int32_t *largest, int light, const double *origin, double step, const double *exact,
     const int32_t *transforms, int congruence);
 bool begin_refinement(CodedField *field, Context *context, Source given);
 bool begin_attribute(CodedField *field, Context *context, Source given, const Declaration *declaration,
-    int64_t vertices, const int32_t *at, const int32_t *places);
+    int64_t vertices, const int32_t *at, const int32_t *places, int swift);
 void end_field(CodedField *field);
 /* Room that the payloads of so many rows can take. */
 int64_t room_of_chunk(const CodedField *field, int64_t count);

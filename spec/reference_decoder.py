@@ -164,6 +164,7 @@ FIELDS = {
     "paper": (19, float, 0.0, 2.0**30, [0.0, 0.0, 0.0, 3.0, 1.0, 2.0, 2.0**-7, 1.0], 8, 8),  # F 10.1
     "onorm": (21, int, 1, 64, 0),
     "base": (27, int, 1, COUNT, [], 0, 4),
+    "swift": (28, int, 1, 2, 0),
 }
 EXTENSIONS = {16: "extension light", 17: "extension sequence", 18: "extension sequence"}
 EXTENSIONS[22] = "extension congruence"
@@ -205,6 +206,9 @@ def parse_header(payload):
     for key, _ in entries:  # F 4.2, F 4.8
         if key not in names:
             raise UnsupportedError(EXTENSIONS.get(key, f"key {key}"))
+    swift = dict(entries).get(28)
+    if type(swift) is int and 2 < swift <= 255:  # F 4.5: a method
+        raise UnsupportedError(f"swift {swift}")
     for key, value in entries:
         _, kind, low, high, default, *lengths = FIELDS[names[key]]
         items = value if lengths and type(value) is list else [value]
@@ -222,7 +226,7 @@ def parse_header(payload):
 def agreeing(h, stored):
     require(h["vertices"] <= 3 * h["faces"], "more vertices than corners")  # F 4.6
     if h["grid"]:
-        beside = {"vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner", "turn"}
+        beside = {"vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner", "turn", "swift"}
         require(stored <= beside and len(h["grid"]) == 3, "a grid, and something else")
         require(len(h["lattice"]) in (0, 2) and len(h["corner"]) in (0, 3), "a lattice or a corner of another length")
         require(not (h["corner"] and "center" in stored), "a corner and a center")
@@ -238,6 +242,7 @@ def agreeing(h, stored):
         require(h["blocks"] <= size, "more blocks than vertices")
         require(h["coefficients"] <= h["block_size"] <= size, "too large blocks, or too many coefficients")
         require(size <= h["blocks"] * h["block_size"] <= 16 * size + 65536, "blocks of a wrong size")
+    require(not h["swift"] or h["attributes"], "swift attributes, and none")
     if h["refinement"]:
         require(len(h["refinement"]) == 2, "a refinement is not two numbers")
         require(2.0**-40 <= h["refinement"][0] <= 1 and h["refinement"][1] >= 1 / 16, "a refinement out of range")

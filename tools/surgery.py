@@ -166,7 +166,8 @@ def _minor(frame: tuple[int, bytes]) -> int:
         return 0
 
 
-LATER = {HEADER_FIELDS[name].key: minor for name, minor in (("onorm", 1), ("congruence", 1), ("turn", 1), ("base", 2))}
+_LATER = {"onorm": 1, "congruence": 1, "turn": 1, "base": 2, "swift": 3}
+LATER = {HEADER_FIELDS[name].key: minor for name, minor in _LATER.items()}
 """The minor versions of fields that 1.0 does not have."""
 PARTS = {"paper": tuple(PAPER), "sequence": ("frames", "gop_frames")}
 """Fields of the header that are lists of numbers with names of their own."""

@@ -82,6 +82,97 @@ void survey_values(const Work *work, int32_t v, Place *place);
 int32_t fold_at(const Work *work, int32_t v, const Base *base, int component);
 int32_t gap_classes(const Work *work, const Place *place, int component, int32_t unit);
 int64_t square_root(uint64_t x);
+/* x / n, towards zero, of numbers below 2^53: faster than a division of integers, and exact, too. */
+INLINE int64_t quotient(int64_t x, int64_t n) { return (int64_t)((double)x / (double)n); }
+
+/* Directions, on an octahedron (A 6.1, A 6.2). */
+/* Numbers whose absolute values add up to 16 times the size of the octahedron, or nearly. */
+typedef struct {
+    int32_t axis[3];
+} Direction;
+
+typedef struct { /* the octahedron as seen from the axis that is nearest to a direction */
+    int first, second, pole, sign;
+    int32_t size; /* 16 times that of the octahedron */
+} View;
+
+enum { RIGHT_ANGLE = 1 << 12 };
+INLINE int32_t middle(const Values *g) { return g->largest.data[0] / 2; }
+INLINE Direction scaled_direction(const int64_t *x, int32_t size) {
+    int64_t most = 0, sum = 0;
+    Direction d = {{0, 0, size}};
+    for (int j = 0; j < 3; j++) most = largest(most, largest(x[j], -x[j]));
+    int shift = 0;
+    while (most >> shift >= 1 << 28) shift++;
+    for (int j = 0; j < 3; j++) sum += largest(x[j] >> shift, -(x[j] >> shift));
+    for (int j = 0; j < 3 && sum > 0; j++) d.axis[j] = divided((x[j] >> shift) * size, (int32_t)sum);
+    return d;
+}
+
+/* The lower half of the octahedron, folded outwards: it is the same both ways. */
+INLINE void fold_out(int32_t *x, int32_t *y, int32_t size) {
+    int32_t u = size - size_of(*y), w = size - size_of(*x);
+    *x = *x < 0 ? -u : u;
+    *y = *y < 0 ? -w : w;
+}
+
+INLINE View view_from(const Direction *d, int32_t size) {
+    int pole = 0;
+    for (int j = 1; j < 3; j++)
+        if (size_of(d->axis[j]) > size_of(d->axis[pole])) pole = j;
+    return (View){(pole + 1) % 3, (pole + 2) % 3, pole, d->axis[pole] < 0 ? -1 : 1, size};
+}
+
+INLINE void see(const View *view, const Direction *d, int32_t *pair) {
+    pair[0] = d->axis[view->first], pair[1] = d->axis[view->second];
+    if (d->axis[view->pole] * view->sign < 0) fold_out(&pair[0], &pair[1], view->size);
+}
+
+/* Twin of `see`, for points of the octahedron. */
+INLINE Direction seen_as(const View *view, const int32_t *pair) {
+    int32_t x = pair[0], y = pair[1], height = view->size - size_of(x) - size_of(y);
+    if (height < 0) fold_out(&x, &y, view->size);
+    Direction d;
+    d.axis[view->first] = x, d.axis[view->second] = y, d.axis[view->pole] = height * view->sign;
+    return d;
+}
+
+/* The angle that has this dot product and this length of the vector product, nearly. */
+INLINE int64_t angle_of(int64_t dot, int64_t across) {
+    int64_t along = largest(dot, -dot), high = largest(along, across);
+    int64_t t = high > 0 ? least(along, across) * RIGHT_ANGLE / high : 0;
+    int64_t angle = t * (RIGHT_ANGLE / 2 + ((RIGHT_ANGLE - t) * 711 >> 12)) >> 12;
+    if (across > along) angle = RIGHT_ANGLE - angle;
+    return dot < 0 ? 2 * RIGHT_ANGLE - angle : angle;
+}
+
+/* Where a base says that a vertex is in texture coordinates (A 5.3). */
+typedef struct { /* in 1/16 */
+    int32_t similar[2], affine[2], across[2];
+    int32_t weight;
+} Claim;
+
+/* Which way round a, b, c are. */
+int turn_of(const Values *values, int32_t a, int32_t b, int32_t c);
+/* By the shape of the vertex's triangle, by that of the triangle beyond the edge, and by its parallelogram. */
+Claim claim_of(const Values *values, int32_t v, const Base *base);
+
+/* Values that are quick to decode (A 9). See swift.c. */
+enum { SWIFT_TALLIES = 4, SWIFT_CONTEXTS = 512 };
+typedef struct {
+    Corners corners;
+    Values own;           /* of which largest, geometry, values and chart are used */
+    Ints2 tallies;        /* n x 4: how far each candidate was off, and the guess, in 1/16 */
+    Ints2 directions;     /* normals: n x 6, their own, and what the surface tells */
+    Words slots;          /* for each component as many */
+    Ints weights;         /* of mixed decisions, LEAN_NODES x LEAN_INPUTS for each component */
+    int64_t slots_of_one;
+    bool normals, mixed;
+} Swift;
+
+int64_t code_swift(RangeCoder *coder, Swift *swift, int64_t first, int64_t count);
+/* Fill what the surface tells of normals. `sums`: n x 3, zeros. */
+void expect_directions(Swift *swift, int64_t *sums);
 
 /* Values of attributes on faces. See faces.c. */
 /* m faces of c components. */

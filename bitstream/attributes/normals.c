@@ -1,21 +1,11 @@
 /* Normals on an octahedron, predicted from the surface (specification, A 6). */
 #include "bitstream/attributes/attributes.h"
 
-enum { AXES = 3, PAIR = 2, CORNERS_SEEN = 64, FARTHEST = 1 << 24, RIGHT_ANGLE = 1 << 12 };
+enum { AXES = 3, PAIR = 2, CORNERS_SEEN = 64, FARTHEST = 1 << 24 };
 
 /* Directions of a vertex: its own, and what the surface tells, faces weighed by area or by angle; the mean of those by
  * area around. */
 enum { OWN, BY_AREA, BY_ANGLE, RING, ROLES };
-
-/* Numbers whose absolute values add up to 16 times the size of the octahedron, or nearly. */
-typedef struct {
-    int32_t axis[AXES];
-} Direction;
-
-typedef struct { /* the octahedron as seen from the axis that is nearest to a direction */
-    int first, second, pole, sign;
-    int32_t size; /* 16 times that of the octahedron */
-} View;
 
 typedef struct { /* what is known of a vertex, as it is seen */
     Place place;
@@ -23,59 +13,10 @@ typedef struct { /* what is known of a vertex, as it is seen */
     int32_t by_area[PAIR], by_angle[PAIR], ring[PAIR], mean[PAIR], drift[PAIR], across[PAIR], nearest[PAIR], twin[PAIR];
 } Sight;
 
-INLINE int32_t middle(const Values *g) { return g->largest.data[0] / 2; }
 INLINE Direction *directions_of(const Values *g, int32_t v) {
     return (Direction *)(g->directions.data + ROLES * AXES * (int64_t)v);
 }
 INLINE bool nowhere(const int64_t *x) { return x[0] == 0 && x[1] == 0 && x[2] == 0; }
-
-static Direction scaled(const int64_t *x, int32_t size) {
-    int64_t most = 0, sum = 0;
-    Direction d = {{0, 0, size}};
-    for (int j = 0; j < AXES; j++) most = largest(most, largest(x[j], -x[j]));
-    int shift = 0;
-    while (most >> shift >= 1 << 28) shift++;
-    for (int j = 0; j < AXES; j++) sum += largest(x[j] >> shift, -(x[j] >> shift));
-    for (int j = 0; j < AXES && sum > 0; j++) d.axis[j] = divided((x[j] >> shift) * size, (int32_t)sum);
-    return d;
-}
-
-/* The lower half of the octahedron, folded outwards: it is the same both ways. */
-static void fold(int32_t *x, int32_t *y, int32_t size) {
-    int32_t u = size - size_of(*y), w = size - size_of(*x);
-    *x = *x < 0 ? -u : u;
-    *y = *y < 0 ? -w : w;
-}
-
-static View view_from(const Direction *d, int32_t size) {
-    int pole = 0;
-    for (int j = 1; j < AXES; j++)
-        if (size_of(d->axis[j]) > size_of(d->axis[pole])) pole = j;
-    return (View){(pole + 1) % 3, (pole + 2) % 3, pole, d->axis[pole] < 0 ? -1 : 1, size};
-}
-
-static void see(const View *view, const Direction *d, int32_t *pair) {
-    pair[0] = d->axis[view->first], pair[1] = d->axis[view->second];
-    if (d->axis[view->pole] * view->sign < 0) fold(&pair[0], &pair[1], view->size);
-}
-
-/* Twin of `see`, for points of the octahedron. */
-static Direction seen_as(const View *view, const int32_t *pair) {
-    int32_t x = pair[0], y = pair[1], height = view->size - size_of(x) - size_of(y);
-    if (height < 0) fold(&x, &y, view->size);
-    Direction d;
-    d.axis[view->first] = x, d.axis[view->second] = y, d.axis[view->pole] = height * view->sign;
-    return d;
-}
-
-/* The angle that has this dot product and this length of the vector product, nearly. */
-static int64_t angle_of(int64_t dot, int64_t across) {
-    int64_t along = largest(dot, -dot), high = largest(along, across);
-    int64_t t = high > 0 ? least(along, across) * RIGHT_ANGLE / high : 0;
-    int64_t angle = t * (RIGHT_ANGLE / 2 + ((RIGHT_ANGLE - t) * 711 >> 12)) >> 12;
-    if (across > along) angle = RIGHT_ANGLE - angle;
-    return dot < 0 ? 2 * RIGHT_ANGLE - angle : angle;
-}
 
 /* Add the normal of the face of corner k, seen from there, by area and by angle (A 6.3). */
 static void add_face(const Corners *c, const Values *g, int32_t k, int64_t *by_area, int64_t *by_angle) {
@@ -110,8 +51,8 @@ static void expect_normal(const Corners *c, const Values *g, int32_t v) {
     for (int32_t i = c->starts.data[v]; i < last_corner(c, v); i++)
         add_face(c, g, c->corners.data[i], by_area, by_angle);
     if (nowhere(by_area)) return;
-    directions_of(g, v)[BY_AREA] = scaled(by_area, size);
-    directions_of(g, v)[BY_ANGLE] = scaled(by_angle, size);
+    directions_of(g, v)[BY_AREA] = scaled_direction(by_area, size);
+    directions_of(g, v)[BY_ANGLE] = scaled_direction(by_angle, size);
 }
 
 static void average_ring(const Corners *c, const Values *g, int32_t v) {
@@ -123,7 +64,7 @@ static void average_ring(const Corners *c, const Values *g, int32_t v) {
         for (int j = 0; j < AXES; j++) sum[j] += a->axis[j] + b->axis[j];
     }
     Direction *own = directions_of(g, v);
-    own[RING] = nowhere(sum) ? own[BY_AREA] : scaled(sum, FINE * middle(g));
+    own[RING] = nowhere(sum) ? own[BY_AREA] : scaled_direction(sum, FINE * middle(g));
 }
 
 /* Fill the directions that the surface tells; zeros where it tells none. Comes before code_normal. */
@@ -163,11 +104,11 @@ static void look(const Work *w, int32_t v, int32_t last, Sight *s) {
         const Direction *a = directions_of(g, f.a), *b = directions_of(g, f.b), *c = directions_of(g, f.c);
         for (int j = 0; j < AXES; j++) across[j] += (int64_t)a->axis[j] + b->axis[j] - c->axis[j];
     }
-    Direction m = r->neighbors == 0 && last >= 0 ? directions_of(g, last)[OWN] : scaled(mean, size);
+    Direction m = r->neighbors == 0 && last >= 0 ? directions_of(g, last)[OWN] : scaled_direction(mean, size);
     Direction *own = directions_of(g, v), d = own[BY_AREA];
     if (d.axis[0] == 0 && d.axis[1] == 0 && d.axis[2] == 0) own[BY_AREA] = own[BY_ANGLE] = own[RING] = d = m;
     for (int j = 0; j < AXES; j++) drift[j] = d.axis[j] + (r->neighbors > 0 ? divided(drift[j], r->neighbors) : 0);
-    Direction fixed = scaled(drift, size), beyond = r->flaps > 0 ? scaled(across, size) : m;
+    Direction fixed = scaled_direction(drift, size), beyond = r->flaps > 0 ? scaled_direction(across, size) : m;
     Direction nearest = nearest_known(g, &s->place, &d, m), twin = m;
     if (r->neighbors > 0) twin = directions_of(g, r->neighbor[0])[OWN];
     if (s->place.twin >= 0) twin = directions_of(g, s->place.twin)[OWN];

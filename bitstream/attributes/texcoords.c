@@ -11,11 +11,6 @@ typedef struct { /* where a vertex is, seen from an edge, in 2^-16 of its length
     int64_t along, beside, weight;
 } Spot;
 
-typedef struct { /* where a base says that the vertex is, 1/16 */
-    int32_t similar[AXES], affine[AXES], across[AXES];
-    int32_t weight;
-} Claim;
-
 typedef struct {
     Place place;
     Claim claim[MOST_BASES], all;
@@ -26,7 +21,7 @@ INLINE const int32_t *at(const Values *g, int32_t v) { return g->values.data + A
 INLINE int64_t dot(const int64_t *x, const int64_t *y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
 /* Which way round a, b, c are. */
-static int turn_of(const Values *g, int32_t a, int32_t b, int32_t c) {
+int turn_of(const Values *g, int32_t a, int32_t b, int32_t c) {
     const int32_t *p = at(g, a), *q = at(g, b), *r = at(g, c);
     int64_t cross = (int64_t)(q[0] - p[0]) * (r[1] - p[1]) - (int64_t)(q[1] - p[1]) * (r[0] - p[0]);
     return cross > 0 ? 1 : cross < 0 ? -1 : 0;
@@ -51,14 +46,14 @@ static bool locate(const Values *g, int32_t a, int32_t b, int32_t x, Spot *spot)
         normal[j] = edge[s] * to[t] - edge[t] * to[s];
     }
     int64_t area = square_root((uint64_t)dot(normal, normal));
-    spot->along = within(dot(edge, to) * WHOLE / square, -MOST_RATIO, MOST_RATIO);
-    spot->beside = within(area * WHOLE / square, 0, MOST_RATIO);
-    spot->weight = within(square * 256 / (area + 1), 1, WHOLE);
+    spot->along = within(quotient(dot(edge, to) * WHOLE, square), -MOST_RATIO, MOST_RATIO);
+    spot->beside = within(quotient(area * WHOLE, square), 0, MOST_RATIO);
+    spot->weight = within(quotient(square * 256, area + 1), 1, WHOLE);
     return true;
 }
 
 /* By the shape of the vertex's triangle, by that of the triangle beyond the edge, and by its parallelogram (A 5.2). */
-static Claim claim_of(const Values *g, int32_t v, const Base *base) {
+Claim claim_of(const Values *g, int32_t v, const Base *base) {
     const int32_t *a = at(g, base->a), *b = at(g, base->b), *c = base->c >= 0 ? at(g, base->c) : b;
     int turn = base->c >= 0 ? turn_of(g, base->b, base->a, base->c) : 0;
     if (turn == 0) turn = g->chart.data[TURN] >= 0 ? 1 : -1;
@@ -79,7 +74,7 @@ static Claim claim_of(const Values *g, int32_t v, const Base *base) {
         return claim;
     }
     if (!locate(g, base->a, base->b, base->c, &far) || far.beside < WHOLE / 64) return claim;
-    int64_t ratio = spot.beside * WHOLE / far.beside, rest = spot.along + (ratio * far.along >> 16);
+    int64_t ratio = quotient(spot.beside * WHOLE, far.beside), rest = spot.along + (ratio * far.along >> 16);
     if (ratio > MOST_RATIO) return claim;
     for (int j = 0; j < AXES; j++)
         claim.affine[j] = FINE * a[j] + limited((rest * edge[j] - ratio * (c[j] - a[j])) >> 12);

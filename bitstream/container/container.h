@@ -66,7 +66,7 @@ Value take_single(Cursor *cursor, uint8_t tag);
 /* The entries of a payload, whose bytes they point to. */
 bool parse_map(Context *context, Span payload, Map *map);
 
-enum { MOST_KEY = 28, MOST_LIST = 8 };
+enum { MOST_KEY = 29, MOST_LIST = 8 };
 /* By key: numbers, how many; and the text of the one field that may have one. */
 typedef struct {
     double number[MOST_KEY][MOST_LIST];
@@ -108,6 +108,7 @@ typedef struct {
     int64_t cells, points, corner[3]; /* of a lattice, 0 without */
     bool counted;                     /* there is a corner */
     int light, onorm;                 /* solutions before each Onorm in doubles, or 0 */
+    int swift;      /* how values of attributes are coded: 0, 1 plain, 2 mixed (A 9) */
     int congruence; /* 35 more than the transforms of congruent parts, and 17 more with whole vertices; 0: without */
     int64_t frames, gop_frames, run, mesh_of; /* `again`: the run whose mesh this one has, or -1 */
     Paper paper;

@@ -4,7 +4,7 @@
 enum {
     VERTICES = 1, FACES, BLOCKS, BLOCK_SIZE, COEFFICIENTS, KEY_INTERVAL, STEP, CENTER, SCALE, SMOOTHING, REFINEMENT,
     ATTRIBUTES, GRID, LATTICE, CORNER, LIGHT_KEY, SEQUENCE, RUN, PAPER, ONORM = 21,
-    CONGRUENCE, BRIEF, TURN, BRIEF_TURNED, BRIEF_METADATA, BASE,
+    CONGRUENCE, BRIEF, TURN, BRIEF_TURNED, BRIEF_METADATA, BASE, SWIFT,
 };
 
 static const Field FIELDS[] = {
@@ -31,13 +31,14 @@ static const Field FIELDS[] = {
     {.key = CONGRUENCE, .type = INT_FIELD, .high = 68},
     {.key = TURN, .type = FLOATS_FIELD, .low = -1, .high = 1, .least = 3, .most = 3},
     {.key = BASE, .type = INTS_FIELD, .low = 1, .high = INT32_MAX, .most = 4},
+    {.key = SWIFT, .type = METHOD_FIELD, .high = 2},
 };
 INSIDE const Fields HEADER_FIELDS = {FIELDS, sizeof FIELDS / sizeof *FIELDS};
 
 #define BIT(key) (1u << (key))
 static const uint32_t OF_GRIDS_ALONE = BIT(LATTICE) | BIT(CORNER) | BIT(LIGHT_KEY) | BIT(CONGRUENCE) | BIT(TURN);
 static const uint32_t OF_A_GRID = BIT(VERTICES) | BIT(FACES) | BIT(CENTER) | BIT(SCALE) | BIT(ATTRIBUTES) | BIT(GRID)
-    | OF_GRIDS_ALONE;
+    | BIT(SWIFT) | OF_GRIDS_ALONE;
 static const uint32_t OF_A_RUN = BIT(VERTICES) | BIT(FACES) | BIT(SEQUENCE) | BIT(RUN);
 enum { MOST_HEADER = 1 << 16, MOST_REACH = 8, MOST_ROUNDS = 64, MOST_HALVINGS = 40 };
 
@@ -58,7 +59,8 @@ static void set_header(const Record *record, Header *header) {
         .step = number[STEP][0], .scale = number[SCALE][0], .smoothing = number[SMOOTHING][0],
         .refined = count[REFINEMENT] > 0, .on_grid = count[GRID] > 0, .is_sequence = count[SEQUENCE] > 0,
         .refinement = {number[REFINEMENT][0], number[REFINEMENT][1]},
-        .onorm = (int)number[ONORM][0], .light = (int)number[LIGHT_KEY][0], .congruence = (int)number[CONGRUENCE][0],
+        .onorm = (int)number[ONORM][0], .light = (int)number[LIGHT_KEY][0], .swift = (int)number[SWIFT][0],
+        .congruence = (int)number[CONGRUENCE][0],
         .counted = count[CORNER] > 0,
         .base = {(int64_t)number[BASE][0], (int)number[BASE][1], (int)number[BASE][2], (int)number[BASE][3]},
         .frames = (int64_t)number[SEQUENCE][0], .gop_frames = (int64_t)number[SEQUENCE][1],
@@ -85,11 +87,13 @@ Record header_record(const Header *h) {
     return (Record){
         .number = {[VERTICES] = {(double)h->vertices}, [FACES] = {(double)h->faces}, [SCALE] = {h->scale},
             [CENTER] = {center[0], center[1], center[2]}, [ATTRIBUTES] = {(double)h->attributes},
-            [GRID] = {grid[0], grid[1], grid[2]}, [LIGHT_KEY] = {h->light}, [BLOCKS] = {(double)h->blocks},
+            [GRID] = {grid[0], grid[1], grid[2]}, [LIGHT_KEY] = {h->light}, [SWIFT] = {h->swift},
+            [BLOCKS] = {(double)h->blocks},
             [BLOCK_SIZE] = {(double)h->block_size}, [COEFFICIENTS] = {(double)h->coefficients}, [STEP] = {h->step},
             [SEQUENCE] = {(double)h->frames, (double)h->gop_frames}},
         .count = {[VERTICES] = 1, [FACES] = 1, [SCALE] = 1, [CENTER] = 3, [ATTRIBUTES] = 1,
-            [GRID] = h->is_sequence ? 0 : 3, [LIGHT_KEY] = 1, [BLOCKS] = 1, [BLOCK_SIZE] = 1, [COEFFICIENTS] = 1,
+            [GRID] = h->is_sequence ? 0 : 3, [LIGHT_KEY] = 1, [SWIFT] = 1, [BLOCKS] = 1, [BLOCK_SIZE] = 1,
+            [COEFFICIENTS] = 1,
             [STEP] = h->is_sequence, [SEQUENCE] = h->is_sequence ? 2 : 0}};
 }
 #endif
@@ -179,6 +183,7 @@ static bool check_header(Context *context, const Header *header) {
         && agrees(context, count[RUN] == 0 || header->is_sequence, "a run of a static mesh")
         && agrees(context, count[RUN] != 1 || header->run > 0, "a run that is stored although it is the first")))
         return false;
+    if (!agrees(context, header->swift == 0 || header->attributes > 0, "swift attributes, and none")) return false;
     if (header->on_grid) return check_grid(context, header);
     if (header->mesh_of < 0) return check_blocks(context, header);
     return agrees(context, header->mesh_of < header->run, "the mesh of a run that comes later")

@@ -127,6 +127,8 @@ class Header:
     base: tuple[int, ...] = _HEADER[27]
     """Cells, their reach in edges, rounds of smoothing, and how often the step of their levels is halved from 1; empty:
     blocks are on the mesh itself."""
+    swift: int = _HEADER[28]
+    """1: values of attributes are quick to decode, and some more bytes; 2: less quick, and fewer bytes."""
 
     @property
     def transforms(self) -> int:

@@ -4,24 +4,13 @@
  * One guess, from the parallelograms, and one adaptive model of the difference by how large differences were around:
  * no mixer, no learner. It takes a few percent more bytes on scans and more on CAD parts, and most of a page's first
  * decode disappears. The decoder for pages that know nothing else is built from this file. */
+#include "bitstream/fields/distances.h"
 #include "bitstream/fields/twins.h"
 
 enum {
     AXES = 3,
     MOST_ENDS = 16,
-    LATEST = 43, /* uses after which a slot learns no slower */
-    /* Nodes of decisions: slots of a row, and behind the rows of a size. */
-    ZERO = 0,
-    UNARY = 3,
-    UNARY_SLOTS = LIGHT_ROW - UNARY,
-    SIGN = LIGHT_ROW,
-    LOW = SIGN + 3,
-    LOW_SLOTS = LEAN_NODES - LOW,
-    EVEN_CLASSES = 4, /* of one width; each that follows is twice as wide */
-    MOST_REST = 1 << 21,
     NORMAL_BITS = 14,
-    LATEST_MIXED = 255,
-    MIXING_RATE = 14,
 };
 
 typedef struct { /* what is known of a vertex before its axes */
@@ -31,13 +20,6 @@ typedef struct { /* what is known of a vertex before its axes */
     int32_t normal[AXES];
     int axis[AXES]; /* in the order in which they are coded */
 } LightPlace;
-
-/* Code a decision by one slot (V 15.2). */
-INLINE int code_plain_bit(RangeCoder *coder, uint32_t *slot, int bit) {
-    bit = code_bit(coder, (uint32_t)largest(*slot >> (32 - ONE_BITS), 1), bit);
-    learn_slot(slot, bit, LATEST);
-    return bit;
-}
 
 /* Shorten a normal, and order the axes by it: the one nearest to it comes last (V 8.5). */
 INLINE void face(LightPlace *p, const int64_t *normal) {
@@ -97,44 +79,7 @@ OFTEN static void survey(const Corners *c, const Light *g, int32_t v, LightPlace
     }
 }
 
-typedef struct { /* what the decisions of a value depend on: slots of a size and a kind, or contexts that are mixed */
-    RangeCoder *coder;
-    const Light *light;
-    int32_t kind, size;
-    int64_t context[LEAN_INPUTS];
-} LightModel;
-
 INLINE bool is_lean(const Light *light) { return BSMDEC_LIGHT != 1 && light->twins; }
-INLINE int32_t class_of(int32_t size) { return (int32_t)least(size_class(size >> 3), LIGHT_SIZES - 1); }
-
-INLINE int decide(const LightModel *m, int node, int bit) {
-    uint32_t *slots = m->light->slots.data;
-    if (is_lean(m->light)) {
-        Bank bank = {slots, m->light->weights, LATEST_MIXED, MIXING_RATE};
-        return code_decision(m->coder, &bank, LEAN_INPUTS, m->context, node, 0, bit);
-    }
-    int row = node < LIGHT_ROW ? m->kind : LIGHT_KINDS - 1;
-    return code_plain_bit(m->coder, slots + class_of(m->size) * LIGHT_SPAN + row * LIGHT_ROW + node, bit);
-}
-
-/* Code how far a value is from its guess, `off` being the guess less that level in 1/16 (V 15.6). */
-OFTEN static int32_t code_distance(const LightModel *m, int32_t off, int32_t distance) {
-    int part = (size_of(off) > 1) + (size_of(off) > 4), width = (int)largest(bit_length((uint32_t)m->size) - 6, 0);
-    if (decide(m, ZERO + part, distance == 0)) return 0;
-    bool below = off < 0, negative = decide(m, SIGN + part, (distance < 0) != below) != below;
-    int32_t rest = size_of(distance) - 1, start = 0, i = 0;
-    while (start + (1 << width) < MOST_REST
-        && decide(m, UNARY + (int)least(i, UNARY_SLOTS - 1), rest - start >= 1 << width)) {
-        start += 1 << width;
-        width += ++i >= EVEN_CLASSES;
-    }
-    if (width > 0) {
-        int32_t half = 1 << (width - 1);
-        if (decide(m, LOW + (int)least(i, LOW_SLOTS - 1), rest - start >= half)) start += half;
-        start += (int32_t)code_uniform(m->coder, rest - start, half);
-    }
-    return negative ? -1 - start : 1 + start;
-}
 
 typedef struct {
     RangeCoder *coder;
@@ -156,9 +101,9 @@ static bool code_by_images(LightCoder *w, int32_t v, const LightPlace *p, Around
 }
 
 /* Guess the image of a trusted twin, if there is one, and say what decisions about axis j depend on (V 17.12). */
-INLINE void expect_image(LightModel *m, const LightPlace *p, const Around *r, int j, int32_t *guess) {
+INLINE void expect_image(
+    DistanceModel *m, const Light *g, const LightPlace *p, const Around *r, int j, int32_t *guess) {
     enum { UNSURE = CERTAINTIES, NO_NEIGHBOR = 7 };
-    const Light *g = m->light;
     const Twins *t = g->twins;
     int32_t sure = UNSURE, off[2] = {0, 0};
     int chosen[2];
@@ -172,7 +117,7 @@ INLINE void expect_image(LightModel *m, const LightPlace *p, const Around *r, in
     for (int i = 0; i < 2 && i < p->flaps; i++) off[i] = FINE * p->across[i][j] - *guess;
     int32_t beside = r->neighbors == 0 ? NO_NEIGHBOR
         : within(g->values.data[AXES * (int64_t)r->neighbor[0] + j] - whole(*guess), -3, 3) + 3;
-    int32_t context[LEAN_INPUTS] = {class_of(m->size) * LIGHT_KINDS + m->kind,
+    int32_t context[LEAN_INPUTS] = {size_class_of(m->size) * LIGHT_KINDS + m->kind,
         (beside * 7 + signed_class(off[0], FINE)) * 7 + signed_class(off[1], FINE), sure};
     for (int i = 0; i < LEAN_INPUTS; i++) m->context[i] = (int64_t)(i * LEAN_CONTEXTS + context[i]) * LEAN_NODES;
 }
@@ -182,7 +127,7 @@ OFTEN static bool code_vertex(void *work, int64_t v) {
     RangeCoder *coder = w->coder;
     const Light *g = &w->light;
     Twins *t = g->twins;
-    LightModel m = {.coder = coder, .light = g};
+    DistanceModel m = {.coder = coder, .slots = g->slots.data, .weights = is_lean(g) ? g->weights : NULL};
     Around around;
     LightPlace p;
     survey(&w->corners, g, (int32_t)v, &p);
@@ -196,7 +141,7 @@ OFTEN static bool code_vertex(void *work, int64_t v) {
         int32_t most = g->largest.data[j], plain = within(p.guess[j] + tilt, 0, FINE * most), guess = plain;
         m.size = ((8 - step) * p.size[j] + before) >> 3;
         m.kind = (int32_t)least(p.flaps, 3) * AXES + step;
-        if (is_lean(g)) expect_image(&m, &p, &around, j, &guess);
+        if (is_lean(g)) expect_image(&m, g, &p, &around, j, &guess);
         int32_t level = whole(guess), distance = is_reading(coder) ? 0 : x[j] - level;
         int32_t value = level + code_distance(&m, guess - FINE * level, distance);
         if (value < 0 || value > most) return false;

@@ -347,7 +347,7 @@ class SequenceEncoder:
             elif attribute.name not in may or (quality.way == "exact" and attribute.values.dtype.kind == "f"):
                 del bounds[attribute.name]
             wanted.append((attribute, quality))
-        carried = carry(run.joined.coding, prepared.mesh.faces, wanted)
+        carried = carry(run.joined.coding, prepared.mesh.faces, wanted, 0)
         carried = tuple(
             replace(a, declaration=replace(a.declaration, moves=1)) if a.declaration.name in bounds else a
             for a in carried

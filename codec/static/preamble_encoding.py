@@ -296,7 +296,8 @@ class Draft:
         brief = write_brief(self.header, self.body) if may_be_brief else None
         later = brief is not None, self.header.congruence > 0, self.header.onorm > 0, any(self.header.turn)
         # The lowest version that knows everything in the stream, so that the oldest decoders still read what they can.
-        yield writer.start(minor=2 if self.header.base else int(any(later)))
+        minor = 3 if self.header.swift else 2 if self.header.base else int(any(later))
+        yield writer.start(minor)
         if brief is not None:
             yield write_frame(FrameType.HEADER, brief)
             return

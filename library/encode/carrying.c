@@ -266,7 +266,7 @@ bool code_carried(PayloadWriter *writer, const CodedMesh *coded, const Carried *
     if (!TAKE_ZEROS(&writer->scratch, 1, field) || !take_pieces(&writer->scratch, carried, &pieces)) return false;
     Source given = {carried->faces.data, pieces.data, carried->faces.rows, rows, pieces.columns};
     bool done = begin_attribute(field, context, given, &declared, coded->vertex_order.size,
-                    declared.domain == BSMDEC_FACE ? NULL : carried->vertices.data, places)
+                    declared.domain == BSMDEC_FACE ? NULL : carried->vertices.data, places, coded->swift)
         && code_values(writer, field, rows, payloads, ends);
     end_field(field);
     release_to(&writer->scratch, mark);

@@ -245,13 +245,15 @@ static bool write_body(Encoder *encoder, const Payload *connectivity, Chunks *ch
     bool moves = encoder->mesh->frames > 0;
     if (moves) header = encoder->motion.header;
     header.attributes = encoder->carried_count;
+    encoder->coded.swift = moves ? 0 : encoder->options.quick ? 1 : 2;
+    header.swift = header.attributes > 0 ? encoder->coded.swift : 0;
     for (int k = 0; k < encoder->carried_count; k++) {
         double part = (double)(k + 1) / encoder->carried_count;
         if (!code_attribute(encoder, k, &chunks[k])
             || !report(encoder, FACES_CODED + part * (ATTRIBUTES_CODED - FACES_CODED)))
             return false;
     }
-    start_stream(out, &encoder->writer.context);
+    start_stream(out, &encoder->writer.context, header.swift > 0 ? MINOR_OF_SWIFT : 0);
     const Record record = header_record(&header);
     put_record(&out->payload, HEADER_FIELDS, &record);
     put_section(out, HEADER_FRAME);

@@ -54,6 +54,7 @@ typedef struct {
     Ints vertex_order, face_order; /* the joined vertex and face of each */
     Bytes turns;           /* m: the corner of the joined face that is the first of the coded one */
     Corners corners;
+    int swift;             /* how values of attributes are coded, as in the header */
 } CodedMesh;
 /* Write CONNECTIVITY of a joined mesh of so many vertices, and put it in the order of coding. `merged`: the vertex of
  * each of its numbers, NULL: the number itself. */
@@ -146,7 +147,8 @@ typedef struct {
     int64_t sections;
 } StreamWriter;
 
-void start_stream(StreamWriter *writer, Context *context);
+/* Begin a stream of a minor version. */
+void start_stream(StreamWriter *writer, Context *context, int minor);
 /* Write a section with the payload, which is empty then. */
 void put_section(StreamWriter *writer, FrameType type);
 /* Write END, with the checksum of decoded positions. */

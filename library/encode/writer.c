@@ -160,13 +160,13 @@ void put_order(Buffer *buffer, const CodedMesh *coded, Arena *scratch) {
     release_to(scratch, mark);
 }
 
-void start_stream(StreamWriter *writer, Context *context) {
-    static const uint8_t PREAMBLE[] = {0x89, 'B', 'S', 'M', 16 * MAJOR};
+void start_stream(StreamWriter *writer, Context *context, int minor) {
+    const uint8_t preamble[] = {0x89, 'B', 'S', 'M', (uint8_t)(16 * MAJOR + minor)};
     writer->bytes = writer->payload = (Buffer){.context = context};
     writer->sections = 0;
     make_sums(&writer->sums);
-    put_bytes(&writer->bytes, (Span){PREAMBLE, sizeof PREAMBLE});
-    writer->sum = crc32_of(&writer->sums, (Span){PREAMBLE, sizeof PREAMBLE}, 0);
+    put_bytes(&writer->bytes, (Span){preamble, sizeof preamble});
+    writer->sum = crc32_of(&writer->sums, (Span){preamble, sizeof preamble}, 0);
 }
 
 void put_section(StreamWriter *writer, FrameType type) {

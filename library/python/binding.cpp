@@ -462,14 +462,15 @@ class FieldCoder : public Shared, Output {
         if (values.shape(1) != 3) throw nb::value_error("levels have three axes");
         begin([&] { return encode_levels(encoding, given()); });
     }
-    void attribute(nb::bytes declaration, int64_t vertices, Row<int32_t> at, std::optional<Rows<int32_t, 3>> places) {
+    void attribute(nb::bytes declaration, int64_t vertices, Row<int32_t> at, std::optional<Rows<int32_t, 3>> places,
+        int swift) {
         if ((at.size() > 0 && at.size() != rows()) || (places && (int64_t)places->shape(0) != vertices))
             throw nb::value_error("rows and vertices do not fit together");
         kept = nb::make_tuple(at, places);
         begin([&] {
             return encode_attribute(encoding, given(), (const uint8_t *)declaration.c_str(),
                 (int64_t)declaration.size(), vertices, at.size() > 0 ? at.data() : nullptr,
-                places ? places->data() : nullptr);
+                places ? places->data() : nullptr, swift);
         });
     }
 
@@ -700,7 +701,8 @@ NB_MODULE(_core, m) {
         .def("go", in_turn(&FieldCoder::go), "wanted"_a)
         .def("mended", in_turn(&FieldCoder::mended), "places"_a, "largest"_a, "wanted"_a)
         .def("levels", in_turn(&FieldCoder::levels))
-        .def("attribute", in_turn(&FieldCoder::attribute), "declaration"_a, "vertices"_a, "at"_a, "places"_a.none())
+        .def("attribute", in_turn(&FieldCoder::attribute), "declaration"_a, "vertices"_a, "at"_a, "places"_a.none(),
+            "swift"_a)
         .def("write", in_turn(&FieldCoder::write), "count"_a)
         .def("read", in_turn(&FieldCoder::read), "payload"_a, "count"_a)
         .def_prop_ro("coded", in_turn(&FieldCoder::coded))

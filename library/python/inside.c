@@ -213,11 +213,11 @@ bool encode_levels(Encoding *encoding, Source given) {
 }
 
 bool encode_attribute(Encoding *encoding, Source given, const uint8_t *declaration, int64_t size, int64_t vertices,
-    const int32_t *at, const int32_t *places) {
+    const int32_t *at, const int32_t *places, int swift) {
     PayloadWriter *writer = &encoding->writer;
     Declaration declared;
     return parse_declaration(&writer->context, (Span){declaration, size}, &writer->scratch, &declared)
-        && begin_attribute(&encoding->field, &writer->context, given, &declared, vertices, at, places);
+        && begin_attribute(&encoding->field, &writer->context, given, &declared, vertices, at, places, swift);
 }
 
 bool encode_chunk(Encoding *encoding, int64_t first, int64_t count) {

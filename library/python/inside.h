@@ -15,7 +15,7 @@ typedef struct {
 } DecoderState;
 DecoderState decoder_state(const bsmdec *decoder);
 /* The numbers of a field of the header of the present run, and how many there are. */
-enum { MOST_FIELD_KEY = 28 };
+enum { MOST_FIELD_KEY = 29 };
 int decoder_field(const bsmdec *decoder, int key, const double **numbers);
 /* What a packet says before it is decoded; `positions` is their checksum or -1. What follows is of an attribute. */
 typedef struct {
@@ -84,7 +84,7 @@ bool encode_going(Encoding *encoding, const double *wanted);
 bool encode_mended(Encoding *encoding, Ints2 places, const int32_t *largest, const double *wanted);
 bool encode_levels(Encoding *encoding, Source given);
 bool encode_attribute(Encoding *encoding, Source given, const uint8_t *declaration, int64_t size, int64_t vertices,
-    const int32_t *at, const int32_t *places);
+    const int32_t *at, const int32_t *places, int swift);
 /* Write the payloads of rows, or read that of one kind of values. */
 bool encode_chunk(Encoding *encoding, int64_t first, int64_t count);
 bool decode_field_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size);

@@ -157,17 +157,17 @@ WRITTEN = {
     "fine": vars(bsm.PRESETS["fine"]),
     "small": vars(bsm.PRESETS["small"]),
     "grid14": {"grid": 14},
-    "quick": {"effort": "quick"},
     "ordered": {"keep_order": True},
     "exact": {"exact": True},
 }
-"""What the encoder is asked for; without congruent parts, no answer may need an extension that 1.0 does not have."""
+"""What the encoder is asked for; without congruent parts, and with effort best, which has no swift attributes, no
+answer may need an extension that 1.0 does not have."""
 
 
 @pytest.mark.parametrize("options", WRITTEN.values(), ids=WRITTEN)
 def test_1_0_decodes_what_is_written_today(options, earlier):
     mesh = with_attributes(shuffled(torus(20, 16)), charts, creases, colors, groups)
-    stream = bsm.encode(mesh, bsm.EncodeOptions(**options | {"congruence": False}))
+    stream = bsm.encode(mesh, bsm.EncodeOptions(**options | {"congruence": False, "effort": "best"}))
     found, mesh = decode(earlier, stream), bsm.decode(stream)
     right = {"positions": mesh.positions, "faces": mesh.faces} | arrays_of(mesh.attributes)
     assert found.status == 0, found.message
@@ -179,6 +179,11 @@ def test_1_0_decodes_what_is_written_today(options, earlier):
 def test_1_0_refuses_congruent_parts_by_the_number_of_their_field(earlier):
     found = decode(earlier, (FOLDER.parent / "1.1" / "good-congruence-mirrors.bsm").read_bytes())
     assert found.status == 5 and found.message == "field 22 is unknown to this decoder"
+
+
+def test_1_0_refuses_swift_attributes_by_the_number_of_their_field(earlier):
+    found = decode(earlier, (FOLDER.parent / "1.3" / "good-swift-mixed-grid.bsm").read_bytes())
+    assert found.status == 5 and found.message == "field 28 is unknown to this decoder"
 
 
 def test_1_0_refuses_brief_streams_by_the_number_of_their_field(earlier):

@@ -347,7 +347,7 @@ def _attributes(rows: int, columns: int, count: int, chunk: int, size: int, **fi
             continue
         vertices = 0 if declaration.domain == FACE else rows * columns
         surface = Surface(shape.faces, np.arange(vertices, dtype=np.int32))
-        encoder = field_of(declaration, surface, np.zeros((size, len(declaration.largest)), np.int32), None)
+        encoder = field_of(declaration, surface, np.zeros((size, len(declaration.largest)), np.int32), None, 0)
         for first in range(0, size, chunk):
             some = min(chunk, size - first)
             chunks.append(_written(packets.Values(index, first, some, write_values(encoder, some))))
@@ -380,7 +380,7 @@ def _seamed(rows: int, columns: int, count: int) -> bytes:
     own = [(np.arange(faces.size, dtype=np.int32) == corner).reshape(-1, 3).astype(np.int32) for corner in range(3)]
     wanted = [(Attribute("0", values, "corner", indices=at), exact) for at in own]
     # Three in turn, of which each follows the other two.
-    turns = [carry(place, faces, wanted[turn:] + wanted[:turn]) for turn in range(3)]
+    turns = [carry(place, faces, wanted[turn:] + wanted[:turn], 0) for turn in range(3)]
     carried = [*turns[0], *(turns[(index + 1) % 3][2] for index in range(3, count))][:count]
     declared = [
         _written(packets.Declared(index, replace(one.declaration, name=f"{index}"), one.seams))

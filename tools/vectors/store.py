@@ -18,12 +18,12 @@ from tools.surgery import frames_of, header_entries, is_brief
 
 FOLDER = Path(__file__).parents[2] / "spec" / "vectors" / "1.0"
 """The vectors of 1.0, which stay what they are."""
-NEXT = FOLDER.parent / "1.2"
+NEXT = FOLDER.parent / "1.3"
 """Those of this minor version, which stay from the next one on."""
 NEEDS = FOLDER.parent / "needs.json"
 """The documents that each vector needs, of all versions."""
 FRAME_NEEDS = {FrameType.ORDER: "order", FrameType.PARTITION: "paper", FrameType.ATTRIBUTE: "attributes"}
-FIELD_NEEDS = ("light", "congruence", "turn", "base", "paper", "attributes", "sequence")
+FIELD_NEEDS = ("light", "congruence", "turn", "base", "swift", "paper", "attributes", "sequence")
 MANIFEST = "manifest.json"
 ROUNDING = 1e-6
 """How far floats of attributes may be, for ones above 1 relatively."""

@@ -55,6 +55,7 @@ class PreparedAttribute:
     seams: bytes
     surface: Surface
     pieces: Levels
+    swift: int  # how values are coded, as in the header
     leans: bool  # whether numbers are predicted from positions, should these be there
     values: Values
     """As decoders have them."""
@@ -86,19 +87,23 @@ class PreparedAttribute:
         """The chunks of its values, `size` each, predicted from `places`, shape (n, 3), if there are any."""
         if self.declaration.coding == RECOMPUTED:
             return ()
-        field = field_of(self.declaration, self.surface, self.pieces, places)
+        field = field_of(self.declaration, self.surface, self.pieces, places, self.swift)
         return tuple(write_values(field, count) for _, count in ranges(self.declaration.rows, size))
 
 
-def carry(place: GivenMesh, faces: Faces, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
-    """Attributes in the order of coding, on coded faces."""
+def carry(
+    place: GivenMesh, faces: Faces, wanted: Iterable[tuple[Attribute, Quality]], swift: int
+) -> tuple[PreparedAttribute, ...]:
+    """Attributes in the order of coding, on coded faces; `swift` as in the header."""
     wanted = tuple(wanted)
     if len(wanted) > MOST_ATTRIBUTES:
         raise OptionError(f"a stream has {MOST_ATTRIBUTES} attributes at most, not {len(wanted)}: leave some out")
-    return tuple(_carry(place, faces, not number, *each) for number, each in enumerate(wanted))
+    return tuple(_carry(place, faces, not number, swift, *each) for number, each in enumerate(wanted))
 
 
-def _carry(place: GivenMesh, faces: Faces, first: bool, attribute: Attribute, quality: Quality) -> PreparedAttribute:
+def _carry(
+    place: GivenMesh, faces: Faces, first: bool, swift: int, attribute: Attribute, quality: Quality
+) -> PreparedAttribute:
     """The first attribute, or the next one."""
     kind, semantic = KINDS.index(attribute.values.dtype.name), SEMANTICS.index(attribute.semantic)
     domain, way = DOMAINS.index(attribute.domain), WAYS.index(quality.way)
@@ -110,9 +115,8 @@ def _carry(place: GivenMesh, faces: Faces, first: bool, attribute: Attribute, qu
     surface = Surface(faces if own is None else own, at)
     what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
     became = "recomputed from the decoded mesh" if declaration.coding == RECOMPUTED else noted(*outcome)
-    return PreparedAttribute(
-        declaration, seams, surface, pieces, leans, decoded, f"{attribute.name}: {what}per {attribute.domain}, {became}"
-    )
+    note = f"{attribute.name}: {what}per {attribute.domain}, {became}"
+    return PreparedAttribute(declaration, seams, surface, pieces, swift, leans, decoded, note)
 
 
 def noted(error: float, step: float, bits: int, zeros: int, scaled: bool) -> str:
@@ -142,7 +146,7 @@ def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metada
             declared.append(packets.Declared(index, declaration, prepared.seams))
             for (first, count), data in zip(ranges(declaration.rows, CHUNK), chunks, strict=True):
                 values.append(packets.Values(index, first, count, data))
-        header = replace(header, attributes=len(carried))
+        header = replace(header, attributes=len(carried), swift=carried[0].swift)
     return replace(draft, header=header, body=(*early_metadata, *head, *declared, *body, *values, *images))
 
 
@@ -161,12 +165,12 @@ def ranges(rows: int, size: int) -> list[tuple[int, int]]:
     return [(first, min(size, rows - first)) for first in range(0, rows, size)]
 
 
-def field_of(declaration: Declaration, surface: Surface, pieces: Levels, places: Levels | None) -> Field:
+def field_of(declaration: Declaration, surface: Surface, pieces: Levels, places: Levels | None, swift: int) -> Field:
     """The field of the numbers of an attribute, shape (k, pieces), predicted from `places`, shape (n, 3)."""
     declared = write_map(entries_of(replace(declaration, leans=int(places is not None))))
     vertices = 1 + int(max(surface.faces.max(initial=0), surface.vertices.max(initial=0)))
     field = Field(surface.faces, pieces)
-    field.attribute(declared, vertices if places is None else len(places), surface.vertices, places)
+    field.attribute(declared, vertices if places is None else len(places), surface.vertices, places, swift)
     return field
 
 

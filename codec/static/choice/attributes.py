@@ -28,6 +28,8 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
 from bsm.codec.static.targets import SLACK, Contract
 
+SWIFT = {"quick": 1, "normal": 2, "best": 0}
+"""How values of attributes are coded, `swift` of the header, by the effort: decoders of more bytes are quicker."""
 ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
 
 
@@ -82,7 +84,9 @@ class Sent:
         return self.carry(self.wanted)
 
     def carry(self, wanted: Sequence[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
-        return carry(self.joined.coding, self.prepared.mesh.faces, wanted) if wanted else ()
+        if not wanted:
+            return ()
+        return carry(self.joined.coding, self.prepared.mesh.faces, wanted, SWIFT[self.options.effort])
 
     def wanted_with(self, index: int, quality: Quality) -> tuple[tuple[Attribute, Quality], ...]:
         """All attributes, one of them with another quality."""

@@ -207,6 +207,7 @@ def summarize_stream(info: StreamInfo) -> dict[str, Any]:
         "whole": header.whole,  # vertices where images of others are take one decision
         "turn": any(header.turn),
         "base": bool(header.base),
+        "swift": header.swift > 0,
         "brief": info.brief,
         "paper": bool(header.paper) or sizes["partition"] > 0,
         "attributes": header.attributes > 0,

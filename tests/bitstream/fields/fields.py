@@ -27,8 +27,10 @@ from tests.shapes import Faces, grid_faces
 Ints = npt.NDArray[np.int32]
 Chunks = list[tuple[bytes, int]]
 
-NAMES = ("grid", "light", "levels", "plain", "color", "texcoord", "normal", "faces")
-COLUMNS = {"grid": 3, "light": 3, "levels": 3, "texcoord": 2, "normal": 2}
+SWIFT = ("plain 1", "texcoord 1", "normal 1", "plain 2", "texcoord 2", "normal 2")
+"""Kinds of attributes, with what the header's `swift` is."""
+NAMES = ("grid", "light", "levels", "plain", "color", "texcoord", "normal", "faces", *SWIFT)
+COLUMNS = {"grid": 3, "light": 3, "levels": 3} | {name: 2 for name in NAMES if name.startswith(("tex", "normal"))}
 """Columns of kinds with a fixed number."""
 
 
@@ -87,12 +89,13 @@ def field_of(name: str, faces: npt.ArrayLike, vertices: int, largest=(), at=None
         return Kind(lambda given: levels_field(table, given), vertices, 3)
     if name in ("grid", "light"):
         return Kind(lambda given: grid_field(table, largest, given, int(name == "light")), vertices, 3)
-    of_faces, normal = name == "faces", name == "normal"
+    kind, _, swift = name.partition(" ")
+    of_faces, normal = kind == "faces", kind == "normal"
     rows = len(table) if of_faces else vertices
     declaration = Declaration(
         name=name,
         domain=FACE if of_faces else VERTEX,
-        semantic=SEMANTICS[name],
+        semantic=SEMANTICS[kind],
         coding=OCTAHEDRAL if normal else LEVELS,
         kind=6 if normal else 5,
         components=3 if normal else len(largest),
@@ -102,13 +105,15 @@ def field_of(name: str, faces: npt.ArrayLike, vertices: int, largest=(), at=None
     numbers = np.arange(rows) if places is None else np.asarray(places)
     surface = Surface(table, np.array([] if of_faces else numbers, np.int32))
     geometry = None if at is None or of_faces else np.array(at, np.int32)
-    return Kind(lambda given: attribute_field(declaration, surface, given, geometry), rows, len(largest))
+    return Kind(
+        lambda given: attribute_field(declaration, surface, given, geometry, int(swift or 0)), rows, len(largest)
+    )
 
 
 def offered(name: str, rows: int, largest, kind: str, seed: int) -> Ints:
     """Values for the field with this name."""
     drawn = values(rows, [-most * (name == "levels") for most in largest], largest, kind, seed)
-    return canonical_levels(drawn, largest[0] // 2) if name == "normal" else drawn
+    return canonical_levels(drawn, largest[0] // 2) if name.startswith("normal") else drawn
 
 
 def random_faces(vertices: int, count: int, kind: str, seed: int) -> Faces:
