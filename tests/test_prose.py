@@ -1,5 +1,6 @@
 """Numbers that stand in sentences: ranges in documents, against what streams and the code say today."""
 
+import json
 import re
 from functools import cache
 from pathlib import Path
@@ -7,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import Decoder, EndEvent, encode
+from bsm import Decoder, EndEvent, denoise, encode
 from bsm.codec.blocks.overlap import block_size, grow_blocks, metis_partition
 from bsm.codec.denoise.coarse import OVERLAP, RULES
 from bsm.codec.geometry.graph import graph_of_faces
@@ -17,6 +18,8 @@ from bsm.codec.static.ways.in_cells import CHAIN, SPREADS
 from bsm.files.inspection import Skimmer, StreamInfo, inspect_stream
 from bsm.files.mesh import read_mesh
 from tests.codec.static.test_cells import stream
+from tests.shapes import theta
+from tools.replicate.quotes import KEPT
 
 ROOT = Path(__file__).parents[1]
 SCANS = ("bunny_34834", "gargoyle_10002", "horse_48485")
@@ -65,6 +68,17 @@ def test_shares_of_scans_are_those_that_documents_tell(meshes: Path, name: str) 
         assert least <= cells <= most
 
 
+def test_measured_shares_lie_in_the_ranges_of_the_readme() -> None:
+    """Those of sixteen scans, which `python -m tools.replicate --shares` measured and keeps."""
+    kept = json.loads(KEPT.read_text("utf-8"))["numbers"]["shares"]
+    least, most = numbers("README.md", r"with ([\d.]+) to ([\d.]+) % of the bytes; without them a scan")
+    fewest, largest = map(float, kept["blocks"].split(" to "))
+    assert least <= fewest < largest <= most
+    least, most = numbers("README.md", r"without them a scan takes (\d+) to (\d+) % more")
+    fewest, largest = (100 * (float(ratio) - 1) for ratio in kept["without"].split(" to "))
+    assert least <= fewest < largest <= most
+
+
 CELL = r"the vertices near it, (\d+) to (\d+)"
 
 
@@ -102,6 +116,26 @@ def test_a_damaged_block_loses_what_the_page_of_streaming_tells(meshes: Path, na
         missing, degraded = max(missing, len(end.losses.missing)), max(degraded, len(end.losses.degraded))
     assert 0.85 * told < missing < 1.15 * told
     assert 0.5 * missing < degraded < 2.0 * missing  # "about as many again"
+
+
+@pytest.mark.real
+def test_the_scheme_of_the_paper_leaves_the_angles_that_are_told(meshes: Path) -> None:
+    pytest.importorskip("pymetis", reason="needs METIS")
+    coarse = numbers("docs/guides/denoising.md", r"coarse step of `oi` leaves ([\d.]+) and ([\d.]+) degrees")
+    fine = numbers("docs/guides/denoising.md", r"fandisk keeps ([\d.]+) degrees with `oi`, and ([\d.]+) with")
+    twelve = "twelve_dodecahedron", "twelve_dodecahedron_noisy"
+    fandisk = "fandisk_6475", "fandisk_0.7_noisy"
+    cases = (
+        (twelve, {"method": "oi", "iterations": 0}, coarse[0]),
+        (fandisk, {"method": "oi", "iterations": 0}, coarse[1]),
+        (fandisk, {"method": "oi"}, fine[0]),
+        (fandisk, {"method": "spectral"}, fine[1]),
+    )
+    for (clean, noisy), options, told in cases:
+        original = read_mesh(meshes / "static" / f"{clean}.ply").mesh
+        given = read_mesh(meshes / "noisy" / f"{noisy}.ply").mesh
+        result = denoise(given, force=True, **options)
+        assert theta(original.positions, result.positions, given.faces) == pytest.approx(told, abs=0.15)
 
 
 @pytest.mark.real
