@@ -95,7 +95,7 @@ class Canvas:
         self.samples, self._depth = (np.empty((samples, samples), np.float32) for _ in "12")
         self.owner, self._drawn = np.empty((0, samples), np.int32), np.array([0, samples, 0, samples], np.int32)
         self._tiles = np.empty((-(-samples // _TILE),) * 2, np.float32)
-        self._placed = np.empty((0, 3))
+        self._placed: Positions = np.empty((0, 3))
 
     def draw(self, positions: Positions, faces: Faces, normals: Normals, camera: Matrix, owned: bool = True) -> Picture:
         """Draw a mesh, lit alike on both sides; if `owned`, `owner` is the face that each sample shows, or -1."""

@@ -19,7 +19,6 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
-from bsm.bitstream.once import cached_property
 
 Ints = npt.NDArray[np.int64]
 Doubles = npt.NDArray[np.float64]
@@ -64,11 +63,8 @@ class EvenRows(Rows):
     def __init__(self, table: Doubles, what: str) -> None:
         self.what, self._table = what, table
         self.counts = np.broadcast_to(np.int64(table.shape[1]), len(table))
+        self.starts = np.arange(len(table)) * table.shape[1]
         self.values = table.reshape(-1)
-
-    @cached_property
-    def starts(self) -> Ints:  # type: ignore[override]
-        return np.arange(len(self._table)) * self._table.shape[1]
 
     def columns(self, first: int, count: int) -> Doubles:
         self.require(first + count)

@@ -153,7 +153,7 @@ class _PlainLines:
 def _plain_lines(text: bytes, seen: tuple[int, int, int]) -> _PlainLines | None:
     """Read the lines as nearly all programs write them; None: some need another reader, or an error in words."""
     counts, before = np.empty(_kernels.OBJ_COUNTS, np.int64), np.array(seen, np.int64)
-    nothing = tuple(np.empty(shape, kind) for shape, kind in _NOTHING)
+    nothing: Any = tuple(np.empty(shape, kind) for shape, kind in _NOTHING)
     if _kernels.scan_obj(np.frombuffer(text, np.uint8), before, False, counts, nothing):
         return None
     return _PlainLines(text, counts, before)
