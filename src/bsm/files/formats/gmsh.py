@@ -262,6 +262,17 @@ class _Gmsh:
         found = skin(self.points, cells, rows["NodeData"], rows["ElementData"], lost, metadata)
         return replace(found, notes=(*found.notes, *notes))
 
+    def _pairs(self, owned: Ints, alike: Ints) -> tuple[Ints, int]:
+        """The numbers of cells with the dimension and a group each, 0 for none, and how many pairs are there again."""
+        sets = [groups or (0,) for groups in self._groups]
+        flat, sizes = np.array([number for groups in sets for number in groups]), np.array([*map(len, sets)])
+        counts = sizes[owned[:, 1]]
+        self._require_memory(_COPIES * 3 * AS_NUMBERS * int(counts.sum()))  # three columns
+        groups = flat[ranges((np.cumsum(sizes) - sizes)[owned[:, 1]], counts)]
+        every = np.column_stack([np.repeat(alike, counts), np.repeat(owned[:, 0], counts), groups])
+        pairs = np.unique(every, axis=0)
+        return pairs, len(every) - len(pairs)
+
     def _named_groups(
         self, owned: Ints, alike: Ints, kept: Any
     ) -> tuple[dict[str, str], dict[str, Any], list[str], list[str]]:
@@ -269,23 +280,18 @@ class _Gmsh:
 
         The metadata, an array for the cells that are kept, or one for each group if cells have several, losses, notes.
         """
-        sets = [groups or (0,) for groups in self._groups]
-        flat, sizes = np.array([number for groups in sets for number in groups]), np.array([*map(len, sets)])
-        self._require_memory(_COPIES * 3 * AS_NUMBERS * int(sizes[owned[:, 1]].sum()))  # three columns
-        groups = flat[ranges((np.cumsum(sizes) - sizes)[owned[:, 1]], sizes[owned[:, 1]])]
-        cell, dimension = (np.repeat(column, sizes[owned[:, 1]]) for column in (alike, owned[:, 0]))
-        every = np.column_stack([cell, dimension, groups])
-        pairs = np.unique(every, axis=0)
-        lost = [f"elements that are there again ({len(every) - len(pairs)})"] * (len(every) > len(pairs))
+        pairs, again = self._pairs(owned, alike)
+        lost = [f"elements that are there again ({again})"] if again else []
         names = dict(self._names)
         grouped = pairs[pairs[:, 2] > 0]
-        if not len(grouped):
-            return {}, {}, [*lost, *(f"the group {name}" for name in names.values())], []
         table, kind_of = np.unique(grouped[:, 1:], axis=0, return_inverse=True)
         kinds = [*map(tuple, table.tolist())]
         called = [names.pop(kind, str(kind[1])) for kind in kinds]
         lost += [f"the group {name}" for name in names.values()]
-        further = len(grouped) - len(np.unique(grouped[:, 0]))
+        if not kinds:
+            return {}, {}, lost, []
+        of_faces = grouped[grouped[:, 1] > 1, 0]
+        further = len(of_faces) - len(np.unique(of_faces))
         masks = dict[str, Any]()
         if further and len(kinds) <= _MOST_GROUPS:
             self._require_memory(_COPIES * len(alike) * len(kinds))
@@ -294,10 +300,9 @@ class _Gmsh:
             is_in = is_in[alike[kept]]
             not_in, places = np.unique(1 - is_in, axis=0, return_inverse=True)  # the first group first
             together = [" + ".join(np.array(called)[row == 0].tolist()) for row in not_in]
-            for place, name in enumerate(called):
-                if kinds[place][0] > 1:
-                    unique = f"{name} ({kinds[place][0]}D)" if name in masks else name
-                    masks[unique] = is_in[:, place]
+            for (dimension, _), name, marks in zip(kinds, called, is_in.T, strict=True):
+                if dimension > 1:
+                    masks[f"{name} ({dimension}D)" if name in masks else name] = marks
         else:
             lost += [f"further groups of faces that are in several ({further})"] if further else []
             first = np.full(len(alike), len(kinds))
