@@ -561,8 +561,8 @@ def save(
     mesh : mesh, pair of arrays, or path
         As `encode` takes it.
     path : path or binary file
-        A path that ends in .bsm, .3mf (with lib3mf), .glb, .npz, .obj, .off, .ply, .stl or .vtp; or an open file, such
-        as `io.BytesIO`, next to which nothing is written.
+        A path that ends in .bsm, .3mf (with lib3mf), .dae (with pycollada), .glb, .npz, .obj, .off, .ply, .stl or .vtp;
+        or an open file, such as `io.BytesIO`, next to which nothing is written.
     overwrite : bool
         Whether to replace an existing file.
     format : str, optional

@@ -106,8 +106,8 @@ def test_save_and_load(mesh, suffix, tmp_path):
 
 
 def test_what_cannot_be_saved(mesh, tmp_path):
-    with pytest.raises(bsm.OptionError, match=r"use one of \.bsm, \.3mf, \.glb, \.npz"):
-        bsm.save(mesh, tmp_path / "a.dae")
+    with pytest.raises(bsm.OptionError, match=r"use one of \.bsm, \.3mf, \.dae, \.glb, \.npz"):
+        bsm.save(mesh, tmp_path / "a.wrl")
     with pytest.raises(bsm.OptionError, match=r"step is an option of \.bsm files"):
         bsm.save(mesh, tmp_path / "a.ply", step=1)
     with pytest.raises(bsm.ArgumentError, match=r"a path is expected, or an open .* not TriangleMesh"):

@@ -285,8 +285,8 @@ def test_what_is_no_sequence(tmp_path):
 def test_forms_of_the_output():
     given = ("-", None), ("a.npz", None), ("a", None), ("a", "obj")
     assert [sequence_kind(*pair) for pair in given] == ["npy", "npz", "ply", "obj"]
-    assert sequence_kind("a.dae/", None) == sequence_kind("take1.2", None) == "ply"
-    for pair in (("a.ply", None), ("-", "ply"), ("a.npz", "npy"), ("a.gltf", None), ("%04d.dae", None)):
+    assert sequence_kind("a.wrl/", None) == sequence_kind("take1.2", None) == "ply"
+    for pair in (("a.ply", None), ("-", "ply"), ("a.npz", "npy"), ("a.gltf", None), ("%04d.wrl", None)):
         with pytest.raises(OptionError):
             sequence_kind(*pair)
 

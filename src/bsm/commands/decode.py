@@ -29,6 +29,7 @@ from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header
 from bsm.files.table import MESH_SUFFIXES, ONE_FILE, SEQUENCE_FORMATS, WRITTEN_FORMATS, by_name, format_of_name
 from bsm.ground.console import Console, printable
 from bsm.ground.lengths import known_unit, metres, unit_of
+from bsm.jobs.packages import copy_descriptions
 from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Job, Task, anywhere, came_to
@@ -79,6 +80,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.recursive and args.format == "same":
         jobs = list(map(_as_source, plan_trees(args.inputs, args.output, ".ply", STREAM_SUFFIXES)))
         refuse_collisions((job.input for job in jobs), (job.output for job in jobs))
+        copy_descriptions(args.inputs, args.output, console, overwrite=args.force)
         args.format = None
     elif args.recursive:
         jobs = plan_trees(args.inputs, args.output, suffix, STREAM_SUFFIXES)
@@ -108,7 +110,7 @@ def _as_source(job: Job) -> Job:
     if name != Path(name).name or name.startswith(".") or Path(name).suffix.lower() not in MESH_SUFFIXES:
         return job
     # A format that cannot be written is replaced by one that loses least of its contents.
-    other = "glb" if Path(name).suffix.lower() in (".dae", ".gltf") else "vtp"  # which hold units, and fields
+    other = "glb" if Path(name).suffix.lower() == ".gltf" else "vtp"  # which holds fields
     name = name if format_of_name(name) else f"{name}.{other}"
     return replace(job, output=no_link(str(Path(job.output).with_name(name))))
 

@@ -25,6 +25,7 @@ from bsm.files.table import (
 )
 from bsm.ground.console import Console
 from bsm.jobs.encode import EncodeJob, encode_one, shared_images
+from bsm.jobs.packages import copy_descriptions
 from bsm.jobs.plan import plan, plan_trees
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Job
@@ -88,6 +89,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if job.shared:
         once = f"{counted(images=len(job.shared))} of several meshes: once in the folder images"
         console.note(f"{once}, to which the streams link; --images keep stores them in each")
+    if args.recursive and not args.dry_run:
+        copy_descriptions(args.inputs, args.output, console, overwrite=args.force)
     return run_jobs(many, job, console, encode_one, jobs)
 
 

@@ -50,6 +50,9 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
         about = document.assetInfo
         metadata: dict[str, Value] = {"up": str(about.upaxis or "Y_UP")[0].lower()}
         metadata["unit"] = unit_named(float(about.unitmeter or 1.0))
+        tools = [str(contributor.authoring_tool or "") for contributor in about.contributors]
+        own = next((tool for tool in tools if tool.startswith("bsm ")), None)
+        metadata |= {"provenance": own} if own else {}
         metadata |= described(dict(enumerate(scene.materials.values()))) | scene.images
         errors = [f"unreadable elements ({in_words(error)[:80]})" for error in document.errors[:_MOST_ERRORS]]
         dropped = (*left, *errors, *scene.absent)
