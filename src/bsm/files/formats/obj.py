@@ -121,10 +121,12 @@ class _PlainLines:
             np.empty((normals, normal_numbers)),
         )
         self.sizes: Ints = np.empty(faces, np.int64)
-        used = (corners, corners if with_texcoords else 0, corners if with_normals else 0)
-        self._places = tuple(np.empty(count, np.int64) for count in used)
+        point: Ints = np.empty(corners, np.int64)
+        texcoord: Ints = np.empty(corners if with_texcoords else 0, np.int64)
+        normal: Ints = np.empty(corners if with_normals else 0, np.int64)
+        self._places = (point, texcoord, normal)
         lines, hard = np.empty((others, 3), np.int64), np.empty((words, 4), np.int64)
-        arrays = (*tables, self.sizes, *self._places, lines, hard)
+        arrays = (*tables, self.sizes, point, texcoord, normal, lines, hard)
         _kernels.scan_obj(np.frombuffer(text, np.uint8), seen, True, np.empty_like(counts), arrays)
         for table, place, begin, end in hard.tolist():
             tables[table].reshape(-1)[place] = float(text[begin:end])
