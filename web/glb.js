@@ -256,7 +256,7 @@ export function glbOf({ faces, attributes, metadata, frames, colors, rate, isMov
         pieces,
         attributes: drawn,
         own,
-    } = drawnFaces(faces, all, attributes, frames[0].length / 3);
+    } = drawnFaces(faces, all, attributes);
     const middle = middleOf(frames[0]);
     const places = frames.map((frame) =>
         spread(

@@ -49,6 +49,38 @@ const STYLED = {
     },
 };
 
+/** The elements of well-formed HTML without texts: the name, the attributes and the children of each. */
+function treesOf(html) {
+    const all = [null, {}];
+    const open = [all];
+    for (const [, end, tag, attributes, isEmpty] of html.matchAll(
+        /<(\/?)(\w+)((?:\s+[\w-]+(?:="[^"]*")?)*)\s*(\/?)>/g,
+    )) {
+        if (end) {
+            if (open.pop()[0] !== tag) throw new Error(`player.html: </${tag}> ends another element`);
+            continue;
+        }
+        const pairs = [...attributes.matchAll(/([\w-]+)(?:="([^"]*)")?/g)].map(([, name, value = ""]) => [name, value]);
+        const element = [tag, Object.fromEntries(pairs)];
+        open.at(-1).push(element);
+        if (!isEmpty) open.push(element);
+    }
+    return all.slice(2);
+}
+
+/** The page of players as elements and a sheet of styles: policies forbid a text of both. */
+const TREES = {
+    name: "trees",
+    setup({ onLoad }) {
+        onLoad({ filter: /player\.html$/ }, async ({ path }) => {
+            const [, style, rest] = /<style>([^]*?)<\/style>([^]*)/.exec(readFileSync(path, "utf8"));
+            const { code } = await transform(style, { loader: "css", minify: true, target: "es2022" });
+            const contents = `export const style = ${JSON.stringify(code.trim())}; export default ${JSON.stringify(treesOf(rest))};`;
+            return { contents, loader: "js" };
+        });
+    },
+};
+
 /** Meshes without attributes are drawn as they are. */
 const BARE = {
     name: "bare",
@@ -101,19 +133,15 @@ async function bundle(entry, options = {}) {
     return result.outputFiles[0].text;
 }
 
-/** Has browsers compile all functions while a script comes, and none in the way of a first picture. */
-const EAGER = /^(three|pool|main|.*worker)\.js$/;
-
 /** A module in fewer bytes. */
-async function smaller(text, name) {
-    const format = EAGER.test(name) ? { preamble: "//# allFunctionsCalledOnLoad" } : {};
-    return (await minify(text, { module: true, ecma: 2022, compress: { passes: 3 }, format })).code;
+async function smaller(text) {
+    return (await minify(text, { module: true, ecma: 2022, compress: { passes: 3 } })).code;
 }
 
 /** A module that others call by all of its names. */
-function open(entry, plugin) {
+function open(entry, ...plugins) {
     return bundle(join(SOURCES, entry), {
-        plugins: [plugin],
+        plugins,
         external: ["three", "three/addons/*", "@react-three/fiber", "@gltf-transform/core", "@babylonjs/*"],
     });
 }
@@ -139,10 +167,16 @@ async function inlined() {
     };
 }
 
+/** Methods that only code of the same thread calls: no message has them, nor the platform. */
+const INNER =
+    "receiveData receiveEof nextEvent receiveBlock nextBlock release doubles creased grown addFrame startRun flush settle placesOf guarded findHelpers accept pause bounds".split(
+        " ",
+    );
+
 /** A thread in one file, so that no request waits for another: all of a module, which then serves. */
 function thread(module, plugins = []) {
     const contents = `import { serve } from "./${module}"; serve();`;
-    const mangleProps = new RegExp(`^(${privateNames().join("|")})$`);
+    const mangleProps = new RegExp(`^(${[...privateNames(), ...INNER].join("|")})$`);
     return bundle(undefined, { stdin: { contents, resolveDir: SOURCES }, plugins, mangleProps });
 }
 
@@ -184,19 +218,16 @@ async function products() {
         "content.js": await open("content.ts", beside("encoding")),
         "encoding.js": await plain("encoding.ts", []),
         "encode-worker.js": await thread("encoding"),
-        "player.js": await open("player.ts", beside("scene", "three")),
+        "player.js": await open("player.ts", beside("scene", "three"), TREES),
         "player-three.js": await bundle(join(SOURCES, "player.ts"), {
-            plugins: [beside("errors", "index", "pool", "quick")],
+            plugins: [beside("errors", "index", "pool", "quick"), TREES],
             mangleProps,
         }),
         "react.js": await open("react.ts", beside("three")),
     };
     return [
         ...(await Promise.all(
-            Object.entries(built).map(async ([name, text]) => [
-                join(WEB, "built", name),
-                `${await smaller(text, name)}\n`,
-            ]),
+            Object.entries(built).map(async ([name, text]) => [join(WEB, "built", name), `${await smaller(text)}\n`]),
         )),
         [join(WEB, "built/LICENSES.txt"), `${licenses(BUNDLED)}\n`],
         [join(VIEWER, "viewer.js"), script],

@@ -26,7 +26,7 @@ const SOURCES = ["bitstream", "codec", "library"]
     );
 
 /** Functions for what is drawn (library/wasm/draw.c). */
-const DRAW = ["page_move", "page_grow", "page_bounds"];
+const DRAW = ["page_move", "page_grow", "page_crease", "page_bounds"];
 /** Functions for the page (library/wasm/page.c, library/bsmdec.h). */
 const PAGE = [
     ...[

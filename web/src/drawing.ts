@@ -1,7 +1,7 @@
 /** What is drawn of a stream, made in the thread that decodes: arrays that a page hands to its graphics as they are. */
 import type { Attribute } from "./attributes";
 import type { Event, Loose, EventOf } from "./events";
-import { spread, type DrawnAttribute, type DrawnFaces, type Piece } from "./drawn";
+import { composed, spread, type DrawnAttribute, type DrawnFaces, type Piece } from "./drawn";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 import type { Bounds, Grown, Memory, Move } from "./memory";
 import { drawnFaces, numbersOf } from "./parting";
@@ -23,7 +23,7 @@ export type Picture =
     | ({ type: "grown"; blocks: number } & Grown)
     /** The whole mesh, or the first frame of a run; `growth`: the blocks of all vertices of a mesh that grew. */
     | { type: "whole"; shape: Shape; run: number; growth?: { origin: Int32Array; blocks: number } }
-    | { type: "frame"; index: number; positions: Float32Array; normals: Int16Array; attributes: DrawnAttribute[] }
+    | ({ type: "frame"; index: number; normals: Int16Array } & Omit<Shape, "normals" | "index" | "vertices" | "pieces">)
     /** It is there, and drawn once the mesh is whole. */
     | ({ type: "attribute" } & Pick<Attribute, "name" | "semantic" | "domain">);
 
@@ -53,12 +53,17 @@ export class Drawing {
     /** Bytes of frames and shapes that are kept. */
     private kept = 0;
     private run = 0;
+    /** The vertices of the stream that those of `faces` are, once these are parted at sharp edges. */
+    private sources?: Int32Array;
+    /** The vertices of `faces` that are drawn, if they differ. */
+    private rows?: Int32Array;
 
     constructor(
         private growing: boolean,
         limits: Partial<Limits>,
         private readonly memory: Memory,
         private readonly show: Show,
+        private readonly crease?: number,
     ) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
     }
@@ -99,7 +104,7 @@ export class Drawing {
         [this.run, this.growing] = [run, false];
         this.faces = new Int32Array(0);
         [this.points, this.origin] = [new Float64Array(0), new Int32Array(0)];
-        [this.carried.length, this.shape] = [0, undefined];
+        [this.carried.length, this.shape, this.sources] = [0, undefined, undefined];
     }
 
     /** No more bytes are there: show what has come, as soon as there may be another picture. */
@@ -162,8 +167,8 @@ export class Drawing {
             this.finish();
         }
         const { vertices, attributes: drawn } = this.shape!;
-        const all = this.memory.grown(this.faces, points, this.origin);
-        const [positions, normals] = [all.positions, all.normals].map((each) => spread(each, 3, vertices));
+        const all = this.placesOf(points);
+        const [positions, normals] = [all.positions, all.normals].map((each) => spread(each, 3, this.rows));
         const small = new Int16Array(normals.length);
         for (let i = 0; i < small.length; i++) small[i] = Math.round(normals[i] * MOST_NORMAL);
         const attributes = moved.flatMap((attribute) => {
@@ -171,20 +176,25 @@ export class Drawing {
             return same ? [{ ...same, values: numbersOf(attribute, vertices) }] : [];
         });
         const buffers = [positions, small, ...attributes.map(({ values }) => values)].map(({ buffer }) => buffer);
-        this.show({ type: "frame", index, positions, normals: small, attributes }, buffers);
+        const bounds = this.memory.bounds(positions);
+        this.show({ type: "frame", index, positions, normals: small, attributes, ...bounds }, buffers);
     }
 
     /** The mesh is whole: part its vertices where its attributes do, and sort its faces by parts and materials. */
     private finish(): void {
         this.settle();
-        const { faces, origin, points, carried, blocks } = this;
-        const all = this.memory.grown(faces, points, origin);
+        this.part();
+        const { origin, points, carried, blocks, sources } = this;
+        const all = this.placesOf(points);
+        const isOwn = this.crease !== undefined;
         const { index, vertices, pieces, attributes, own } =
-            carried.length > 0 ? drawnFaces(faces, origin, carried) : bare(all.index);
+            carried.length > 0 ? drawnFaces(this.faces, all.origin, carried, sources, isOwn) : bare(all);
+        this.rows = vertices;
         const positions = spread(all.positions, 3, vertices);
         const normals = own ?? spread(all.normals, 3, vertices);
         const bounds = this.memory.bounds(positions);
-        const shape = (this.shape = { index, positions, normals, attributes, vertices, pieces, ...bounds });
+        const places = { index, positions, normals, vertices: composed(vertices, sources) };
+        const shape = (this.shape = { ...places, attributes, pieces, ...bounds });
         const arrays = [index, positions, normals, ...attributes.map(({ values }) => values)];
         const buffers = arrays.map(({ buffer }) => buffer);
         if (this.run > 0) this.kept += buffers.reduce((sum, { byteLength }) => sum + byteLength, 0);
@@ -192,9 +202,25 @@ export class Drawing {
         this.growing = false; // nothing is "grown" after the whole picture
         this.show({ type: "whole", shape, run: this.run, growth }, buffers);
     }
+
+    /** Part vertices at sharp edges, unless the mesh has normals of its own. */
+    private part(): void {
+        const { faces, points, crease } = this;
+        const hasNormals = this.carried.some(({ semantic, domain }) => semantic === "normal" && domain !== "face");
+        const creased = crease === undefined || hasNormals ? undefined : this.memory.creased(faces, points, crease);
+        if (creased) [this.faces, this.sources] = creased;
+    }
+
+    /** The places and normals of all vertices of the faces, where those of the stream are at `points`. */
+    private placesOf(points: Float64Array): Grown {
+        const { faces, origin, sources, memory } = this;
+        if (!sources) return memory.grown(faces, points, origin);
+        const origins = sources.map((vertex) => origin[vertex]);
+        return memory.grown(faces, spread(points, 3, sources, Float64Array), origins);
+    }
 }
 
-function bare(index: Uint32Array): DrawnFaces {
-    const pieces = index.length > 0 ? [{ part: 0, material: 0, start: 0, count: index.length }] : [];
-    return { index, pieces, attributes: [] };
+function bare({ index, vertices }: Grown): DrawnFaces {
+    const piece = { part: 0, material: 0, start: 0, count: index.length, first: 0, vertices: vertices.length };
+    return { index, pieces: index.length > 0 ? [piece] : [], attributes: [] };
 }

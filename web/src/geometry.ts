@@ -1,7 +1,26 @@
 /** A geometry of three.js that is made of pictures, while they come. */
 import { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 } from "three";
 import type { Header, Metadata, Picture, PictureOf, Piece, Shape } from "./index";
+import type { Bounds } from "./memory";
 import type { Build } from "./peek";
+
+const MOST_NORMAL = 32767; // what normals of frames are multiplied by
+
+function bound(geometry: BufferGeometry, { low, high, center, radius }: Bounds): void {
+    geometry.boundingBox = new Box3(new Vector3(...low), new Vector3(...high));
+    geometry.boundingSphere = new Sphere(new Vector3(...center), radius);
+}
+
+function renew(geometry: BufferGeometry, name: string, array: BufferAttribute["array"]): void {
+    Object.assign(geometry.getAttribute(name), { array, needsUpdate: true });
+}
+
+/** The numbers that a piece has of those of all drawn vertices; all of them where it has no vertices of its own. */
+function sliceOf(array: Float32Array, { positions }: Shape, { first, vertices }: Piece): Float32Array {
+    if (vertices === 0) return array;
+    const width = (3 * array.length) / positions.length;
+    return array.subarray(width * first, width * (first + vertices));
+}
 
 /** What happens to a geometry while it is filled. */
 export interface Progress {
@@ -48,6 +67,8 @@ export class BSMGeometry extends BufferGeometry {
     private coming?: Shape;
     private worn?: Shape;
     private normals = new Float32Array(0);
+    /** Geometries of the pieces, by their numbers, which show the same frame. */
+    private readonly parts = new Map<number, BufferGeometry>();
     private drawn = 0;
     private hidden = (_: Piece): boolean => false;
 
@@ -90,18 +111,58 @@ export class BSMGeometry extends BufferGeometry {
 
     /** Take the positions of a frame that is there. */
     showFrame(index: number): void {
-        const { positions, normals, attributes, shape } = this.frames[index];
+        const { positions, normals, attributes, shape, ...bounds } = this.frames[index];
         if (index === this.shown) return;
         this.shown = index;
         if (shape !== this.worn) this.take(shape);
-        if (!(this.getAttribute("normal").array instanceof Int16Array))
-            this.setAttribute("normal", new BufferAttribute(normals, 3, true));
-        // Arrays change hands; nothing is copied but to the graphics.
-        const renew = (name: string, array: BufferAttribute["array"]): unknown =>
-            Object.assign(this.getAttribute(name), { array, needsUpdate: true });
-        renew("position", positions);
-        renew("normal", normals);
-        for (const { name, values } of attributes) renew(name, values);
+        // Arrays change hands; nothing is copied but normals, whose three small numbers not all graphics and tools take.
+        const { array: worn } = this.getAttribute("normal");
+        const array = worn === shape.normals ? new Float32Array(worn.length) : worn;
+        for (let i = 0; i < normals.length; i++) array[i] = normals[i] / MOST_NORMAL;
+        const arrays = [
+            ["position", positions],
+            ["normal", array],
+            ...attributes.map(({ name, values }) => [name, values]),
+        ];
+        for (const [name, array] of arrays as [string, Float32Array][]) {
+            renew(this, name, array);
+            for (const [number, part] of this.parts)
+                if (shape.pieces[number]) renew(part, name, sliceOf(array, shape, shape.pieces[number]));
+        }
+        bound(this, bounds);
+        for (const part of this.parts.values()) this.boundPart(part);
+    }
+
+    /** A geometry of one piece, with vertices and bounds of its own, which shows the frame that this one shows. */
+    partOf(number: number): BufferGeometry {
+        const part = this.parts.get(number) ?? new BufferGeometry();
+        if (this.frames.length > 0) this.parts.set(number, part);
+        this.fillPart(number, part);
+        return part;
+    }
+
+    private fillPart(number: number, part: BufferGeometry): void {
+        const { worn } = this;
+        const piece = worn?.pieces[number];
+        if (part.index) part.dispose();
+        if (!worn || !piece) return void part.setIndex([]);
+        const { start, count, first } = piece;
+        for (const name of Object.keys(this.attributes)) {
+            const { array, itemSize } = this.getAttribute(name);
+            part.setAttribute(name, new BufferAttribute(sliceOf(array as Float32Array, worn, piece), itemSize));
+        }
+        part.setIndex(
+            new BufferAttribute(
+                worn.index.slice(start, start + count).map((drawn) => drawn - first),
+                1,
+            ),
+        );
+        this.boundPart(part);
+    }
+
+    /** Have bounds computed when they are asked for; while it moves, a sphere that is there is large enough to draw by. */
+    private boundPart(part: BufferGeometry): void {
+        [part.boundingBox, part.boundingSphere] = [null, this.frames.length > 0 ? this.boundingSphere : null];
     }
 
     /** Draw some pieces no longer, in all frames. */
@@ -161,7 +222,7 @@ export class BSMGeometry extends BufferGeometry {
     }
 
     private take(shape: Shape): void {
-        const { index, positions, normals, attributes, vertices, pieces, center, radius, low, high } = shape;
+        const { index, positions, normals, attributes, vertices, pieces } = shape;
         if (this.getIndex()) this.dispose();
         if (this.worn) for (const { name } of this.worn.attributes) this.deleteAttribute(name);
         this.worn = shape;
@@ -177,8 +238,8 @@ export class BSMGeometry extends BufferGeometry {
         this.setDrawRange(0, index.length);
         if (pieces.some(({ material }) => material > 0))
             pieces.forEach(({ start, count, material }) => this.addGroup(start, count, material));
-        this.boundingBox = new Box3(new Vector3(...low), new Vector3(...high));
-        this.boundingSphere = new Sphere(new Vector3(...center), radius);
+        bound(this, shape);
+        for (const [number, part] of this.parts) this.fillPart(number, part);
     }
 
     private keep({ type: _, ...frame }: PictureOf<"frame">): void {

@@ -6,8 +6,6 @@ import type { StreamDecoding } from "./pool";
 import { BSMGeometry, BSMSequence, Pool } from "./three";
 import { CodedViews, EXTENSION, placeOf, type Coded } from "./views";
 
-let shared: Pool | undefined;
-
 /**
  * A plug-in: `new GLTFLoader().register((parser) => new GLTFBSMExtension(parser))`. Streams are decoded in threads, each once.
  * Meshes that move are `gltf.userData.sequences`, each a `BSMSequence` that is to be updated for every picture.
@@ -20,7 +18,7 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
 
     constructor(
         private readonly parser: GLTFParser,
-        private readonly pool: Pool = (shared ??= new Pool()),
+        private readonly pool: Pool = Pool.at(),
     ) {}
 
     /** The bytes of a bufferView that a stream holds; null: it is a plain one. */
@@ -41,7 +39,6 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
             const sequence = moving && this.sequences.get(placeOf(this.parser.json.bufferViews[moving.stream]));
             if (!sequence || !(object instanceof Mesh)) continue;
             object.geometry = sequence.geometry;
-            object.frustumCulled = false; // the bounds are those of the first frame
         }
         gltf.userData.sequences = [...this.sequences.values()];
         return null;

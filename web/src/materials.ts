@@ -3,6 +3,7 @@ import {
     DoubleSide,
     FrontSide,
     LinearSRGBColorSpace,
+    type Material,
     MeshStandardMaterial,
     NoColorSpace,
     RepeatWrapping,
@@ -75,6 +76,18 @@ async function textureOf(data: Uint8Array): Promise<Texture | undefined> {
         return Object.assign(new Texture(image), { ...wrap, flipY: false, needsUpdate: true });
     } catch {
         return undefined;
+    }
+}
+
+/** Give back what materials hold, and their images, which nobody else closes. */
+export function disposeOf(materials: Material[]): void {
+    for (const material of materials) {
+        for (const texture of Object.values(material)) {
+            if (!(texture instanceof Texture)) continue;
+            texture.dispose();
+            if (texture.image instanceof ImageBitmap) texture.image.close();
+        }
+        material.dispose();
     }
 }
 

@@ -166,6 +166,18 @@ export class Memory {
         });
     }
 
+    /** Faces whose vertices are parted at sharp edges, and which of `points` each is; undefined if none is parted. */
+    creased(faces: Int32Array, points: Float64Array, least: number): [Int32Array, Int32Array] | undefined {
+        const [corners, size] = [faces.length, points.length / 3];
+        const work = new Int32Array(2 * size + 3 * corners);
+        const arrays = [faces, points, new Int32Array(corners), work, new Float64Array(corners)];
+        return this.held(arrays, (list, at, source, scratch, normals) => {
+            const count = this.call("page_crease", list, corners, at, size, least, source, scratch, normals);
+            if (count === 0) return undefined;
+            return [this.copied(Int32Array, list, corners), this.copied(Int32Array, source, count)];
+        });
+    }
+
     bounds(points: Float32Array): Bounds {
         return this.held([points, new Float64Array(10)], (at, found) => {
             this.call("page_bounds", at, points.length / 3, found);

@@ -13,6 +13,8 @@ export class Playback {
     private at = EARLY;
     /** Whether it waits for frames. */
     waiting = true;
+    /** How often it has begun again. */
+    loops = 0;
 
     /** Frames per second; 0: unknown. */
     constructor(
@@ -42,7 +44,8 @@ export class Playback {
         else if (this.playing) this.at += Math.max(0, seconds) * this.rate || 0; // a NaN speed must not stop the clock for good
         if (this.at < there) return;
         if (all && this.playing && this.loop) {
-            this.at = EARLY;
+            this.loops += Math.floor(this.at / there);
+            this.at %= there; // what is over counts: clocks go on
         } else {
             this.at = there - 1;
             this.playing &&= !all;

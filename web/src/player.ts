@@ -9,20 +9,22 @@ import {
     PerspectiveCamera,
     Scene,
     Sphere,
-    Texture,
     Vector3,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { hang, redraw, takeDown } from "./easel";
 import type { BSMGeometry } from "./geometry";
-import page from "./player.html";
+import { disposeOf } from "./materials";
+import page, { style, type Tree } from "./player.html";
 import { sceneOf } from "./scene";
 import { BSMLoader, BSMSequence } from "./three";
-import { turnBy } from "./turning";
+import { REACH, turnBy } from "./turning";
 
 /** What a sequence says, and the element says again. */
 const PASSED = ["play", "pause", "frame", "loop", "ended", "waiting"] as const;
-const LABEL = "A mesh in three dimensions. Arrow keys turn it, plus and minus zoom.";
+const LABEL = "A mesh in three dimensions";
+const KEYS = "Arrow keys turn it, plus and minus zoom, F or Home shows all of it.";
+const PLAYS = " The space bar plays and pauses.";
 const LOST = "The graphics card has dropped this picture (WebGL context lost).";
 const TAP = 6; // pixels that a finger may move while it taps
 /** How far outside of the window a player is drawn already. */
@@ -30,17 +32,21 @@ const NEAR = { rootMargin: "20%" };
 /** From where it is looked at first, in front and a little above, and how much farther away than would do. */
 const [FRONT, ROOM] = [new Vector3(0.4, 0.3, 1).normalize(), 1.02];
 const REFLECTED = ["src", "poster", "loop", "controls", "autoplay"];
+const SPACES = { svg: "http://www.w3.org/2000/svg", html: "http://www.w3.org/1999/xhtml" };
 /** Without a document, the class can still be imported. */
 const Base = (globalThis.HTMLElement ?? Object) as typeof HTMLElement;
 
 /**
- * A mesh as `<video>` has films. Attributes `src`, `autoplay` (not where the reader prefers reduced motion), `controls`,
- * `loop`, `rate` (times as fast), `disable-zoom`, and `poster`, a picture until something is drawn. Events: `loadeddata`
- * once something is drawn, `load` once all is there, an `ErrorEvent`, and `play`, `pause`, `frame`, `loop`, `ended`, `waiting` of a
- * sequence. Arrow keys turn it, plus and minus zoom, the space bar plays and pauses. All players of a page draw with one context.
+ * A mesh as `<video>` has films. Attributes `src`, `alt` (what screen readers say), `autoplay` (not where the reader prefers
+ * reduced motion), `controls`, `loop`, `rate` (times as fast), `disable-zoom`, `crease-angle`, and `poster`, a picture until
+ * something is drawn. Events: `loadeddata` once something is drawn, `load` once all is there, an `ErrorEvent`, and `play`, `pause`,
+ * `frame`, `loop`, `ended`, `waiting` of a sequence. Arrow keys turn it, plus and minus zoom, F, Home and a double click show all
+ * of it, the space bar plays and pauses. All players of a page draw with one context.
  */
 export class BSMPlayer extends Base {
-    static readonly observedAttributes = ["src", "loop", "rate", "poster", "controls", "disable-zoom"];
+    static readonly observedAttributes = "src alt aria-label loop rate poster controls disable-zoom crease-angle".split(
+        " ",
+    );
     declare src: string;
     declare poster: string;
     declare loop: boolean;
@@ -49,7 +55,7 @@ export class BSMPlayer extends Base {
     readonly loader = new BSMLoader();
     readonly scene = new Scene();
     readonly camera = new PerspectiveCamera(35);
-    private readonly shadow = Object.assign(this.attachShadow({ mode: "open" }), { innerHTML: page });
+    private readonly shadow = furnished(this.attachShadow({ mode: "open" }));
     readonly canvas = this.shadow.querySelector("canvas")!;
     /** Whether it can be seen, or nearly. */
     inView = true;
@@ -61,6 +67,11 @@ export class BSMPlayer extends Base {
     private fitted = 0;
     /** Whether `play` or `pause` was called last; undefined: neither was. */
     private asked?: boolean;
+    /** Hears that it plays, or that it will not. */
+    private plays: [keep: () => void, fail: (error: DOMException) => void][] = [];
+    /** Seconds that are to be shown as soon as they are there. */
+    private due?: number;
+    private ratio = 0;
     /** Whether the reader has moved the camera. */
     private touched = false;
     private orbit?: OrbitControls;
@@ -107,27 +118,47 @@ export class BSMPlayer extends Base {
     }
 
     get currentTime(): number {
-        return this.sequence ? this.sequence.frame / this.sequence.rate : 0;
+        return this.due ?? (this.sequence ? this.sequence.frame / this.sequence.rate : 0);
     }
 
     set currentTime(seconds: number) {
-        this.sequence?.seek(seconds * this.sequence.rate);
+        this.due = seconds;
+        this.reach();
     }
 
-    /** Play, or as soon as the first frame is there. */
-    play(): void {
+    /** Play, or as soon as the first frame is there; the promise fails if it is paused or changed before. */
+    play(): Promise<void> {
         this.asked = true;
         this.sequence?.play();
+        if (this.content) return Promise.resolve();
+        const begun = new Promise<void>((keep, fail) => this.plays.push([keep, fail]));
+        begun.catch(() => {}); // who does not wait for it need not hear
+        return begun;
     }
 
     pause(): void {
         this.asked = false;
         this.sequence?.pause();
+        this.forgo();
+    }
+
+    private forgo(): void {
+        for (const [, fail] of this.plays.splice(0)) fail(new DOMException("it will not play", "AbortError"));
+    }
+
+    /** Show the time that was asked for, once its frame is there or no more will come. */
+    private reach(): void {
+        const { due, sequence } = this;
+        if (due === undefined || !sequence) return;
+        const isThere = due * sequence.rate < sequence.geometry.frames.length;
+        if (!isThere && !sequence.complete) return;
+        this.due = undefined;
+        sequence.seek(due * sequence.rate);
     }
 
     /** Play, or pause. */
     toggle(): void {
-        if (this.paused) this.play();
+        if (this.paused) void this.play();
         else this.pause();
     }
 
@@ -139,12 +170,16 @@ export class BSMPlayer extends Base {
             Reflect.deleteProperty(this, name);
             this[name] = value;
         }
-        canvas.setAttribute("aria-label", this.getAttribute("aria-label") ?? LABEL);
+        const sheet = new (this.ownerDocument.defaultView as Window & typeof globalThis).CSSStyleSheet();
+        sheet.replaceSync(style); // policies allow it, and it is of the document that the element is in now
+        this.shadow.adoptedStyleSheets = [sheet];
         this.orbit = new OrbitControls(camera, canvas);
         this.orbit.addEventListener("change", () => this.redraw());
         this.orbit.addEventListener("start", () => (this.touched = true));
         canvas.style.touchAction = ""; // which the element has: a page scrolls over it
         canvas.onkeydown = (event) => this.act(event);
+        canvas.ondblclick = () => this.home();
+        this.describe();
         this.listenToTaps();
         this.steer();
         const sun = new DirectionalLight(0xffffff, 2);
@@ -172,10 +207,9 @@ export class BSMPlayer extends Base {
     }
 
     attributeChangedCallback(name: string): void {
-        if (name === "src") {
-            this.asked = undefined;
-            this.open();
-        }
+        if (name === "src") this.asked = this.due = undefined;
+        if (name === "src" || name === "crease-angle") this.open();
+        if (name === "alt" || name === "aria-label") this.describe();
         if (name === "poster") this.hold();
         if (name === "controls" || name === "disable-zoom") this.steer();
         if (this.sequence) [this.sequence.loop, this.sequence.speed] = [this.loop, this.rate];
@@ -195,6 +229,7 @@ export class BSMPlayer extends Base {
 
     /** Move on by some seconds; returns whether the picture is another one then. */
     step(seconds: number): boolean {
+        if (this.ratio !== devicePixelRatio) this.fit(); // on another screen
         const frame = this.sequence?.frame;
         this.sequence?.update(seconds);
         return this.sequence?.frame !== frame;
@@ -224,9 +259,25 @@ export class BSMPlayer extends Base {
         };
     }
 
+    /** Tell who does not see it what it is, and what keys do. */
+    private describe(): void {
+        const { canvas } = this;
+        canvas.setAttribute("aria-label", this.getAttribute("aria-label") || this.getAttribute("alt") || LABEL);
+        canvas.setAttribute("aria-description", this.sequence ? KEYS + PLAYS : KEYS);
+    }
+
+    /** Show all of it, from the front. */
+    home(): void {
+        this.touched = false;
+        this.aim();
+        this.redraw();
+    }
+
     private act(event: KeyboardEvent): void {
+        if (event.ctrlKey || event.metaKey || event.altKey) return;
         if (event.key === " " && this.sequence) this.toggle();
-        else if (!this.orbit || !turnBy(event.key, this.camera, this.orbit.target)) return;
+        else if (/^(f|home)$/i.test(event.key)) this.home();
+        else if (!this.orbit || !turnBy(event.key, this.orbit)) return;
         else this.touched = true;
         event.preventDefault();
         this.orbit?.update();
@@ -241,6 +292,7 @@ export class BSMPlayer extends Base {
 
     private fail(error: unknown): void {
         this.note.textContent = error instanceof Error ? error.message : `${error}`;
+        this.forgo();
         this.dispatchEvent(new ErrorEvent("error", { error, message: `${error}` }));
     }
 
@@ -250,6 +302,8 @@ export class BSMPlayer extends Base {
         this.hold();
         this.note.textContent = "";
         if (!this.src) return;
+        const crease = Number(this.getAttribute("crease-angle") ?? NaN);
+        this.loader.creaseAngle = crease >= 0 ? crease : undefined;
         const { signal } = (this.loading = new AbortController());
         const mine = (): boolean => !signal.aborted;
         const failed = (error: unknown): void => void (mine() && this.fail(error));
@@ -262,6 +316,7 @@ export class BSMPlayer extends Base {
         let moving: BSMSequence | undefined;
         const onFrame = (index: number, geometry: BSMGeometry): void => {
             if (mine() && this.content && geometry.frames.length >= 2 * this.fitted) this.measure(geometry);
+            if (mine()) this.reach();
             if (index > 0 || !mine()) return;
             first = this.show(geometry, mine, (moving = new BSMSequence(geometry, false))).catch(failed);
         };
@@ -269,7 +324,7 @@ export class BSMPlayer extends Base {
         const settle = (): void => {
             if (!moving) return;
             moving.complete = true;
-            void first?.then(() => mine() && this.content && this.measure(moving!.geometry));
+            void first?.then(() => mine() && this.content && (this.measure(moving!.geometry), this.reach()));
         };
         const loading = this.loader.loadAsync(this.src, onProgress, { onFrame, signal }).finally(settle);
         loading
@@ -281,19 +336,21 @@ export class BSMPlayer extends Base {
     private async show(geometry: BSMGeometry, mine: () => boolean, sequence?: BSMSequence): Promise<void> {
         const content = await sceneOf(geometry);
         if (!mine()) return;
-        content.traverse((mesh) => (mesh.frustumCulled = !sequence)); // bounds are those of the first frame
         this.scene.add((this.content = content));
         this.measure(geometry);
         this.hold();
         this.note.textContent = "";
         this.say("loadeddata");
+        for (const [keep] of this.plays.splice(0)) keep();
         if (!sequence) return;
         this.sequence = sequence;
+        this.describe();
         [sequence.loop, sequence.speed] = [this.loop, this.rate];
         for (const type of PASSED) sequence.addEventListener(type, (event) => this.say(type, event));
         sequence.addEventListener("frame", () => this.say("timeupdate"));
         if (this.asked ?? (this.autoplay && !this.isCalm)) sequence.play();
         this.steer();
+        this.reach();
     }
 
     /** Look at all of it, in all frames that are there. */
@@ -311,7 +368,8 @@ export class BSMPlayer extends Base {
         const { ball, camera, orbit } = this;
         const half = Math.atan(Math.tan((Math.PI / 360) * camera.fov) * Math.min(camera.aspect, 1));
         const far = (ROOM * ball.radius) / Math.sin(half) || 1;
-        [camera.near, camera.far] = [far / 100, 10 * far];
+        [camera.near, camera.far] = [(REACH[0] * far) / 4, 2 * REACH[1] * far];
+        if (orbit) [orbit.minDistance, orbit.maxDistance] = REACH.map((share) => share * far);
         camera.position.copy(FRONT).multiplyScalar(far).add(ball.center);
         orbit?.target.copy(ball.center);
         orbit?.update();
@@ -319,6 +377,7 @@ export class BSMPlayer extends Base {
 
     private fit(): void {
         const [width, height] = [this.clientWidth || 300, this.clientHeight || 150];
+        this.ratio = devicePixelRatio;
         this.canvas.width = Math.max(1, Math.round(width * devicePixelRatio));
         this.canvas.height = Math.max(1, Math.round(height * devicePixelRatio));
         this.camera.aspect = width / height;
@@ -329,15 +388,13 @@ export class BSMPlayer extends Base {
 
     private empty(): void {
         this.loading.abort();
+        this.forgo();
         this.content?.removeFromParent();
         this.sequence?.dispose();
         this.content?.traverse((mesh) => {
             if (!(mesh instanceof Mesh)) return;
             mesh.geometry.dispose();
-            for (const material of [mesh.material].flat() as Material[]) {
-                for (const texture of Object.values(material)) if (texture instanceof Texture) texture.dispose();
-                material.dispose();
-            }
+            disposeOf([mesh.material].flat() as Material[]);
         });
         [this.content, this.sequence, this.touched] = [undefined, undefined, false];
         this.redraw();
@@ -347,6 +404,19 @@ export class BSMPlayer extends Base {
         if (!this.bar.hidden) this.showBar();
         this.dispatchEvent(new CustomEvent(type, { detail }));
     }
+}
+
+/** A root with the elements of the player, which no policy of the page around it forbids. */
+function furnished(root: ShadowRoot): ShadowRoot {
+    root.append(...page.map(built));
+    return root;
+}
+
+function built([tag, attributes, ...inside]: Tree): Element {
+    const element = document.createElementNS(/svg|path/.test(tag) ? SPACES.svg : SPACES.html, tag);
+    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+    element.append(...inside.map(built));
+    return element;
 }
 
 /** Have the elements of a bar steer a player; returns what shows there where the player is. */

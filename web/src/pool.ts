@@ -17,8 +17,8 @@ import type { Picture } from "./drawing";
 import { errorLike, type BsmError } from "./errors";
 import type { Limits } from "./limits";
 import { isLight, needOf, threadOf, type Build, type Need, type Thread } from "./peek";
-import { isPage, PAGE } from "./fetched";
-import { here, type Source } from "./source";
+import { isPage, PAGE, resolved } from "./fetched";
+import { here, placeOf, type Source } from "./source";
 import { processors, sayAlone, WORTHWHILE } from "./threads";
 
 export { here, placeOf, type Source } from "./source";
@@ -36,7 +36,7 @@ export interface Listener {
     onTaken?: (bytes: number) => void;
 }
 
-export type StreamWishes = Pick<Start, "tolerant" | "drawing" | "worthwhile"> & {
+export type StreamWishes = Pick<Start, "tolerant" | "drawing" | "crease" | "worthwhile"> & {
     limits?: Partial<Limits>;
     /** What the stream is thought to need: a thread for that starts before the first bytes come. */
     guess?: Build;
@@ -45,7 +45,11 @@ export type StreamWishes = Pick<Start, "tolerant" | "drawing" | "worthwhile"> & 
 /** A stream whose bytes are given as they come; what they say is heard later, in its order. */
 export type StreamDecoding = Pick<PooledStream, "receiveData" | "receiveEof" | "close">;
 
+/** What threads are told of an angle in degrees at which edges are sharp; undefined: the usual one, where a mesh has some. */
+export const creaseOf = (angle?: number): number => (angle === undefined ? -2 : Math.cos((angle * Math.PI) / 180));
+
 const LIMIT = 4;
+const IDLE = 5000; // milliseconds after which threads without work end
 const MOST_FAILED = 1; // threads that may fail to start before the page does without
 const MOMENT = 100; // milliseconds that a stream waits for the headers of others, to have one decoder with them
 /** Which streams each build reads, the smallest first. */
@@ -88,6 +92,9 @@ export class Pool {
     /** Threads that never began, one after the other: a server may fail once. */
     private failed = 0;
     private alone = false;
+    private rest?: ReturnType<typeof setTimeout>;
+    /** Loaders that share it; with the last one, its threads end. */
+    private users = 0;
     /** Builds whose kernels were asked for. */
     private readonly asked = new Set<Build>();
 
@@ -95,6 +102,20 @@ export class Pool {
         private readonly source: Source = here,
         private limit = LIMIT,
     ) {}
+
+    /** The threads of the decoder's files in a folder, or of those beside this one, for one more user. */
+    static at(path?: string): Pool {
+        const key = path === undefined ? "" : resolved(path.replace(/\/?$/, "/")).href;
+        const pool = shared.get(key) ?? new Pool(path === undefined ? here : placeOf(path));
+        shared.set(key, pool);
+        pool.users++;
+        return pool;
+    }
+
+    /** One user needs it no longer. */
+    leave(): void {
+        if (--this.users === 0) this.dispose();
+    }
 
     setLimit(limit: number): void {
         this.limit = Math.max(1, limit);
@@ -114,12 +135,14 @@ export class Pool {
             () => this.end(stream),
         );
         this.streams.add(stream);
+        clearTimeout(this.rest);
         queueMicrotask(() => stream.known || stream.closed || this.expect(wishes));
         return stream;
     }
 
     /** Stop all threads; streams that are not whole fail. */
     dispose(): void {
+        clearTimeout(this.rest);
         for (const { worker } of this.hands.splice(0)) worker.terminate();
         this.waiting.length = 0;
         for (const stream of [...this.streams]) stream.fail(new Error("the decoder's threads were stopped"));
@@ -276,8 +299,15 @@ export class Pool {
         const isRoom = (): boolean =>
             this.hands.length < this.limit || this.hands.some(({ streams }) => streams.size === 0);
         for (let next; isRoom() && (next = this.waiting.shift());) this.place(next);
+        clearTimeout(this.rest);
+        if (this.streams.size > 0 || this.hands.length === 0) return;
+        this.rest = setTimeout(() => this.dispose(), IDLE);
+        (this.rest as { unref?: () => void } | undefined)?.unref?.(); // Node may end before
     }
 }
+
+/** By the addresses of the decoder's files. */
+const shared = new Map<string, Pool>();
 
 /** A stream of a pool. All that came is kept until its end, for a build that knows more. */
 class PooledStream {
@@ -336,11 +366,11 @@ class PooledStream {
     }
 
     work(say: (message: Message, moved: Transferable[]) => void, helpers: MessagePort[]): void {
-        const { tolerant, drawing, worthwhile, limits = {} } = this.wishes;
+        const { limits = {}, guess: _, ...wishes } = this.wishes;
         const { kernels, reported, need } = this;
         if (!kernels || this.closed) return;
         this.say = say;
-        const start = { kernels, build: need.build, limits, tolerant, drawing, reported, worthwhile, helpers };
+        const start = { ...wishes, kernels, build: need.build, limits, reported, helpers };
         say({ task: this.task, start }, helpers);
         for (const data of this.pieces) say({ task: this.task, data }, []);
     }

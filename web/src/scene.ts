@@ -1,7 +1,6 @@
 /** Scenes of three.js, which are loaded only where they are asked for. */
-import { BufferGeometry, Group, Mesh, type Material } from "three";
+import { Group, Mesh, type Material } from "three";
 import type { BSMGeometry } from "./geometry";
-import type { Piece } from "./index";
 import { materialsOf, nameOf, turnOf } from "./materials";
 
 /** A whole geometry as a group of meshes: materials, textures, names of parts, and y up, as its metadata say. */
@@ -15,20 +14,11 @@ export async function sceneOf(geometry: BSMGeometry): Promise<Group> {
     const all: Material | Material[] = materials.length > 1 ? materials : materials[0];
     if (parts.size < 2) group.add(new Mesh(geometry, all));
     else
-        for (const piece of pieces)
-            group.add(meshOf(geometry, piece, materials[piece.material], nameOf(metadata, "part", piece.part)));
+        for (const [number, { part, material }] of pieces.entries()) {
+            const mesh = new Mesh(geometry.partOf(number), materials[material]);
+            mesh.name = nameOf(metadata, "part", part);
+            group.add(mesh);
+        }
     group.rotation.set(...turnOf(metadata));
     return group;
-}
-
-/** A mesh of some of the faces; the arrays are those of all. */
-function meshOf(geometry: BSMGeometry, { start, count }: Piece, material: Material, name: string): Mesh {
-    const piece = new BufferGeometry();
-    for (const key of Object.keys(geometry.attributes)) piece.setAttribute(key, geometry.getAttribute(key));
-    piece.setIndex(geometry.getIndex());
-    piece.setDrawRange(start, count);
-    [piece.boundingBox, piece.boundingSphere] = [geometry.boundingBox, geometry.boundingSphere];
-    const mesh = new Mesh(piece, material);
-    mesh.name = name;
-    return mesh;
 }

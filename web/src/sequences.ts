@@ -87,19 +87,17 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
 
     update(seconds: number): void {
         const { playback, geometry } = this;
-        const [before, wasPlaying] = [playback.frame, playback.playing];
+        const { loops, playing: wasPlaying } = playback;
         playback.step(seconds * this.speed, geometry.frames.length, this.complete);
         if (playback.waiting && !this.wasWaiting) this.dispatchEvent({ type: "waiting" });
         this.wasWaiting = playback.waiting;
-        if (playback.frame < before && playback.playing) this.dispatchEvent({ type: "loop" });
+        if (playback.loops > loops) this.dispatchEvent({ type: "loop" });
         this.show(playback.frame);
         if (wasPlaying && !playback.playing) this.dispatchEvent({ type: "ended" });
     }
 
     mesh(material?: Material): Mesh {
-        const mesh = new Mesh(this.geometry, material);
-        mesh.frustumCulled = false; // the bounds are those of the first frame
-        return mesh;
+        return new Mesh(this.geometry, material);
     }
 
     /** No more frames will come. */

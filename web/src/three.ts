@@ -5,34 +5,44 @@ import { messageOf } from "./fetched";
 import { fetchPieces } from "./flights";
 import { BSMGeometry, type Progress } from "./geometry";
 import type { Limits } from "./index";
-import { placeOf, Pool, type Build, type StreamDecoding } from "./pool";
+import { creaseOf, placeOf, Pool, type Build, type StreamDecoding } from "./pool";
 import { BSMSequence, type SequenceEvents } from "./sequences";
 
 export { BSMGeometry, BSMSequence, placeOf, Pool, type Progress, type SequenceEvents };
 
 type OnProgress = (event: ProgressEvent) => void;
 
-/** Threads of all loaders that name no decoder's path of their own. */
-let shared: Pool | undefined;
+/** An event of a load; Node has none of this kind. */
+function progressOf(loaded: number, total: number): ProgressEvent {
+    const more = { lengthComputable: total > 0, loaded, total };
+    if (globalThis.ProgressEvent) return new ProgressEvent("progress", more);
+    return Object.assign(new Event("progress"), more) as unknown as ProgressEvent;
+}
 
 /**
  * Loads BSM streams; everything is done in threads of their own, which are kept for the next stream. The geometry of a
  * sequence is that of its first frame; `frames` and `showFrame` have the others, and `BSMSequence` plays them.
  */
 export class BSMLoader extends Loader<BSMGeometry> {
-    private own?: Pool;
+    /**
+     * Degrees that faces may turn at an edge before it is sharp: normals are not smooth across it. Undefined: 40 in meshes with
+     * clearly sharp edges, as CAD models have, and 180 in others. It does not count where the stream has normals.
+     */
+    creaseAngle?: number;
+    private place?: string;
+    private used?: Pool;
     private threads?: number;
     private limits: Partial<Limits> = {};
     private aborting = new AbortController();
 
     /** Take the decoder's files (`*-worker.js`, `*.wasm`, and what they import) from a folder of one's own. */
     setDecoderPath(path: string): this {
-        this.own?.dispose();
-        this.own = new Pool(placeOf(path));
+        this.leave();
+        this.place = path;
         return this;
     }
 
-    /** Use at most this many threads; without a decoder's path, so do all loaders that share them. */
+    /** Use at most this many threads, as do all loaders with the same decoder's path, which share them. */
     setWorkerLimit(limit: number): this {
         this.threads = limit;
         return this;
@@ -50,9 +60,10 @@ export class BSMLoader extends Loader<BSMGeometry> {
         return this;
     }
 
-    /** Stop the threads, which all loaders share that have no decoder's path of their own. */
+    /** Stop the loads of this loader; threads end with the last loader that shares them, or after some seconds without work. */
     dispose(): this {
-        this.pool.dispose();
+        this.abort();
+        this.leave();
         return this;
     }
 
@@ -70,12 +81,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
         onError: (error: unknown) => void = console.error,
         progress?: Progress,
     ): void {
-        const { manager } = this;
-        manager.itemStart(url);
-        this.fetched(url, onProgress, progress)
-            .then(onLoad)
-            .catch((error) => (onError(error), manager.itemError(url)))
-            .finally(() => manager.itemEnd(url));
+        this.tell(url, this.fetched(url, onProgress, progress), onLoad, onError);
     }
 
     override loadAsync(url: string, onProgress?: OnProgress, progress?: Progress): Promise<BSMGeometry> {
@@ -99,10 +105,11 @@ export class BSMLoader extends Loader<BSMGeometry> {
     }
 
     /** A group of meshes, one for each part and material, with their textures; y is up. */
-    async loadScene(url: string, onProgress?: OnProgress, progress?: Progress): Promise<Group> {
-        const loading = this.loadAsync(url, onProgress, { guess: "whole", ...progress });
-        const [geometry, { sceneOf }] = await Promise.all([loading, import("./scene")]);
-        return sceneOf(geometry);
+    loadScene(url: string, onProgress?: OnProgress, progress?: Progress): Promise<Group> {
+        const loading = this.fetched(url, onProgress, { guess: "whole", ...progress });
+        const both = Promise.all([loading, import("./scene")]);
+        const scene = both.then(([geometry, { sceneOf }]) => sceneOf(geometry));
+        return new Promise((keep, fail) => this.tell(url, scene, keep, fail));
     }
 
     /** A sequence that can be played as soon as its first frame is there. */
@@ -124,9 +131,29 @@ export class BSMLoader extends Loader<BSMGeometry> {
     }
 
     private get pool(): Pool {
-        const pool = this.own ?? (shared ??= new Pool());
+        const pool = (this.used ??= Pool.at(this.place));
         if (this.threads !== undefined) pool.setLimit(this.threads);
         return pool;
+    }
+
+    private leave(): void {
+        this.used?.leave();
+        this.used = undefined;
+    }
+
+    /** Pass on what is loaded; the manager hears of its end after that. */
+    private tell<Loaded>(
+        url: string,
+        loading: Promise<Loaded>,
+        onLoad: (loaded: Loaded) => void,
+        onError: (error: unknown) => void,
+    ): void {
+        const { manager } = this;
+        manager.itemStart(url);
+        loading
+            .then(onLoad)
+            .catch((error) => (onError(error), manager.itemError(url)))
+            .finally(() => manager.itemEnd(url));
     }
 
     private fetched(url: string, onProgress?: OnProgress, progress?: Progress): Promise<BSMGeometry> {
@@ -145,8 +172,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
                 {
                     signal,
                     onPiece: (piece) => stream.receiveData(piece),
-                    onProgress: (loaded, total) =>
-                        onProgress?.(new ProgressEvent("progress", { lengthComputable: total > 0, loaded, total })),
+                    onProgress: (loaded, total) => onProgress?.(progressOf(loaded, total)),
                 },
             );
             stream.receiveEof();
@@ -168,7 +194,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
             const drawing = progress?.onBlock || progress?.onConnectivity ? "growing" : "whole";
             const stream = this.pool.open(
                 { onPicture: (picture) => geometry.accept(picture), onEnd: () => keep(geometry), onError: fail },
-                { drawing, limits: this.limits, guess: progress?.guess },
+                { drawing, limits: this.limits, guess: progress?.guess, crease: creaseOf(this.creaseAngle) },
             );
             const fall = (error: unknown): void => (stream.close(), fail(error));
             signal.onabort = () => fall(signal.reason);

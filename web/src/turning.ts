@@ -1,5 +1,6 @@
 /** Keys that turn and zoom a camera around its target. */
-import { type PerspectiveCamera, Spherical, type Vector3 } from "three";
+import { Spherical } from "three";
+import type { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 const TURN = Math.PI / 24;
 const ZOOM = 1.1;
@@ -12,14 +13,17 @@ const STEPS: Record<string, [theta: number, phi: number, radius: number]> = {
     "-": [0, 0, ZOOM],
 };
 
+/** Nearest and farthest distance from the middle, over that which shows all. */
+export const REACH = [0.04, 5];
+
 /** Move the camera as a key says; returns whether it says so. */
-export function turnBy(key: string, camera: PerspectiveCamera, target: Vector3): boolean {
+export function turnBy(key: string, { object, target, minDistance, maxDistance }: OrbitControls): boolean {
     const step = STEPS[key];
     if (!step) return false;
-    const place = new Spherical().setFromVector3(camera.position.sub(target));
+    const place = new Spherical().setFromVector3(object.position.sub(target));
     place.theta += step[0];
     place.phi += step[1];
-    place.radius *= step[2];
-    camera.position.setFromSpherical(place.makeSafe()).add(target);
+    place.radius = Math.min(Math.max(place.radius * step[2], minDistance), maxDistance);
+    object.position.setFromSpherical(place.makeSafe()).add(target);
     return true;
 }

@@ -22,6 +22,11 @@ export interface Start {
     tolerant?: boolean;
     /** Report pictures, not events: only the whole one, or each that can be drawn. */
     drawing?: "whole" | "growing";
+    /**
+     * The cosine of the angle at which faces of pictures have vertices of their own, and pieces as well; below -1 of the usual
+     * angle, where the mesh has clearly sharp edges. Undefined: vertices are those of the stream.
+     */
+    crease?: number;
     /** Events that another decoder has reported of this stream, which are not to be reported again. */
     reported?: number;
     /** Threads that help this one, and vertices of blocks from which on that is worthwhile. */
@@ -146,11 +151,15 @@ export class Reporter {
         private readonly start: Start,
         private readonly out: Say,
     ) {
-        const { drawing, limits, reported = 0 } = start;
+        const { crease, drawing, limits, reported = 0 } = start;
         this.reported = -reported;
         if (drawing)
-            this.drawing = new Drawing(drawing === "growing", limits, decoder.engine, (picture, moved) =>
-                this.say({ picture }, moved),
+            this.drawing = new Drawing(
+                drawing === "growing",
+                limits,
+                decoder.engine,
+                (picture, moved) => this.say({ picture }, moved),
+                crease,
             );
     }
 

@@ -19,6 +19,8 @@ export const POLICY = `default-src 'none'; connect-src 'self'; script-src 'self'
 const FOLDERS: Record<string, string> = {
     bsm: join(WEB, "built"),
     three: join(WEB, "node_modules/three"),
+    "three-oldest": join(WEB, "node_modules/three-oldest"),
+    bvh: join(WEB, "node_modules/three-mesh-bvh"),
     stream: VECTORS,
 };
 

@@ -11,8 +11,8 @@ import { VIEWER, WEB } from "./shared";
  * itself.
  */
 const LOADS: Record<string, [most: number, files: string[]]> = {
-    "light grids": [20800, ["small-worker.js", "quick.wasm"]],
-    "light grids of parts": [24000, ["small-worker.js", "parts.wasm"]],
+    "light grids": [21000, ["small-worker.js", "quick.wasm"]],
+    "light grids of parts": [24200, ["small-worker.js", "parts.wasm"]],
     grids: [55500, ["small-worker.js", "grid.wasm"]],
     blocks: [71800, ["small-worker.js", "blocks.wasm"]],
     "static meshes": [89100, ["small-worker.js", "small.wasm"]],

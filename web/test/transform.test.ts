@@ -109,9 +109,9 @@ describe("glTF-Transform", async () => {
             index: 0,
             positions: { byteLength: 2 ** 29 } as Float32Array,
             normals: new Int16Array(),
-            attributes: [],
         } as const;
-        assert.throws(() => heard[1]({ ...frame, attributes: [] }), /become more than/); // which the pool passes on
+        const bounds = { low: [], high: [], center: [0, 0, 0] as [number, number, number], radius: 0 };
+        assert.throws(() => heard[1]({ ...frame, ...bounds, attributes: [] }), /become more than/); // which the pool passes on
         assert.deepEqual(closed, ["a", "b"]);
         assert.match(String(await begin("c")), /become more than/);
         assert.deepEqual(closed.slice(2).sort(), ["a", "b", "c"]);

@@ -1,8 +1,8 @@
 /** The compared meshes (original, stream, Draco's file): which are shown, how, and in which colors. */
-import { BufferAttribute, Vector3 } from "three";
+import { BufferAttribute, Triangle, Vector3 } from "three";
 import { BSMGeometry } from "../geometry";
 import { materialsOf, turnOf } from "../materials";
-import type { Pool } from "../pool";
+import { creaseOf, type Pool } from "../pool";
 import { colorsOf, fieldOf, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
 import { distancesOf } from "./distances";
 import { element, percent, sized, type Content } from "./facts";
@@ -91,7 +91,7 @@ export class Comparison {
         for (const [i, layer] of layers.entries()) {
             const off = layer.off && new Float32Array((await bytesOf(layer.off)).buffer);
             const made = async (): Promise<BSMGeometry> =>
-                layer.pictures ? new BSMGeometry() : wholeOf(pool, await bytesOf(layer));
+                layer.pictures ? new BSMGeometry() : wholeOf(pool, await bytesOf(layer), creaseOf());
             const geometry = i === main ? undefined : await made();
             for (const picture of layer.pictures ?? []) geometry?.accept(picture);
             if (!mine()) return;
@@ -170,6 +170,22 @@ export class Comparison {
         this.allow("own", true);
         if (scheme.value === "plain") scheme.value = "own";
         this.stale = true;
+    }
+
+    /** The error at a place between drawn vertices, and over the diagonal; undefined where it is not known. */
+    errorAt(
+        index: number,
+        { frames, header, parted, shown, attributes: { position } }: BSMGeometry,
+        corners: number[],
+        place: Vector3,
+    ): [off: number, share: number] | undefined {
+        const off = this.offs[index];
+        if (!off || !header) return undefined;
+        const first = frames.length > 1 ? shown * header.vertices : 0;
+        const [a, b, c] = corners.map((drawn) => new Vector3().fromBufferAttribute(position, drawn));
+        const weights = Triangle.getBarycoord(place, a, b, c, new Vector3())?.toArray() ?? [1, 0, 0];
+        const error = corners.reduce((sum, drawn, k) => sum + weights[k] * off[first + (parted?.[drawn] ?? drawn)], 0);
+        return error >= 0 ? [error, error / (this.content.facts.diagonal ?? 1)] : undefined;
     }
 
     /** Show errors in colors, or no longer. */

@@ -1,14 +1,10 @@
 /** How far a mesh is from its original: from its vertices where the faces agree, from its surface where not. */
-import { Box3, Triangle, Vector3 } from "three";
+import { BufferAttribute, BufferGeometry, Vector3 } from "three";
+import { MeshBVH } from "three-mesh-bvh";
 import type { BSMGeometry } from "../geometry";
 
-const [LEAF, MOST] = [4, 2 ** 23]; // faces of a leaf; faces of a mesh, and vertices of all frames that have colors
+const MOST = 2 ** 23; // faces of a mesh, and vertices of all frames that have colors
 const SLICE = 12; // milliseconds of work, after which the page may answer
-const CELLS = 1024; // along an axis
-/** The bits of a number, with room for those of two others between them. */
-const SPREAD = Float64Array.from({ length: CELLS }, (_, cell) =>
-    [...cell.toString(2)].reduce((sum, bit) => 8 * sum + Number(bit), 0),
-);
 
 export interface Distances {
     /** Of each vertex in each frame; empty where there are too many, or the faces change. */
@@ -44,62 +40,23 @@ function bodyOf({ frames, index, parted, attributes: { position } }: BSMGeometry
     return { points, faces, used: Uint32Array.from(seen.keys()).filter((vertex) => seen[vertex]) };
 }
 
-/** Faces in the order of a curve that fills space, and boxes around 4, 8, 16 ... of them. */
+/** Which triangle of some is the nearest one. */
 class Tree {
-    /** The face that was the nearest one. */
-    face = 0;
-    private readonly boxes: Box3[];
-    private readonly order: Float64Array;
-    private readonly triangle = new Triangle();
-    private readonly place = new Vector3();
+    /** The first vertex of the face that was the nearest one. */
+    vertex = 0;
+    private readonly bvh: MeshBVH;
+    private readonly hit = { point: new Vector3(), distance: 0, faceIndex: 0 };
 
-    constructor(
-        private readonly points: Float32Array,
-        private readonly faces: Uint32Array,
-    ) {
-        const [whole, count] = [new Box3().setFromArray(points), faces.length / 3];
-        const size = whole.getSize(new Vector3()).clampScalar(Number.MIN_VALUE, Infinity);
-        const along = Float64Array.from({ length: count }, (_, face) => {
-            const share = this.at(face).getMidpoint(this.place).sub(whole.min).divide(size);
-            const [x, y, z] = share.toArray().map((part) => SPREAD[Math.min(Math.floor(CELLS * part), CELLS - 1)]);
-            return (x + 2 * y + 4 * z) * MOST + face;
-        });
-        this.order = along.sort().map((key) => key % MOST);
-        const inner = 2 ** Math.ceil(Math.log2(Math.max(1, count / LEAF))) - 1;
-        const boxes = (this.boxes = Array.from({ length: 2 * inner + 1 }, () => new Box3()));
-        this.order.forEach((face, k) => {
-            const { a, b, c } = this.at(face);
-            boxes[inner + Math.floor(k / LEAF)].expandByPoint(a).expandByPoint(b).expandByPoint(c);
-        });
-        for (let node = inner - 1; node >= 0; node--) boxes[node].union(boxes[2 * node + 1]).union(boxes[2 * node + 2]);
+    constructor(points: Float32Array, faces: Uint32Array) {
+        const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(points, 3));
+        this.bvh = new MeshBVH(geometry.setIndex(new BufferAttribute(faces.slice(), 1)));
     }
 
-    /** How far a point is; `face` is the nearest one then. */
+    /** How far a point is; `vertex` is one of the nearest face then. */
     distance(point: Vector3): number {
-        const { boxes, order } = this;
-        let best = Infinity;
-        const measure = (face: number): void => {
-            const far = this.at(face).closestPointToPoint(point, this.place).distanceTo(point);
-            if (far < best) [best, this.face] = [far, face];
-        };
-        measure(this.face); // neighbors are near the same one
-        const nodes = [0];
-        while (nodes.length > 0) {
-            const node = nodes.pop()!;
-            const [left, leaf] = [2 * node + 1, node - (boxes.length - 1) / 2];
-            if (boxes[node].distanceToPoint(point) >= best) continue;
-            const [near, far] = [left, left + 1].map((below) => boxes[below]?.distanceToPoint(point));
-            if (leaf >= 0) order.subarray(LEAF * leaf, LEAF * (leaf + 1)).forEach(measure);
-            else nodes.push(...(near < far ? [left + 1, left] : [left, left + 1]));
-        }
-        return best;
-    }
-
-    private at(face: number): Triangle {
-        const { triangle, points, faces } = this;
-        const { a, b, c } = triangle;
-        [a, b, c].forEach((corner, i) => corner.fromArray(points, 3 * faces[3 * face + i]));
-        return triangle;
+        this.bvh.closestPointToPoint(point, this.hit);
+        this.vertex = this.bvh.geometry.index!.array[3 * this.hit.faceIndex];
+        return this.hit.distance;
     }
 }
 
@@ -118,7 +75,7 @@ function* matched(now: Body, then: Body): Generator<void, ArrayLike<number> | un
     const tree = new Tree(then.points, points);
     for (const vertex of now.used) {
         tree.distance(point.fromArray(now.points, 3 * vertex));
-        same[vertex] = then.used[tree.face];
+        same[vertex] = tree.vertex;
         yield;
     }
     const known = new Set(written(then.faces));

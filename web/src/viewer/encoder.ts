@@ -6,7 +6,7 @@ import { messageOf } from "../fetched";
 import type { Header } from "../header";
 import { Engine } from "../engine";
 import { Kernels, openDesk } from "../index";
-import { Pool } from "../pool";
+import { creaseOf, Pool } from "../pool";
 import { suffixOf, type Reading } from "../reading";
 import { encodeHere, inSingle, readFrames, readOne, shownAmong } from "../together";
 import type { Content, Layer } from "./facts";
@@ -29,10 +29,11 @@ function drawn(
 ): { pictures: Picture[]; moved: Transferable[] } {
     const [pictures, moved]: [Picture[], Transferable[]] = [[], []];
     const engine = new Engine(new Kernels(kernels), {}, false);
-    const drawing = new Drawing(false, {}, engine, (picture, buffers = []) => {
+    const show = (picture: Picture, buffers: Transferable[] = []): void => {
         pictures.push(picture);
         moved.push(...buffers);
-    });
+    };
+    const drawing = new Drawing(false, {}, engine, show, creaseOf());
     const size = positions.length / Math.max(frames, 1);
     const [firsts, none] = [firstsOf(positions, size), new Int32Array(0)];
     drawing.accept({ type: "header", header: { vertices: new Set(firsts).size, faces: faces.length / 3 } as Header });

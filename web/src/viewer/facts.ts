@@ -1,4 +1,5 @@
 /** The numbers of the result card, in the words of the command line. */
+import { Vector3 } from "three";
 import type { BSMGeometry } from "../geometry";
 import type { Picture } from "../index";
 import type { Inlined } from "./inlined";
@@ -139,7 +140,7 @@ function visibleIn(notes: string[]): string[] {
 export function factsOf(
     { layers, main, facts }: Content,
     length: number,
-    { carried, frames: { length: frames }, header, metadata }: BSMGeometry,
+    { boundingBox, carried, frames: { length: frames }, header, metadata }: BSMGeometry,
     took?: number,
 ): { plain?: number; size: number; claim: string; tone: Tone; rows: Row[] } {
     const size = layers[main].size || length;
@@ -173,6 +174,11 @@ export function factsOf(
     }
     if (seconds !== undefined) rows.push(["Encoded in", spent(SECOND * seconds)]);
     if (took !== undefined) rows.push(["Decoded and drawn in", spent(took)]);
+    if (boundingBox && vertices > 0) {
+        const unit = metadata.get("unit");
+        const sides = boundingBox.getSize(new Vector3()).toArray().map(short).join(" × ");
+        rows.push(["Box", typeof unit === "string" ? `${sides} ${unit}` : sides]);
+    }
     if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
     if (before && before[1] !== faces)
         rows.push(["Original", `${counted(before[0])} vertices`, `${counted(before[1])} triangles`]);
@@ -188,11 +194,14 @@ export function factsOf(
     if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);
     const [words, tone] = verdictOf(facts, metadata.get("unit"));
     const all = leftOut(notes);
+    const absent = notes.flatMap((note) => /(\S+) (?:were|was) left out: no such file/.exec(note)?.[1] ?? []);
+    const gone = [...new Set([...(missing ?? []), ...absent])];
     const said = [
+        gone.length > 0 ? `Missing: ${gone.join(", ")}. ` : "",
         facts.less ? `Left out: ${all.join(", ") || "parts of the file"}. ` : "",
         unshown.length > 0 ? `Not shown: ${unshown.join(", ")}. ` : "",
     ].join("");
-    const isLess = missed.length > 0 || unshown.length > 0;
+    const isLess = missed.length + unshown.length + gone.length > 0;
     const smaller = size > 0 && ratio > 1 && /good|fair/.test(tone) ? `, ${times(ratio)} times smaller` : "";
     return { plain, size, claim: `${said}${words}${smaller}`, tone: isLess && tone === "good" ? "fair" : tone, rows };
 }

@@ -11,6 +11,7 @@ export function listenToKeys(form: Form, stage: Stage, meshes: Comparison): void
         w: () => mode("wipe"),
         s: () => mode("split"),
         f: () => stage.home(),
+        home: () => stage.home(),
         m: () => form.control("full").click(),
         d: () => form.pick("shading", SHADINGS[(SHADINGS.indexOf(form.picked("shading")) + 1) % SHADINGS.length]),
         e: () => meshes.toggleErrors(),

@@ -4,6 +4,7 @@ import {
     type BufferGeometry,
     type DataTexture,
     DirectionalLight,
+    BackSide,
     DoubleSide,
     Group,
     type Material,
@@ -12,13 +13,20 @@ import {
     MeshBasicMaterial,
     MeshStandardMaterial,
     NeutralToneMapping,
+    type Object3D,
+    Plane,
     PlaneGeometry,
     PMREMGenerator,
+    Raycaster,
     Scene,
+    Spherical,
+    Vector2,
     Vector3,
     WebGLRenderer,
 } from "three";
+import { MeshBVH } from "three-mesh-bvh";
 import { Camera, frontOf } from "./camera";
+import { normalLines, wrongEdges } from "./inspector";
 import { GROUND, shadowOf, studio } from "./light";
 import { freeAreas } from "./room";
 
@@ -27,10 +35,21 @@ const WHITE = 0xffffff;
 const WIRES = { wireframe: true, color: 0x101418, transparent: true, opacity: 0.35 };
 const THUMB = 44; // pixels of the handle of the wipe
 const [QUIET, SMOOTH] = [400, 2]; // milliseconds, and by how much pixels are finer then
+const [READY, NORMAL] = [400_000, 0.01]; // faces that are searched without being asked; length of a normal over the diagonal
 const [AIMED, BOUNDED] = [50_000, 5_000_000]; // points that the camera makes room for, and that boxes hold
 
 export type Mode = "one" | "wipe" | "split";
 export type Shading = "smooth" | "flat" | "wire";
+/** What is drawn over a mesh: boundaries and edges of three faces, back faces, or normals. */
+export type Overlay = "" | "edges" | "backs" | "normals";
+
+/** A place of a mesh below the pointer: which mesh, one of its faces, and where in its unit. */
+export interface Hit {
+    index: number;
+    geometry: BufferGeometry;
+    face: number;
+    point: Vector3;
+}
 
 type AnyMesh = Mesh<BufferGeometry, Material | Material[]>;
 
@@ -97,6 +116,14 @@ export class Stage {
     private depth = Infinity;
     /** Has the camera show everything again. */
     private aim: () => void = () => {};
+    /** The standard view that was chosen. */
+    private side?: Spherical;
+    private readonly marks = new Group();
+    private readonly backs = new MeshBasicMaterial({ color: 0xd6006f, side: BackSide });
+    private over: Overlay = "";
+    private ratio = 0;
+    /** Trees of faces, with the places that they were made of. */
+    private readonly trees = new WeakMap<BufferGeometry, [places: unknown, faces: unknown, tree: MeshBVH]>();
     private shading: Shading = "smooth";
     private stale = true;
     private moved = 0;
@@ -122,7 +149,7 @@ export class Stage {
         this.ground.rotation.x = -Math.PI / 2;
         this.ground.visible = false;
         this.scene.add(this.key, this.ground, this.turned);
-        this.turned.add(...this.drawn.map(({ holder }) => holder));
+        this.turned.add(...this.drawn.map(({ holder }) => holder), this.marks);
     }
 
     show(index: number, ...geometries: BufferGeometry[]): void {
@@ -165,15 +192,82 @@ export class Stage {
         const root = this.canvas.closest<HTMLElement>(".bsm")!;
         this.aim = () => {
             const areas = freeAreas(root, this.mode === "split" ? 2 : 1);
-            camera.aim((act) => over(act, AIMED), matrix, front, areas);
+            camera.aim((act) => over(act, AIMED), matrix, front, areas, this.side);
         };
         if (!camera.touched) this.aim();
     }
 
     /** Show everything again, from where it was first seen. */
     home(): void {
+        this.look();
+    }
+
+    /** Look from a side, by degrees around the upward axis and down from it; without them, from where it was first seen. */
+    look(angles?: [theta: number, phi: number]): void {
+        const [theta, phi] = (angles ?? []).map((angle) => angle * MathUtils.DEG2RAD);
+        this.side = angles && new Spherical(1, phi, theta);
         this.camera.touched = false;
         this.aim();
+    }
+
+    /** Draw objects over the meshes, in their unit. */
+    mark(...objects: Object3D[]): void {
+        this.marks.clear().add(...objects);
+        this.redraw();
+    }
+
+    overlay(over: Overlay): void {
+        this.over = over;
+        this.shade(this.shading);
+    }
+
+    /** Cut all meshes at a share of their box along an axis, 0 to 2; -1: nowhere. */
+    cut(axis: number, share: number, flip: boolean): void {
+        const { renderer, turned } = this;
+        const plane = new Plane();
+        const box = this.drawn[this.sides[1]].meshes[0]?.geometry.boundingBox;
+        if (axis >= 0 && box) {
+            plane.normal.set(0, 0, 0).setComponent(axis, flip ? 1 : -1);
+            plane.constant = -plane.normal.dot(box.min.clone().lerp(box.max, share));
+            turned.updateWorldMatrix(true, false);
+            plane.applyMatrix4(turned.matrixWorld);
+        }
+        renderer.clippingPlanes = axis >= 0 && box ? [plane] : [];
+        this.redraw();
+    }
+
+    /** What is at a place of the canvas; of a large mesh only if that is worth a moment. */
+    pick(x: number, y: number, isAsked: boolean): Hit | undefined {
+        const { camera, sides, mode, seam, turned, renderer } = this;
+        const [width, height] = camera.size;
+        const isLeft = mode !== "one" && x < seam;
+        const [from, to] = mode !== "split" ? [0, width] : isLeft ? [0, seam] : [seam, width];
+        const index = sides[isLeft ? 0 : 1];
+        const caster = new Raycaster();
+        caster.setFromCamera(new Vector2((2 * (x - from)) / (to - from) - 1, 1 - (2 * y) / height), camera);
+        const [plane] = renderer.clippingPlanes as Plane[];
+        if (plane?.distanceToPoint(caster.ray.origin) < 0 && !caster.ray.intersectPlane(plane, caster.ray.origin))
+            return undefined;
+        const ray = caster.ray.clone().applyMatrix4(turned.matrixWorld.clone().invert());
+        let best: (Hit & { far: number }) | undefined;
+        for (const { geometry } of this.drawn[index].meshes) {
+            const faces = geometry.getIndex();
+            if (!faces || geometry.drawRange.count < faces.count || (!isAsked && faces.count > 3 * READY)) continue;
+            const hit = this.treeOf(geometry).raycastFirst(ray, DoubleSide);
+            const isCut = hit && plane?.distanceToPoint(turned.localToWorld(hit.point.clone())) < -1e-6;
+            if (hit && !isCut && hit.distance < (best?.far ?? Infinity))
+                best = { index, geometry, face: hit.faceIndex!, point: hit.point, far: hit.distance };
+        }
+        return best;
+    }
+
+    private treeOf(geometry: BufferGeometry): MeshBVH {
+        const [places, faces] = [geometry.getAttribute("position").array, geometry.getIndex()!.array];
+        const [oldPlaces, oldFaces, old] = this.trees.get(geometry) ?? [];
+        const tree = old && oldFaces === faces ? old : new MeshBVH(geometry, { indirect: true });
+        if (tree === old && oldPlaces !== places) tree.refit(); // another frame
+        this.trees.set(geometry, [places, faces, tree]);
+        return tree;
     }
 
     shadow(...geometries: BufferGeometry[]): void {
@@ -191,6 +285,7 @@ export class Stage {
         this.ground.visible = false;
         this.depth = Infinity;
         this.aim = () => {};
+        this.side = undefined;
         this.camera.reset();
         this.redraw();
     }
@@ -262,6 +357,7 @@ export class Stage {
     step(): void {
         this.camera.controls.update();
         const now = performance.now();
+        if (this.ratio !== devicePixelRatio) this.fit(); // on another screen
         if (this.stale) this.renew(1, now);
         else if (!this.fast && now - this.moved > QUIET && this.renderer.getPixelRatio() === devicePixelRatio)
             this.renew(SMOOTH, this.moved);
@@ -305,7 +401,12 @@ export class Stage {
     }
 
     private edge(mesh: AnyMesh): void {
+        for (const child of mesh.children as Mesh[]) if (child.geometry !== mesh.geometry) child.geometry.dispose();
         mesh.clear();
+        if (this.over === "backs") mesh.add(new Mesh(mesh.geometry, this.backs));
+        if (this.over === "edges") mesh.add(wrongEdges(mesh.geometry));
+        if (this.over === "normals") mesh.add(normalLines(mesh.geometry, NORMAL / this.turned.scale.x));
+        for (const child of mesh.children) [child.frustumCulled, child.renderOrder] = [mesh.frustumCulled, 1];
         if (this.shading !== "wire") return;
         const edges = new Mesh(mesh.geometry, this.wires);
         edges.frustumCulled = mesh.frustumCulled;
@@ -320,6 +421,7 @@ export class Stage {
     }
 
     fit(): void {
+        this.ratio = devicePixelRatio;
         const { clientWidth, clientHeight } = this.canvas.parentElement!;
         const { camera, renderer } = this;
         if (clientWidth !== camera.size[0] || clientHeight !== camera.size[1])

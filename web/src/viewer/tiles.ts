@@ -8,6 +8,7 @@ import type { Pool } from "../pool";
 const BUDGET = 3_000_000; // faces that are shown at a time
 const AT_ONCE = 4;
 const FOOT = 16; // bytes behind the index of a shard
+const MOST_WHOLE = 2 ** 26; // bytes of a shard that is fetched whole
 const FINE = 1; // pixels that a tile may be off
 
 type Triple = [number, number, number];
@@ -64,23 +65,40 @@ class Tile {
     }
 }
 
+/** Files of servers that send no ranges, whole. */
+const wholes = new Map<string, Promise<Uint8Array<ArrayBuffer>>>();
+
+/** Bytes of a file from its server, which may send all of it once and for all. */
+async function piece(url: string, offset: number, size: number): Promise<Uint8Array<ArrayBuffer>> {
+    const before = await wholes.get(url);
+    if (before) return before.slice(offset, offset + size);
+    const response = await fetch(url, { headers: { Range: `bytes=${offset}-${offset + size - 1}` } });
+    if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+    if (response.status === 206) return new Uint8Array(await response.arrayBuffer());
+    if (Number(response.headers.get("content-length")) > MOST_WHOLE)
+        throw new Error(`${url}: this server sends no ranges of files; choose one that does, or smaller shards`);
+    const whole = response.arrayBuffer().then((buffer) => new Uint8Array(buffer));
+    wholes.set(url, whole);
+    whole.catch(() => wholes.delete(url));
+    return (await whole).slice(offset, offset + size);
+}
+
 /** Bytes of a file, if they are those that were written. */
 async function ranged(url: string, offset: number, size: number, sum: string): Promise<Uint8Array> {
-    const response = await fetch(url, { headers: { Range: `bytes=${offset}-${offset + size - 1}` } });
-    if (response.status !== 206) throw new Error(`${url}: ${response.status} ${response.statusText}`);
-    const bytes = new Uint8Array(await response.arrayBuffer());
+    const bytes = await piece(url, offset, size);
+    if (!globalThis.crypto.subtle) return bytes; // on plain http, where streams are checked by their own sums alone
     const digest = new Uint8Array(await crypto.subtle.digest("SHA-256", bytes));
     const found = Array.from(digest, (byte) => byte.toString(16).padStart(2, "0")).join("");
     if (found !== sum) throw new Error(`${url}: bytes from ${offset} on differ from those that bsm tile wrote`);
     return bytes;
 }
 
-export function wholeOf(pool: Pool, bytes: Uint8Array): Promise<BSMGeometry> {
+export function wholeOf(pool: Pool, bytes: Uint8Array, crease?: number): Promise<BSMGeometry> {
     return new Promise((resolve, fail) => {
         const geometry = new BSMGeometry();
         const stream = pool.open(
             { onPicture: (picture) => geometry.accept(picture), onEnd: () => resolve(geometry), onError: fail },
-            { drawing: "whole" },
+            { drawing: "whole", crease },
         );
         stream.receiveData(bytes);
         stream.receiveEof();

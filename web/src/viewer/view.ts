@@ -14,12 +14,13 @@ import { errorLike, type Header, type EventOf } from "../index";
 import { messageOf } from "../fetched";
 import { BSMGeometry } from "../geometry";
 import { turnOf } from "../materials";
-import type { Pool, StreamDecoding } from "../pool";
+import { creaseOf, type Pool, type StreamDecoding } from "../pool";
 import { Arrival } from "./arrival";
 import { pictureOf } from "./capture";
 import { Comparison } from "./comparison";
 import { counted, element, factsOf, sized, type Content, type Row } from "./facts";
 import { Form } from "./form";
+import { Inspector } from "./inspector";
 import { listenToKeys } from "./keys";
 import { joinNormals } from "./seams";
 import { SequenceBar } from "./sequence";
@@ -50,6 +51,9 @@ export class View {
     private readonly arrival: Arrival;
     private readonly meshes: Comparison;
     private readonly sequence: SequenceBar;
+    private readonly inspector: Inspector;
+    /** The view that the address of the page names, until something is shown. */
+    private linked = location.hash.slice(1);
     private readonly cancel: () => void;
     private content: Content = { name: "", main: 0, layers: [], facts: {} };
     private geometry = new BSMGeometry();
@@ -89,6 +93,7 @@ export class View {
         this.arrival = new Arrival(this.form);
         this.meshes = new Comparison(this.form, this.stage);
         this.sequence = new SequenceBar(this.form);
+        this.inspector = new Inspector(this.form, this.stage, this.meshes, (blob, suffix) => this.save(blob, suffix));
         this.cancel = takeFiles(this.form, (content, bytes) => (this.begin(), this.showAll(content, bytes)), encode);
         this.listen();
         for (const part of [root, ...root.querySelectorAll(".bsm-side > *, .bsm-dock")]) this.watch.observe(part);
@@ -122,7 +127,8 @@ export class View {
         const player = `<bsm-player src="${encodeURIComponent(stemOf(content.name))}.bsm" autoplay loop></bsm-player>`;
         form.say("embed", `<script type="module">import "bsm-decoder/player";</script>\n${player}`);
         form.part("invite").hidden = true;
-        form.part("arrival").hidden = form.part("colors").hidden = content.tiles !== undefined;
+        const isTiled = content.tiles !== undefined;
+        for (const part of ["arrival", "colors", "files"]) form.part(part).hidden = isTiled;
         form.control("keep").hidden = content.facts.seconds === undefined; // there is a file of it already
         this.content = content;
         this.arrival.clear();
@@ -176,7 +182,12 @@ export class View {
         form.on("spin", "change", ({ checked }) => (stage.camera.controls.autoRotate = checked));
         form.on("back", "change", ({ value }) => (root.dataset.back = value));
         form.on("again", "click", () => this.restart());
-        form.on("embed", "click", () => void navigator.clipboard?.writeText(form.part("embed").textContent!));
+        form.on("embed", "click", (button) => void this.copy(form.part("embed"), button));
+        form.on("link", "click", (button) => {
+            const address = `${location.href.replace(/#.*/, "")}#${this.inspector.state}`;
+            form.say("address", address);
+            void this.copy(form.part("address"), button);
+        });
         form.on("theme", "click", () => {
             const system = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
             root.dataset.theme = (root.dataset.theme ?? system) === "dark" ? "light" : "dark";
@@ -199,6 +210,18 @@ export class View {
         listenToKeys(form, stage, meshes);
         if (matchMedia("(min-width: 45rem) and (min-height: 30rem)").matches)
             form.part("more").setAttribute("open", "");
+    }
+
+    /** Copy a text, and say so; where the page may not write, select it. */
+    private async copy(text: HTMLElement, button: HTMLElement): Promise<void> {
+        const label = (button.dataset.label ??= button.textContent!);
+        const isCopied = await navigator.clipboard?.writeText(text.textContent!).then(
+            () => true,
+            () => false,
+        );
+        if (!isCopied) getSelection()?.selectAllChildren(text);
+        button.textContent = isCopied ? "Copied" : "Press Ctrl+C to copy it";
+        setTimeout(() => (button.textContent = label), 3000);
     }
 
     private save(blob: Blob, suffix: string): void {
@@ -271,7 +294,7 @@ export class View {
                     if (bytes === this.arrival.fed) this.show();
                 },
             },
-            { tolerant: true, drawing: "growing" },
+            { tolerant: true, drawing: "growing", crease: creaseOf() },
         );
     }
 
@@ -322,6 +345,9 @@ export class View {
         arrival.complete = arrival.passed;
         this.fill();
         if (geometry.getIndex()) stage.shadow(geometry);
+        this.inspector.open(geometry);
+        if (this.linked) this.inspector.state = this.linked;
+        this.linked = "";
         this.headline();
         const rest = meshes.accompanied ? meshes.showMaterials().then(() => this.headline()) : this.accompany();
         rest.catch((error) => this.form.say("problem", `The original cannot be compared. ${messageOf(error)}`));
