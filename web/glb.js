@@ -250,13 +250,7 @@ export function glbOf({ faces, attributes, metadata, frames, colors, rate, isMov
         );
     const scene = new Scene();
     const all = Int32Array.from({ length: faces.length / 3 }, (_, face) => face);
-    const {
-        index,
-        vertices,
-        pieces,
-        attributes: drawn,
-        own,
-    } = drawnFaces(faces, all, attributes);
+    const { index, vertices, pieces, attributes: drawn, own } = drawnFaces(faces, all, attributes);
     const middle = middleOf(frames[0]);
     const places = frames.map((frame) =>
         spread(

@@ -28,7 +28,7 @@ const NAMES = [
     "fandisk_6475",
     "fr_casting",
 ];
-const WAYS = ["draco", "meshopt", "default", "quick"];
+const WAYS = ["draco", "meshopt", "default", "quick", "near"]; // near: quick, by the loader with its decoder inside
 const STATES = (process.env.STATES ?? "cold cached warm").split(" ");
 const PIECE = 4096; // bytes that are sent at a time
 const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
@@ -73,13 +73,14 @@ const ways = {
             MeshoptDecoder.decodeIndexBuffer(faces, corners, 4, data.subarray(12 + split));
         };
     },
-    bsm: async () => {
-        const { BSMLoader } = await import("/bsm/three.js");
+    bsm: (file = "three") => async () => {
+        const { BSMLoader } = await import("/bsm/" + file + ".js");
         const loader = new BSMLoader();
         return (url, first) =>
             new Promise((keep, fail) => loader.load(url, keep, undefined, fail, { onBlock: () => first() }));
     },
 };
+[ways.near, ways.bsm] = [ways.bsm("three-near"), ways.bsm()];
 let loading;
 window.load = async (way, url) => {
     const begin = performance.now();
@@ -117,7 +118,10 @@ async function meshoptOf(name) {
 const files = new Map();
 for (const name of NAMES)
     for (const way of WAYS) {
-        const data = way === "meshopt" ? await meshoptOf(name) : readFileSync(join(folder, `${name}-${way}`));
+        const data =
+            way === "meshopt"
+                ? await meshoptOf(name)
+                : readFileSync(join(folder, `${name}-${way === "near" ? "quick" : way}`));
         files.set(`/file/${name}-${way}`, brotliCompressSync(data));
     }
 const compressed = new Map();
@@ -192,7 +196,7 @@ async function arrival(name, way, state) {
             await page.evaluate(() => window.three);
             return page;
         };
-        const kind = WAYS.indexOf(way) < 2 ? way : "bsm";
+        const kind = WAYS.indexOf(way) < 2 || way === "near" ? way : "bsm";
         const load = (page, mesh) =>
             page.evaluate(([kind, url]) => window.load(kind, url), [kind, `/file/${mesh}-${way}?${Math.random()}`]);
         let page = await open();

@@ -14,7 +14,7 @@ const OPTIONS = {
     format: "esm",
     target: "es2022",
     charset: "utf8",
-    loader: { ".html": "text" },
+    loader: { ".html": "text", ".wasm": "binary" },
     tsconfigRaw: { compilerOptions: { useDefineForClassFields: false } },
     legalComments: "none",
     logLevel: "warning",
@@ -86,6 +86,16 @@ const BARE = {
     name: "bare",
     setup({ onResolve }) {
         onResolve({ filter: /^\.\/parting$/ }, () => ({ path: join(SOURCES, "absent.ts") }));
+    },
+};
+
+/** A loader with the decoder of light grids inside. */
+const NEAR = {
+    name: "near",
+    setup({ onResolve }) {
+        onResolve({ filter: /^\.\/source$/ }, ({ importer }) =>
+            importer.endsWith("near.ts") ? undefined : { path: join(SOURCES, "near.ts") },
+        );
     },
 };
 
@@ -209,6 +219,7 @@ async function products() {
         "pool.js": await open("pool.ts", beside("errors", "index", "quick")),
         "main.js": await open("facade.ts", beside("errors", "index", "pool")),
         "three.js": await open("three.ts", beside("index", "quick", "scene")), // with its pool: no request waits for another
+        "three-near.js": await open("three.ts", beside("index", "scene"), NEAR, TERSE), // no request and no thread for small streams
         "scene.js": await open("scene.ts", beside()),
         "gltf.js": await open("gltf.ts", beside("three")),
         "gltf-transform.js": await open("transform.ts", beside("encode", "errors", "index", "pool")),

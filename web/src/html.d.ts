@@ -9,3 +9,7 @@ declare module "*.html" {
     const text: string;
     export default text;
 }
+declare module "*.wasm" {
+    const bytes: Uint8Array<ArrayBuffer>;
+    export default bytes;
+}

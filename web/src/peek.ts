@@ -19,6 +19,7 @@ export const isLight = (build: Build): boolean => build === "quick" || build ===
 export interface Need {
     build: Build;
     members: number;
+    vertices?: number;
 }
 
 /** What a stream needs; undefined before the header is there. What is wrong, the decoder of everything says best. */
@@ -34,14 +35,14 @@ export function needOf(data: Uint8Array): Need | undefined {
             const value = header.get(key);
             return Number((value?.type === "array" ? value.value[0] : value)?.value ?? 0);
         };
-        const { blocks, blockSize, paper, sequence, attributes, light, congruence } = HEADER_KEYS;
+        const { blocks, blockSize, paper, sequence, attributes, light, congruence, vertices } = HEADER_KEYS;
         const buildOf = (): Build => {
             if (first(paper) > 0 || header.has(attributes)) return "whole";
             if (header.has(sequence)) return "moving";
             if (first(light) === 1) return header.has(congruence) ? "parts" : "quick";
             return header.has(blocks) ? "blocks" : "grid"; // also of brief streams, whose header is one field
         };
-        return { build: buildOf(), members: first(blocks) * first(blockSize) };
+        return { build: buildOf(), members: first(blocks) * first(blockSize), vertices: first(vertices) };
     } catch (error) {
         if (!(error instanceof BsmError)) throw error;
         return { build: "whole", members: 0 };

@@ -150,6 +150,10 @@ export class Pool {
 
     private async begin(stream: PooledStream, named: Need): Promise<void> {
         stream.need = named;
+        if (this.source.isNear?.(named) && !stream.wishes.tolerant) {
+            stream.kernels = await this.source.kernels(named.build);
+            return stream.closed ? undefined : this.stay(stream);
+        }
         if (!this.asked.has(named.build))
             await Promise.race([
                 Promise.all([...this.streams].map(({ said }) => said)),
@@ -184,6 +188,7 @@ export class Pool {
 
     /** Have a thread without work, if there may be one more, before a stream says what it needs. */
     private expect({ tolerant, guess = "small" }: StreamWishes): void {
+        if (this.source.isNear && guess !== "whole") return; // the header tells whether a thread is needed
         if (this.alone || this.hands.length >= this.limit || this.hands.some(({ streams }) => streams.size === 0))
             return;
         this.start(tolerant ? "whole" : guess);
@@ -301,7 +306,8 @@ export class Pool {
         for (let next; isRoom() && (next = this.waiting.shift());) this.place(next);
         clearTimeout(this.rest);
         if (this.streams.size > 0 || this.hands.length === 0) return;
-        this.rest = setTimeout(() => this.dispose(), IDLE);
+        const end = (): unknown => this.streams.size > 0 || this.dispose();
+        this.rest = setTimeout(end, IDLE);
         (this.rest as { unref?: () => void } | undefined)?.unref?.(); // Node may end before
     }
 }

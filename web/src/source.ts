@@ -2,7 +2,7 @@
 import type { StreamWorker, Say, Start } from "./worker";
 import { compiled, once, resolved } from "./fetched";
 import { started } from "./threads";
-import { isLight, type Build, type Thread } from "./peek";
+import { isLight, type Build, type Need, type Thread } from "./peek";
 
 export interface Source {
     /** A thread that decodes; undefined where there can be none. */
@@ -10,6 +10,8 @@ export interface Source {
     kernels(build: Build): Promise<WebAssembly.Module>;
     /** The decoder for this thread, where there are no others. */
     local(build: Build): Promise<{ openDesk(start: Start, say: Say): StreamWorker }>;
+    /** Whether a stream is decoded sooner in this thread, whose decoder is there, than another thread begins. */
+    isNear?(need: Need): boolean;
 }
 
 /** What is written out here is what bundlers look for; webpack would make one file of all threads of one name. */

@@ -50,7 +50,7 @@ for (const threads of [12, 0]) {
             const pool = new Pool(threads ? source : { ...source, worker: () => undefined }, threads || 1);
             const { open } = pool;
             pool.open = (listener, wishes) => open.call(pool, listener, { ...wishes, worthwhile: 0 }); // helpers for small ones, too
-            (loader as unknown as { own: Pool }).own = pool;
+            (loader as unknown as { used: Pool }).used = pool;
             const load = async (data: Uint8Array): Promise<BSMGeometry | string> => {
                 let outcome: BSMGeometry | string | undefined;
                 void loader.parseAsync(data, { onBlock: () => {} }).then(

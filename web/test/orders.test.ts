@@ -239,7 +239,7 @@ test("a load that is stopped fails once, and the next one of its loader comes", 
         const { source, restore } = staged(lines);
         try {
             const loader = new BSMLoader();
-            (loader as unknown as { own: Pool }).own = new Pool(source, 1 + draw(3));
+            (loader as unknown as { used: Pool }).used = new Pool(source, 1 + draw(3));
             const first = loader.parseAsync(streamOf("keys"), { onBlock: () => {} }).then(
                 () => "whole",
                 (error: Error) => error.name,

@@ -46,3 +46,13 @@ for (const rate of [24, 25, 30000 / 1001, 30, 60])
         assert.equal(sequence.seek(NaN).frame, 0);
         assert.equal(sequence.seek(Infinity).frame, 999);
     });
+
+test("loops keep what is over at their end, however long a step is", () => {
+    const playback = new Playback(24, true);
+    playback.step(0, 60, true);
+    for (let t = 0; t < 200; t += 0.07) playback.step(0.07, 60, true);
+    assert.equal(playback.loops, Math.floor((200 * 24) / 60));
+    playback.seek(10);
+    playback.step(60 / 24 + 20 / 24, 60, true); // as after a hidden tab
+    assert.equal(playback.frame, 30);
+});

@@ -15,9 +15,9 @@ const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids of parts": [24200, ["small-worker.js", "parts.wasm"]],
     grids: [55500, ["small-worker.js", "grid.wasm"]],
     blocks: [71800, ["small-worker.js", "blocks.wasm"]],
-    "static meshes": [89100, ["small-worker.js", "small.wasm"]],
-    sequences: [80400, ["small-worker.js", "moving.wasm"]],
-    everything: [122400, ["worker.js", "kernels.wasm"]],
+    "static meshes": [89600, ["small-worker.js", "small.wasm"]],
+    sequences: [80900, ["small-worker.js", "moving.wasm"]],
+    everything: [123500, ["worker.js", "kernels.wasm"]],
     encoding: [80000, ["encode-worker.js", "encode.js", "encode.wasm"]],
     "the page": [8800, ["three.js"]],
 };
@@ -30,9 +30,9 @@ for (const [what, [most, files]] of Object.entries(LOADS)) {
     });
 }
 
-test("the page of tiles is at most 233500 bytes as `bsm view` sends it", () => {
+test("the page of tiles is at most 268000 bytes as `bsm view` sends it", () => {
     const sizes = [join(VIEWER, "viewer.js"), join(WEB, "built/grid.wasm")].map(
         (path) => gzipSync(readFileSync(path), { level: 9 }).length,
     );
-    assert.ok(sizes[0] + sizes[1] <= 233_500, `viewer.js ${sizes[0]}, grid.wasm ${sizes[1]}`);
+    assert.ok(sizes[0] + sizes[1] <= 268_000, `viewer.js ${sizes[0]}, grid.wasm ${sizes[1]}`);
 });

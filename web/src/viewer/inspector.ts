@@ -155,7 +155,8 @@ export class Inspector {
         const [a, b] = points;
         const size = this.geometry?.boundingBox?.getSize(new Vector3());
         const box = size ? `Box: ${[...size].map(short).join(" × ")}${this.unit}. ` : "";
-        this.form.say("measured", b ? `Distance: ${short(a.distanceTo(b))}${this.unit}` : `${box}Click two points.`);
+        const next = a ? "Click another point." : `${box}Click two points.`;
+        this.form.say("measured", b ? `Distance: ${short(a.distanceTo(b))}${this.unit}` : next);
     }
 
     private get section(): { axis: string; depth: string; flip: boolean } {

@@ -221,6 +221,12 @@ export class Stage {
         this.shade(this.shading);
     }
 
+    /** Have lines over the meshes follow them to another frame. */
+    follow(): void {
+        if (this.over === "edges" || this.over === "normals")
+            for (const { meshes } of this.drawn) for (const mesh of meshes) this.edge(mesh);
+    }
+
     /** Cut all meshes at a share of their box along an axis, 0 to 2; -1: nowhere. */
     cut(axis: number, share: number, flip: boolean): void {
         const { renderer, turned } = this;

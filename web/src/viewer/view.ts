@@ -304,6 +304,7 @@ export class View {
         if (this.sequence.step(now, over, this.missed)) {
             if (!over && geometry.frames.length >= 2 * this.fitted) this.fill();
             meshes.seek(geometry.shown);
+            stage.follow();
             if (over) stage.shadow(geometry);
             meshes.stale = true;
         }
