@@ -96,6 +96,7 @@ const NEAR = {
         onResolve({ filter: /^\.\/source$/ }, ({ importer }) =>
             importer.endsWith("near.ts") ? undefined : { path: join(SOURCES, "near.ts") },
         );
+        onResolve({ filter: /^quick\.wasm$/ }, () => ({ path: join(WEB, "built/quick.wasm") }));
     },
 };
 

@@ -1,6 +1,6 @@
 /** A decoder of light grids in the file of the loader: small streams need no other file, and no thread. */
 import { once } from "./fetched";
-import bytes from "../built/quick.wasm";
+import bytes from "quick.wasm";
 import { openDesk } from "./quick";
 import { here as beside, type Source } from "./source";
 

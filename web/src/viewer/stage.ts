@@ -26,8 +26,8 @@ import {
 } from "three";
 import { MeshBVH } from "three-mesh-bvh";
 import { Camera, frontOf } from "./camera";
-import { normalLines, wrongEdges } from "./inspector";
 import { GROUND, shadowOf, studio } from "./light";
+import { normalLines, wrongEdges } from "./overlays";
 import { freeAreas } from "./room";
 
 const CLAY = 0xcdc6ba;
