@@ -133,7 +133,9 @@ def _common(name: str) -> "Parser":
     harm = _WITH_FORCE.get(name, "")
     does = argparse.SUPPRESS if name in _WITHOUT_FILES else f"overwrite files{harm}"
     common.add_argument("-f", "--force", action="store_true", help=does)
-    common.add_argument("-q", "--quiet", action="store_true", help="print only results and errors")
+    common.add_argument(
+        "-q", "--quiet", action="store_true", help="print no notes, only errors and the results on standard output"
+    )
     return common
 
 

@@ -227,3 +227,9 @@ def test_a_range_of_frames_is_taken_from_each_kind_of_sequence(walk, capsys):
         assert json.loads(capsys.readouterr().out)["frames"] == 3
     assert run("encode", "ring.ply", "--frames", "2:5") == 2
     assert run("encode", "walk.npz", "--frames", "5:2") == 2
+
+
+@pytest.mark.parametrize(("name", "meant"), [("units", "unit=mm"), ("up_axis", "up=mm"), ("FPS", "frame_rate=mm")])
+def test_metadata_under_a_name_that_nothing_reads_are_questioned(folder, capsys, name, meant):
+    assert run("encode", "ring.ply", "-f", "--meta", f"{name}=mm") == 2
+    assert meant in capsys.readouterr().err

@@ -35,6 +35,10 @@ _OTHERS = (*SEQUENCE_FORMATS, "gltf", "drc", "3mf", "dae", "fbx", "abc", "json",
 """Suffixes that are not names of streams."""
 
 
+_MEANT = {"units": "unit", "scale_unit": "unit", "up_axis": "up", "upaxis": "up", "fps": "frame_rate"}
+"""Names of metadata that readers would not find, and the names that have their meaning."""
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_inputs(
         parser,
@@ -70,6 +74,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     for name, sign, value in (text.partition("=") for text in args.meta):
         if not name or not sign:
             raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
+        if name.lower() in _MEANT:
+            raise OptionError(f"--meta {name}: programs look for it as {_MEANT[name.lower()]}={value}")
         metadata[name] = value
     more = {"output": "", "metadata": metadata, "options": options, "threads": threads, "members": members}
     # Images in files need a folder that they can be written to.

@@ -12,7 +12,6 @@ from typing import Any, TypeVar
 
 from bsm.bitstream.errors import OptionError
 from bsm.codec.choices import suggestion
-from bsm.files.motion.folder import frame_range
 from bsm.files.output import refuse_terminal
 
 
@@ -105,6 +104,8 @@ def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
 def frames_or_input(text: str) -> str:
     """Check a range of frames; return an input that stands after the flag as it is."""
     if ":" in text and "://" not in text:
+        from bsm.files.motion.folder import frame_range  # which loads much of the codec
+
         try:
             frame_range(text)
         except OptionError as error:

@@ -14,6 +14,7 @@ from bsm.files.formats.metadata import images_in, kind_of_image
 _PNG_OR_JPEG = re.compile(rb"\A\x89PNG.{12}(.{4})(.{4})|\xff[\xc0-\xc2]\0[\x0b\x11\x14]\x08(..)(..)", re.DOTALL)
 _WEBP = re.compile(rb"RIFF.{4}WEBP(?:VP8X.{8}(...)(...)|VP8 .{7}\x9d\x01\x2a(..)(..)|VP8L.{4}/(.{4}))", re.DOTALL)
 LANCZOS = 1  # of Pillow: how images become smaller or larger
+WORTH = 0.9  # of the bytes of an image: above, its loss of quality buys too little
 MOST_PIXELS = 1 << 26  # of an image that is written anew
 _LINK = re.compile(r"(?:\.\./)*images/([0-9a-f]{32})\.\w{1,5}")
 
@@ -36,11 +37,11 @@ class ImageRule:
 
 
 def smaller(data: bytes, rule: ImageRule) -> bytes | None:
-    """An image by a rule; None if that would not be smaller, or Pillow cannot read it."""
+    """An image by a rule; None if that would not save a tenth of it, or Pillow cannot read it."""
     image, found = opened(data), None
     with suppress(OSError, ValueError):  # what Pillow does not write
         found = _written(image, rule) if image else None
-    return found if found and len(found) < len(data) else None
+    return found if found and len(found) <= WORTH * len(data) else None
 
 
 def opened(data: bytes) -> Any | None:

@@ -19,7 +19,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import Metadata
 from bsm.encoding.given import Recipe, Wishes, given_frames, given_mesh
 from bsm.encoding.simplification import Chosen
-from bsm.files.formats.metadata import images_in
+from bsm.files.formats.metadata import images_in, kind_of_image
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.images import ImageRule, digests_in, is_link, with_links, with_smaller_images
 from bsm.files.mesh import read_mesh, size_with_parts
@@ -190,7 +190,9 @@ def _result(
     encoder, size, promise = found.encoder, found.attempt.size, given.options.promise
     images = sum(len(value) for value in given.mesh.metadata.values() if isinstance(value, bytes))
     # Advice only where images are most of the file.
-    smaller = "" if job.images or 2 * images < size else "; --images webp:85 makes them smaller"
+    # A JPEG loses quality once more, and few bytes.
+    lossless = sum(len(data) for _, data in images_in(given.mesh.metadata).values() if kind_of_image(data) == "png")
+    smaller = "" if job.images or 2 * lossless < size else "; --images webp:85 makes them smaller"
     # Grids say by themselves what they keep. All others without a promise get a measured figure instead.
     unseen = not given.options.is_grid and (promise is None or promise.look == math.inf)
     notes = ["left out: images"] if job.images == "none" else []
