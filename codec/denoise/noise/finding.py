@@ -37,6 +37,11 @@ class Finding:
     def noisy(self) -> bool:
         return self.kind not in ("none", "unknown")
 
+    @property
+    def stepped(self) -> bool:
+        """Whether a camera tells depths apart in steps only."""
+        return self.view is not None and self.view.stepped
+
     def on(self, members: Order) -> Self:
         growth = None if self.growth is None else self.growth[members]
         return replace(self, levels=self.levels[members], growth=growth)

@@ -235,6 +235,7 @@ def _seen(positions: Positions, evidence: Evidence) -> Suspect | None:
     width = pixel(view.plane(positions), probe.topology) * (rays @ view.axis)
     amount = level * width * np.abs(np.einsum("ij,ij->i", unit(rays), evidence.normals))
     reason, view = "noise of a camera, along its rays", replace(view, level=level)
+    reason += ", with depths in steps" if view.stepped else ""
     return _suspect("view", along, Finding("view", float(np.median(amount)), amount, edge, reason, view=view))
 
 

@@ -4,13 +4,14 @@ The inverse depth of a plane is linear over the pixels. So the filter looks for 
 measured one.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from operator import itemgetter
 
 import numpy as np
 
 from bsm.codec.arrays import Floats, Positions
 from bsm.codec.denoise.bends import fewer_bends
+from bsm.codec.denoise.noise.causes import rounding_step
 from bsm.codec.denoise.noise.probe import SHARE, Probe
 from bsm.codec.denoise.surface import Topology
 
@@ -26,6 +27,7 @@ class View:
     eye: Floats
     axis: Floats
     level: float = 0.0
+    stepped: bool = False  # whether the camera tells depths, or their inverses, apart in steps only
 
     def plane(self, positions: Positions) -> Floats:
         """Where the vertices are in the picture, shape (n, 2)."""
@@ -83,7 +85,18 @@ def find_view(positions: Positions, probe: Probe) -> View | None:
     a, b, c = best.plane(positions)[topology.faces.T]
     area = np.linalg.det(np.stack([b - a, c - a], axis=1))
     # A view shows one side of every face. Other surfaces have a back.
-    return best if max((area > 0.0).mean(), (area < 0.0).mean()) > ONE_SIDED else None
+    seen = max((area > 0.0).mean(), (area < 0.0).mean()) > ONE_SIDED
+    return replace(best, stepped=_stepped(positions - best.eye)) if seen else None
+
+
+def _stepped(rays: Positions) -> bool:
+    """Return whether depths along an axis, or their inverses, are multiples of a step."""
+    for depth in rays.T:
+        if (np.abs(depth) > 0.05 * np.abs(depth).max()).all():
+            steps = (rounding_step(values) for values in (depth, 1.0 / depth))
+            if any(steps):
+                return True
+    return False
 
 
 def _irregular(view: View, positions: Positions, probe: Probe) -> float:

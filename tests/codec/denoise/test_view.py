@@ -91,6 +91,24 @@ def test_the_eye_is_found_wherever_the_scan_is_put(shape, camera: str) -> None: 
     assert found is not None and np.linalg.norm(found.eye - [3.0, 4.0, 5.0]) < 7.0 * 0.03 * CAMERAS[camera].far
 
 
+@pytest.mark.parametrize(("camera", "stepped"), [("structured light", True), ("time of flight", False)])
+def test_depths_in_steps_are_known_in_the_frame_of_the_camera(camera: str, stepped: bool) -> None:
+    made = scan(cube, camera)
+    found = find_view(made.positions, probe_of(made.positions, made.faces))
+    assert found is not None and found.stepped == stepped
+    turned = find_view(made.positions @ AWAY.T, probe_of(made.positions, made.faces))
+    assert turned is not None and not turned.stepped
+
+
+def test_rounded_depths_are_known_as_steps() -> None:
+    """Millimeters are steps of the depth itself, not of its inverse."""
+    made = scan(sphere, "time of flight")
+    depth = made.positions[:, 2:]
+    rounded = made.positions * np.round(depth, 3) / depth
+    found = find_view(rounded, probe_of(rounded, made.faces))
+    assert found is not None and found.stepped
+
+
 def test_closed_meshes_and_grids_that_fold_are_no_views() -> None:
     for shape in (cube, sphere):
         clean, faces = shape(20)
