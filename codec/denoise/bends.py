@@ -9,7 +9,7 @@ from scipy import sparse
 from scipy.sparse import linalg
 
 from bsm.codec.arrays import Floats, Positions
-from bsm.codec.denoise.surface import Topology
+from bsm.codec.denoise.surface import Topology, shared_edges
 from bsm.codec.geometry.metrics import mean_edge_length
 
 BEND = 0.02  # change of slope up to which bends are rounded, not sharp
@@ -49,26 +49,16 @@ def fewer_bends(given: Floats, places: Floats, topology: Topology, weight: float
 
 def bending(places: Floats, topology: Topology) -> tuple[sparse.csr_matrix, Floats]:
     """How the gradient of values at the places, shape (n, d), changes over each edge between two faces; its length."""
-    first, second = (topology.faces[topology.pairs[:, side]] for side in range(2))
-    equal = first[:, :, None] == second[:, None, :]
-    # Faces that share three vertices are one face twice, and bend nowhere.
-    hinge = equal.any(axis=2).sum(axis=1) == 2
-    first, second, equal = first[hinge], second[hinge], equal[hinge]
-    lone = equal.any(axis=2).argmin(axis=1)
-    rows = np.arange(len(first))
-    ends = [first[rows, (lone + turn) % 3] for turn in (1, 2)]
-    tips = [first[rows, lone], second[rows, equal.any(axis=1).argmin(axis=1)]]
-    begin, along = places[ends[0]], places[ends[1]] - places[ends[0]]
-    lengths = np.maximum(np.linalg.norm(along, axis=1), 1e-9)
-    along /= lengths[:, None]
-    weights = np.zeros((len(first), 4))
-    for column, tip in enumerate(tips, start=2):
-        apart = places[tip] - begin
-        share = np.einsum("ij,ij->i", apart, along) / lengths
-        height = np.linalg.norm(apart - (share * lengths)[:, None] * along, axis=1)
+    hinges = shared_edges(places, topology)
+    weights = np.zeros((len(hinges.ends), 4))
+    for column, tip in enumerate(hinges.tips.T, start=2):
+        apart = places[tip] - hinges.begin
+        distance = np.einsum("ij,ij->i", apart, hinges.along)
+        height = np.linalg.norm(apart - distance[:, None] * hinges.along, axis=1)
+        share = distance / hinges.lengths
         # The slope of a thin triangle is its rounding, times any number.
         weights[:, column] = 1.0 / np.maximum(height, 0.1)
         weights[:, 0] -= (1.0 - share) * weights[:, column]
         weights[:, 1] -= share * weights[:, column]
-    where = np.repeat(rows, 4), np.stack([*ends, *tips], axis=1).ravel()
-    return sparse.csr_matrix((weights.ravel(), where), shape=(len(first), topology.n)), lengths
+    where = np.repeat(np.arange(len(weights)), 4), np.concatenate([hinges.ends, hinges.tips], axis=1).ravel()
+    return sparse.csr_matrix((weights.ravel(), where), shape=(len(weights), topology.n)), hinges.lengths

@@ -20,11 +20,14 @@ from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.paper import POWER, ROUNDS
 from bsm.codec.denoise.planes import Planes, find_planes
 from bsm.codec.denoise.surface import FINE_STEPS, Guide, GuidedFilter, Topology, patch_guidance, surface_normals
+from bsm.codec.denoise.variation import varied_little
 from bsm.codec.geometry.metrics import face_normals
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}
-METHODS = ("spectral", "oi")  # of options; without options, the data choose
+METHODS = ("spectral", "oi", "guided", "tgv", "learnt")  # of options; without options, the data choose
+WITHOUT_COARSE = METHODS[2:]
 RAYS = "rays"  # the hand-over of scans of one view, see `View.flattened`; what is kept is its strength then
+TGV = "tgv"  # total generalized variation of normals; what is kept is its weight then
 BENDS = "bends"  # of thick slices, see `Cells.flattened`, and of fused views, where `keep` is the weight of bends
 
 HandOver = Callable[[Positions, Positions, GuidedFilter], Positions]
@@ -59,9 +62,11 @@ class DenoiseOptions:
     Parameters
     ----------
     method : str
-        Basis of the coarse step. "spectral": of one mesh, exact eigenvectors of a Laplacian whose edges weigh one over
-        their length; this is not the paper's. Frames of a sequence share bases by orthogonal iterations without
-        weights. "oi" (the paper's): orthogonal iterations without weights, in one chain of blocks.
+        Method, or basis of the coarse step. "spectral": of one mesh, exact eigenvectors of a Laplacian whose edges
+        weigh one over their length; this is not the paper's. Frames of a sequence share bases by orthogonal iterations
+        without weights. "oi" (the paper's): orthogonal iterations without weights, in one chain of blocks.
+        Three methods have no coarse step. "guided": the guided filter of normals. "tgv": total generalized variation
+        of normals. "learnt": normals by trained networks.
     power, rounds : int
         With "oi", z of the iterated matrix R^z, and the iterations of each block but the first.
     hand_over : str
@@ -102,6 +107,11 @@ class DenoiseOptions:
         choices = {"method": METHODS, "hand_over": tuple(HAND_OVERS), "fine": tuple(FINE_STEPS)}
         counts = {"power": (1, 255), "rounds": (1, 255), "iterations": (0, 1 << 20), "block_size": (1, 1 << 20)}
         check_options(self, choices, {**counts, "keep": (1e-6, 1.0)})
+        coarse = self.hand_over, self.keep, self.block_size
+        if self.method in WITHOUT_COARSE and coarse != ("positions", KEEP, BLOCK_SIZE):
+            raise OptionError(f"method {self.method} has no coarse step; leave out hand_over, keep and block_size")
+        if self.method in ("tgv", "learnt") and (self.fine, self.iterations) != ("guided", None):
+            raise OptionError(f"method {self.method} has no fine step; leave out fine and iterations")
         if self.method != "oi" and (self.power, self.rounds) != (POWER, ROUNDS):
             raise OptionError(f"power and rounds are for method oi, not for {self.method}")
 
@@ -120,7 +130,7 @@ class Filter:
 
     @property
     def needs_coarse(self) -> bool:
-        return self.hand_over not in ("none", RAYS, BENDS)
+        return self.hand_over not in ("none", RAYS, BENDS, TGV)
 
 
 @dataclass(frozen=True)
@@ -180,6 +190,8 @@ class Filtered:
         if filter_.hand_over == RAYS:
             assert self._finding is not None and self._finding.view is not None
             return self._finding.view.flattened(noisy, topology, filter_.keep)
+        if filter_.hand_over == TGV:
+            return varied_little(noisy, self._surface.probe.average @ noisy, topology, filter_.keep)
         if filter_.hand_over == BENDS:
             if self._finding is not None and isinstance(self._finding.bound, Cells):
                 return self._finding.bound.flattened(noisy, topology)

@@ -12,7 +12,8 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import checked, named
 from bsm.codec.denoise.automatic import STAGES, AutomaticChoice, choose, judge, treat
 from bsm.codec.denoise.coarse import FEWEST_FRAMES, RULES, CoarseFilter, TemporalFilter, by_lengths
-from bsm.codec.denoise.filters import HAND_OVERS, DenoiseOptions, Filters
+from bsm.codec.denoise.filters import HAND_OVERS, WITHOUT_COARSE, DenoiseOptions, Filters
+from bsm.codec.denoise.learnt import learnt
 from bsm.codec.denoise.noise.causes import weld_seams
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import calm
@@ -20,6 +21,7 @@ from bsm.codec.denoise.noise.search import FAINTEST, find_noise
 from bsm.codec.denoise.paper import oi_rules
 from bsm.codec.denoise.rehearsal import GOALS, Progress
 from bsm.codec.denoise.surface import FINE_STEPS, GuidedFilter
+from bsm.codec.denoise.variation import varied_little
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.codec.threads import ordered_map
@@ -153,7 +155,7 @@ class FrameDenoiser:
         start, step = HAND_OVERS[options.hand_over], FINE_STEPS[options.fine]
         iterations = {} if options.iterations is None else {"iterations": options.iterations}
         coarse, first = None, list(islice(frames, 2))
-        if options.hand_over != "none":
+        if options.hand_over != "none" and options.method not in WITHOUT_COARSE:
             if options.method == "oi":
                 rules = oi_rules(options.power, options.rounds)
             elif len(first) == 1:
@@ -166,8 +168,15 @@ class FrameDenoiser:
         def finish(task: tuple[int | None, Positions]) -> Pair:
             number, given = task
             noisy = given[self._members]
-            smooth = noisy if coarse is None else coarse(noisy, options.keep)
-            result = step(start(noisy, smooth, GuidedFilter(noisy, topology)), topology.faces, **iterations)
+            if options.method == "tgv":
+                result = varied_little(noisy, self._surface.probe.average @ noisy, topology)
+            elif options.method == "learnt":
+                result = learnt(noisy, topology).positions
+            elif coarse is None:
+                result = step(noisy, topology.faces, **iterations)
+            else:
+                begun = start(noisy, coarse(noisy, options.keep), GuidedFilter(noisy, topology))
+                result = step(begun, topology.faces, **iterations)
             if self._force:
                 return given, result
             # The user chose the options, and they may be wrong for this mesh, so measure first what they destroy.

@@ -7,6 +7,7 @@ Fu, Au, Tai 2011, their local scheme); and relatives.
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import islice
+from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
@@ -94,6 +95,69 @@ def surroundings(positions: Positions, topology: Topology, radius: float) -> Lis
         # A row has at most as many members as there are faces; with room for one, the kernel goes on.
         reached = np.concatenate([reached, np.empty(len(reached) + count, np.int32)])
     return Lists(starts, reached[: starts[count]].copy())
+
+
+class Hinges(NamedTuple):
+    """Edges between two faces: both, and their corners off the edge; its ends, beginning, direction and length."""
+
+    pairs: Indices
+    tips: Indices
+    ends: Indices
+    begin: Positions
+    along: Floats
+    lengths: Floats
+
+
+def shared_edges(places: Floats, topology: Topology) -> Hinges:
+    """Return the edges between two faces of a mesh, whose vertices are at the places, shape (n, d)."""
+    first, second = (topology.faces[topology.pairs[:, side]] for side in range(2))
+    equal = first[:, :, None] == second[:, None, :]
+    # Faces that share three vertices are one face twice, and bend nowhere.
+    hinge = equal.any(axis=2).sum(axis=1) == 2
+    first, second, equal = first[hinge], second[hinge], equal[hinge]
+    lone = equal.any(axis=2).argmin(axis=1)
+    rows = np.arange(len(first))
+    ends = np.stack([first[rows, (lone + turn) % 3] for turn in (1, 2)], axis=1)
+    tips = np.stack([first[rows, lone], second[rows, equal.any(axis=1).argmin(axis=1)]], axis=1)
+    begin, along = places[ends[:, 0]], places[ends[:, 1]] - places[ends[:, 0]]
+    lengths = np.maximum(np.linalg.norm(along, axis=1), 1e-9)
+    return Hinges(topology.pairs[hinge], tips, ends, begin, along / lengths[:, None], lengths)
+
+
+MOST_FOLDED = 0.03  # share of the faces that are turned over, from which on the shape itself is folded
+MENDING_ROUNDS, MENDING_STEPS = 10, 5
+
+
+def folds(positions: Positions, topology: Topology) -> Mask:
+    """Return which faces, shape (m,), look the other way than those around them."""
+    normals = face_normals(positions, topology.faces)
+    starts, members = topology.patches
+    around = sparse.csr_matrix((np.ones(len(members)), members, starts), (len(normals), len(normals)))
+    mean = unit(around @ normals - normals)
+    # Folds come in groups. They must not tell how the surface lies.
+    sound = np.einsum("ij,ij->i", normals, mean) > 0.0
+    mean = unit(around @ (sound[:, None] * normals), mean)
+    return np.asarray(np.einsum("ij,ij->i", normals, mean) < 0.0)
+
+
+def mend_folds(positions: Positions, topology: Topology, average: sparse.csr_matrix) -> Positions:
+    """Draw vertices of folds, shape (n, 3), to their neighbors along the surface, until no face is turned over.
+
+    Noise along the surface turns small triangles over, and filters of normals believe them.
+    """
+    normals, unknown = face_normals(positions, topology.faces), np.zeros(len(topology.faces), np.bool_)
+    for _ in range(MENDING_ROUNDS):
+        turned = folds(positions, topology)
+        if not 0.0 < turned.mean() < MOST_FOLDED:
+            break
+        unknown |= turned
+        free = np.zeros(topology.n, np.bool_)
+        free[topology.faces[turned]] = True
+        drawn = np.where(free[:, None], 0.5 * (positions + average @ positions), positions)
+        # A face without a normal pulls nowhere.
+        targets = np.where(unknown[:, None], 0.0, normals)
+        positions = follow_normals(drawn, topology, targets, MENDING_STEPS, free)
+    return positions
 
 
 def unit(vectors: Floats, otherwise: Floats | float = 0.0) -> Floats:
