@@ -34,6 +34,12 @@ if TYPE_CHECKING:
     from bsm.codec.denoise import AutomaticChoice, DenoiseOptions
 
 GOALS = ("shading", "shape")
+BEGINNINGS = {
+    "tgv": "total generalized variation of normals (tgv)",
+    "rays": "surface of fewest bends along camera rays",
+    "bends": "surface of fewest bends",
+    "none": "guided normals",
+}
 FINISHES = {"learnt": "learnt normals", "flat": "planes", "flat, learnt": "learnt normals and planes"}
 STREAM = "bsm"
 
@@ -237,10 +243,14 @@ def _found(choice: "AutomaticChoice | None", goal: str, edge: float, unit: str =
         line += f"; normals about {choice.untreated:.0f} -> {then} degrees off"
         line += ", more for finer detail" if least < most else ""
     yield line
+    yield f"chosen     {choice.why}:"
     for step, times in Counter(choice.steps).items():
         chosen = step.filter
-        begun = f"hand-over {chosen.hand_over}" + (f" (c/n {chosen.keep:g})" if chosen.needs_coarse else "")
-        share = "" if times == len(choice.steps) else f"{100.0 * times / len(choice.steps):.0f} %: "
-        yield f"chosen     {share}{begun}, {step.iterations} iterations, sigma_r {chosen.sigma_r:g}"
+        begun = BEGINNINGS.get(chosen.hand_over, f"spectral filter, hand-over {chosen.hand_over}")
+        if chosen.needs_coarse:
+            begun += f" (c/n {chosen.keep:g})"
+        share = 100.0 * times / len(choice.steps)
+        then = f"then {step.iterations} iterations of guided normals, sigma_r {chosen.sigma_r:g}"
+        yield f"           {share:.0f} %: {begun}, {then}"
     if choice.finish != "none":
         yield f"finish     {FINISHES[choice.finish]}"
