@@ -52,6 +52,7 @@ SEEN = tuple(Filter(RAYS, keep, sigma_r) for keep, sigma_r in ((0.3, 0.4), (1.0,
 STEPPED = (Step(Filter(RAYS, 2.0, 0.4), 2),)
 """For scans of one view; and where depths are in steps, which hide most of the noise from fine filters."""
 FUSED = tuple(Filter(BENDS, weight, 0.3) for weight in (0.15, 0.3, 0.6))
+SPECIAL = {"view": SEEN, "axis": AXIAL, "fused": FUSED}
 EVEN, FUSED_UNEVEN, FUSED_MOST = 0.2, 7.0, 2.5
 """For volumes, whose noise is even and as fine as their cells. Noise of cameras is uneven, and too broad to rehearse
 with: the weight of bends over the unevenness, and its bound."""
@@ -60,11 +61,13 @@ THICK, BENDS_WIDTH, BENDS_ITERATIONS = 2.5, 0.3, (8, 12)
 """Slices from `THICK` cells across on also get the surface of fewest bends, from twice that on in two versions. It is
 best on smooth shapes; its mean with the other filter loses nothing where detail is finer than slices."""
 WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
-SLIDING = 0.5
-"""Noise along the surface over that along the normals, from which on vertices slide: equal noise reads 0.54 to 1 on
-seven meshes, irregular triangles up to 0.4."""
+SLIDING = 0.44
+"""Noise along the surface over that along the normals, from which on vertices slide: equal noise reads 0.45 to 1 on
+eight meshes, irregular triangles up to 0.43."""
 STAGES = 4  # that progress tells of: noise is found, filters are rehearsed twice, and the choice is carried out
-MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
+MOST_TAUGHT = 40_000
+"""Vertices up to which white noise is removed with learnt normals, which leave 3 % less of it, and any noise by total
+generalized variation, whose linear systems take two kilobytes of memory a vertex."""
 SOME_FLAT, MOST_FLAT = 0.2, 0.8  # shares of the faces on planes from which on these count, and networks do not
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
 AS_LARGE = 1.05
@@ -134,21 +137,25 @@ def choose(positions: Positions, finding: Finding, surface: Filters, goal: str, 
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0)
     if finding.kind == "cells" or finding.uneven > EVEN or finding.stepped:
         return _by_cause(finding)
-    filters = {"view": SEEN, "axis": AXIAL, "fused": FUSED}.get(finding.kind, CANDIDATES)
-    learnt = len(positions) <= MOST_TAUGHT or finding.kind not in ("white", "unsteady")
+    filters = SPECIAL.get(finding.kind, CANDIDATES)
+    general, large = finding.kind not in SPECIAL, len(positions) > MOST_TAUGHT
+    if general and large:
+        filters = CANDIDATES[:-1]
+    learnt = not large or finding.kind not in ("white", "unsteady")
     members, part = sample(surface.topology.faces, finding.levels)
     chosen = positions
     if len(members) < len(positions):
         surface, chosen = Filters(part, len(members)), positions[members]
     level = estimate_noise(chosen, surface.smooth(chosen, filters[0]), surface.probe)
-    if filters is CANDIDATES and level.tangential > SLIDING * level.normal:
+    slides = general and level.tangential > SLIDING * level.normal
+    if slides:
         level = NoiseLevel(level.normal, level.across, level.across, slides=True)
         filters = tuple(replace(each, hand_over=each.hand_over.replace("heights", "positions")) for each in filters)
     known = finding.on(members).reaching(surface.topology, level.slides)
     mesh = surface.filtered(chosen, known)
     rehearsal = Rehearsal(mesh, surface, known, level, filters[0], named("goal", GOALS, goal))
     flat = mesh.planes(rehearsal.truth.positions).share if finding.kind == "white" else 0.0
-    finishes = ["none", "learnt"] if filters is CANDIDATES and learnt and flat < MOST_FLAT else ["none"]
+    finishes = ["none", "learnt"] if general and learnt and not slides and flat < MOST_FLAT else ["none"]
     winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, (1.0 + done) / STAGES))
     steadied = finding.kind == "unsteady"
     if not steadied:
