@@ -26,7 +26,7 @@ LOOSE = 1e-4  # pull of gradients to zero, so that the system has one solution
 
 @dataclass(frozen=True, eq=False)
 class Jumps:
-    """Differences over edges: of normals from what the gradients predict, and of gradients; and the edges' lengths."""
+    """Differences over edges, of normals beyond their gradients and of the gradients, and the lengths of the edges."""
 
     first: sparse.csr_matrix
     second: sparse.csr_matrix
