@@ -270,13 +270,19 @@ def test_steps_of_exodus_are_frames(tmp_path):
     assert "later steps (2)" in bsm.read_mesh(tmp_path / "a.exo").dropped
 
 
+def end(process):
+    """Kill a process, and wait until it is gone."""
+    process.kill()
+    process.wait()
+
+
 def test_a_crash_of_vtk_is_an_error_and_the_next_file_is_read(tmp_path, monkeypatch):
     save_grid(tmp_path / "a.vtu", POINTS, HEXAHEDRA)
     bsm.read_mesh(tmp_path / "a.vtu")
-    apart._process().kill()
+    end(apart._process())
     # What crashed once is read again in a new process.
     assert len(bsm.read_mesh(tmp_path / "a.vtu").mesh.faces) == 20
-    apart._process().kill()
+    end(apart._process())
     with monkeypatch.context() as crashing, pytest.raises(bsm.FormatError, match="crashed VTK"):
         crashing.setattr(apart, "_COMMAND", "import os; os.abort()")
         bsm.read_mesh(tmp_path / "a.vtu")
