@@ -161,7 +161,7 @@ def _chosen(names: str, vertices: int, blocks: int | None) -> tuple[list[rates.C
 def _measured(results: Sequence[dict[str, Any]]) -> Table:
     def setting(result: dict[str, Any], point: dict[str, Any]) -> str:
         target = point["settings"].get("target")
-        asked = f", {target['value']:g}{rates.UNITS[target['kind']]}" if target else ""
+        asked = f", {target['value']:.4g}{rates.UNITS[target['kind']]}" if target else ""
         return f"{result['codec']}{asked}"
 
     digits = {"bpv_total": 3, "bpv_paper": 2, "nmsve_db": 2, "nmsve_paper_db": 2, "theta_deg": 2}

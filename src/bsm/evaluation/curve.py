@@ -640,7 +640,7 @@ def lines_of(results: Sequence[Result], measure: str) -> dict[str, Line]:
     for result in sorted(results, key=lambda result: [*STYLES, result["codec"]].index(result["codec"])):
         points = points_of(result["points"], measure)
         targets = [p["settings"]["target"]["value"] for p in points if "target" in p["settings"]]
-        asked = f", asked for {targets[0]:g} to {targets[-1]:g}{UNITS[measure]}" if targets else ""
+        asked = f", asked for {targets[0]:.4g} to {targets[-1]:.4g}{UNITS[measure]}" if targets else ""
         if points:
             pairs = [(point["bpv_total"], point[measure]) for point in points]
             lines[result["codec"]] = Line(result["label"] + asked, pairs)
