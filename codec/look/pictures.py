@@ -27,6 +27,9 @@ BACKGROUND = 1.0
 # Not along the axes, where CAD parts show single faces, edge-on. The two ends of each axis see what the other misses.
 TOWARDS = ((2, 2, 1), (-2, -2, -1), (-2, 1, 2), (2, -1, -2), (1, -2, 2), (-1, 2, -2))
 """Directions of the camera, from the middle of the mesh: both ends of three oblique axes at right angles."""
+ROLL = math.radians(33.0)
+"""The angle by which cameras are rolled: edges along an axis of the mesh cross columns and rows of samples, and one bit
+of a coordinate does not move a whole column."""
 SAMPLES = 4  # samples along each side of a pixel, which is their mean
 LIGHT = (0.35, 0.5, 0.79)  # where the light is: right, up, towards the camera
 # Without it, the last bit of a coordinate decides whether a sample on an edge is covered, and equal meshes look
@@ -145,14 +148,16 @@ def cameras(positions: Positions, pixels: int, sides: tuple[tuple[int, int, int]
     # Written out instead of a matrix product, whose sums BLAS orders as it likes: pictures must be equal on all
     # machines.
     across, deep, high_up = np.ascontiguousarray(positions.T)
+    cosine, sine = math.cos(ROLL), math.sin(ROLL)
     for towards in sides:
-        rows = axes(towards)
+        right, up, ahead = axes(towards)
+        rows = np.array([cosine * right + sine * up, cosine * up - sine * right, ahead])
         seen = [across * x + deep * y + high_up * z for x, y, z in rows]
         low, high = (np.array([values.min() for values in seen]), np.array([values.max() for values in seen]))
         side = AIR * float((high - low)[:2].max()) or 1.0
         scale = np.array([pixels / side, -pixels / side, 2.0**22])  # as many depths in the box's diagonal
         offset = np.array([pixels / 2, pixels / 2, 0.0]) + ASIDE - scale * (low + high) / 2
-        light = LIGHT[0] * rows[0] + LIGHT[1] * rows[1] + LIGHT[2] * rows[2]
+        light = LIGHT[0] * right + LIGHT[1] * up + LIGHT[2] * ahead  # stays where it is
         found.append(np.concatenate([np.column_stack([rows * scale[:, None], offset]).ravel(), light]))
     return found
 
@@ -162,7 +167,7 @@ class Size:
     """How large pictures are."""
 
     pixels: int
-    largest: float  # of the areas of faces, in a box of diagonal 1
+    thickest: float  # of the heights of faces over their longest sides, in a box of diagonal 1
 
     @classmethod
     def of(cls, positions: Positions, faces: Faces, most_pixels: int = MOST_PIXELS) -> Size:
@@ -188,7 +193,8 @@ class Size:
         grown = math.isqrt(LEAST_PIXELS**2 + FACE_PIXELS * len(faces))
         pixels = max(FEWEST_PIXELS, min(wanted, grown, most_pixels, int(min(most, MOST_PIXELS))))
         pixels -= pixels % SAMPLES
-        return cls(pixels, float(areas.max()))
+        longest = np.maximum(lengths.max(axis=0), np.finfo(np.float64).tiny)
+        return cls(pixels, float((2.0 * areas / longest).max()))
 
 
 def checker_steepness(places: Matrix, positions: Positions, faces: Faces) -> Matrix:

@@ -34,7 +34,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh, require_sizes
 from bsm.codec.geometry.metrics import Reference, distances_to_surface, folded_edges, rms_over_edge, surface_distance
-from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
+from bsm.codec.look.measure import LOOK_VERSION, AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_flags
 from bsm.files.images import with_linked_images
@@ -178,7 +178,7 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
     attributes, images = compared.pop("attributes", {}), compare_images(original.metadata, decoded.metadata)
     apart = names_apart(original, decoded)
     if args.json:
-        shown: dict[str, Any] = {"look": asdict(seen) | more} if seen else {}
+        shown: dict[str, Any] = {"look": asdict(seen) | more | {"version": LOOK_VERSION}} if seen else {}
         shown |= {"images": [image.facts() for image in images]} if images else {}
         print_json({**compared, **shown, **({"attributes": attributes} if attributes else {}), **apart})
         return

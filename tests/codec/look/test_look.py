@@ -196,9 +196,20 @@ def test_a_square_from_above_has_one_shade():
     towards = axes((2, 2, 1))
     cosine = 0.35 * towards[0, 2] + 0.5 * towards[1, 2] + 0.79 * towards[2, 2]
     assert samples[inside] == pytest.approx(0.12 + 0.78 * cosine, abs=1e-6)
-    assert inside.sum() == pytest.approx((400 / 1.03) ** 2 / 2 / 3, rel=0.01), "half of its box, seen at an angle"
+    cosine, sine = math.cos(math.radians(33.0)), math.sin(math.radians(33.0))
+    right, up = cosine * towards[0] + sine * towards[1], cosine * towards[1] - sine * towards[0]
+    side = 1.03 * max(np.ptp(square.positions @ right), np.ptp(square.positions @ up))
+    assert inside.sum() == pytest.approx((400 / side) ** 2 / 3, rel=0.01), "seen at an angle, by a rolled camera"
     assert samples[0].min() == samples[:, -1].min() == 1
     assert picture == pytest.approx(samples.reshape(100, 4, 100, 4).mean(axis=(1, 3)), abs=1e-6)
+
+
+def test_edges_along_an_axis_cross_columns_and_rows_of_samples():
+    """A last bit of a coordinate then moves no whole column of samples to the other side of an edge."""
+    box = np.array(np.meshgrid((0.0, 1.0), (0.0, 1.0), (0.0, 1.0))).reshape(3, -1).T
+    for camera in cameras(box, 400):
+        slopes = np.abs(camera[:12].reshape(3, 4)[:2, :3])
+        assert (slopes.min(axis=0) > 0.05 * slopes.max()).all(), "no axis of the mesh is along one of the picture"
 
 
 def test_a_difference_is_that_of_the_definition():
