@@ -23,6 +23,7 @@ from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.choice.attributes import Sent, smallest
 from bsm.codec.static.choice.bounds import LEAST
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
+from bsm.codec.static.choice.trace import Event
 from bsm.codec.static.options import PRESETS, RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import WIDEST, Contract, Target, search_step
@@ -115,6 +116,11 @@ class Encoder:
         promise, unit = self.options.promise, mesh.metadata.get("unit")
         size = mesh.without_isolated_vertices()[0].diagonal
         self._doubt = "" if promise is None else promise.doubt(size, unit if isinstance(unit, str) else "")
+
+    @property
+    def trials(self) -> tuple[Event, ...]:
+        """The estimates and trials of the search for the stream, in order, with reasons."""
+        return tuple(self._input.trace)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -279,6 +285,8 @@ class Encoder:
             if (found := best(self._input)) is not None:
                 return self._judged(found)
             smaller = self._input.completed(self._input.search.smallest(anything))
+            if smaller.size <= most:  # luck decides about bytes: no other step fits
+                return self._judged(smaller)
         text, least = f"{target.worded(target.value)} at most cannot be", self._judged(smaller)
         had = target.worded(target.reached(least))
         if promise is None:

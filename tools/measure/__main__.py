@@ -2,6 +2,7 @@
 
 attributes  what attributes take, against Draco's
 speed       what encoding and decoding take, over Draco's and a file of figures; of MESHes, decoding by bsmdec
+regret      bytes of the default over the least of all ways, each searched alone and for long
 targets     bytes by each kind of target, and how much of it is used, of made meshes or of MESHes
 fields      colors and fields that change in moving meshes, against zstd and Draco frame by frame
 denoising   how denoising does on noise of known cause, beside Taubin's filter
@@ -14,6 +15,7 @@ COMMANDS = {
     "attributes": "attributes:main",
     "fields": "fields:main",
     "speed": "speed:main",
+    "regret": "regret:main",
     "targets": "targets:main",
     "denoising": "denoising:main",
     "house": "house:main",

@@ -4,7 +4,7 @@ A tool is left out by an option that exists, or by replacing what the encoder ca
 decoded, only counted: its decoding time is not known.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
@@ -19,8 +19,7 @@ from bsm.bitstream.errors import BsmError
 from bsm.codec.decoding import decode
 from bsm.codec.sequence import gop, step_search
 from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.static.choice import blocks, search
-from bsm.codec.static.choice.grids import Gridded
+from bsm.codec.static.choice import blocks, search, table
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.ways import in_blocks as coding
@@ -51,38 +50,29 @@ class Tool:
             yield
 
 
-def _ways(keep: Callable[[Any], bool], plain: bool = False) -> Any:
-    """`Search._ways` with some of its ways, and blocks without refinement instead of those with it."""
-    original = search.Search._ways
+def _ways(*prefixes: str) -> Any:
+    """The table of ways without those whose names begin so; all, if none is left."""
+    original = table.ways_of
 
-    def ways(self: Any, bounds: Any, *given: Any) -> list[Any]:
-        found = [way for way in original(self, bounds, *given) if keep(way)]
-        alone = blocks.Plain(self._prepared, self._options, bounds)
-        return [alone if plain and isinstance(way, blocks.Refined) else way for way in found]
+    def ways(*given: Any) -> list[Any]:
+        found = original(*given)
+        return [way for way in found if not way.name.startswith(prefixes)] or found
 
     return ways
 
 
+GRIDS = "grid", "images", "made", "rows", "chosen"
 UPRIGHT = np.eye(3).reshape(1, 9)  # a frame along the axes of space instead of along normals
 TOOLS: dict[str, Tool] = {
-    "blocks (only grids)": Tool({}, [(search.Search, "_ways", _ways(lambda way: isinstance(way, Gridded)))]),
-    "refinement (only blocks)": Tool({}, [(search.Search, "_ways", _ways(lambda _: True, plain=True))]),
-    "grids (only blocks with refinement)": Tool(
-        {},
-        [
-            (search.Search, "_ways", _ways(lambda way: not isinstance(way, Gridded))),
-            (Gridded, "made", lambda _: iter(())),
-        ],
-    ),
-    "grids that models were made on": Tool({}, [(Gridded, "made", lambda _: iter(()))]),
-    "choice of grid places by rate": Tool(
-        {}, [(search.Search, "_ways", _ways(lambda way: not (isinstance(way, Gridded) and way._worth > 0)))]
-    ),
+    "blocks (only grids)": Tool({}, [(search, "ways_of", _ways("levels", "blocks"))]),
+    "grids (only blocks with refinement)": Tool({}, [(search, "ways_of", _ways(*GRIDS))]),
+    "grids that models were made on": Tool({}, [(search, "ways_of", _ways("made"))]),
+    "choice of grid places by rate": Tool({}, [(search, "ways_of", _ways("chosen", "rows, chosen"))]),
     "choice of refinement by rate": Tool({}, [(blocks, "PULLED", 1e-9)]),
     "frames along normals": Tool(
         {}, [(coding, "local_frames", lambda places, _: UPRIGHT.repeat(len(places), axis=0))], decodes=False
     ),
-    "unfolding of faces": Tool({}, [(blocks, "unfolded", lambda _: None)]),
+    "unfolding of faces": Tool({}, [(blocks, "UNFOLDED", 0)]),
     "overlap of 5 % (not in the default)": Tool({"overlap": 1.05}),
     "warm start": Tool({"key_interval": 1}),
     "springs and prediction": Tool({"predict": False}),

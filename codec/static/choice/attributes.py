@@ -6,7 +6,7 @@ import math
 from bisect import bisect_left
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, with_
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality, qualities
 from bsm.codec.static.choice.bounds import Bounds, Measures, trial_of
 from bsm.codec.static.choice.search import Search
+from bsm.codec.static.choice.trace import Trace
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
 from bsm.codec.static.targets import SLACK, Contract
@@ -41,6 +42,7 @@ class Sent:
     options: EncodeOptions
     looks: tuple[tuple[int, AttributeLook], ...] = ()  # attributes whose quality the look decides
     shown: LookMetric | None = None  # pictures of another mesh, for which this one stands
+    trace: Trace = field(default_factory=Trace)
 
     def but(self, **known: Any) -> Sent:
         """Return an input with other values of some fields and results, and all else that was computed."""
@@ -128,7 +130,8 @@ class Sent:
 
     @property
     def search(self) -> Search:
-        return Search(self.measures, self.options, lambda draft: self.completed(draft).size)
+        additions = sum(attribute.size for attribute in self.carried)
+        return Search(self.measures, self.options, lambda draft: self.completed(draft).size, additions, self.trace)
 
     def painted(self, decoded: Positions) -> float:
         """The largest distance of colors and texture coordinates whose quality the look decides."""

@@ -1,7 +1,6 @@
 """Blocks, alone or with a layer of refinement on them: ways to code a mesh."""
 
 import math
-from collections.abc import Callable
 from functools import lru_cache, partial
 
 import numpy as np
@@ -11,8 +10,9 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix, end_phase
 from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.signal.transform import smallest_step
-from bsm.codec.static.choice.bounds import COARSEST, LEAST, SEEN, SPIKE, Bounds, Trial
+from bsm.codec.static.choice.bounds import COARSEST, LEAST, SEEN, SPIKE, Bounds
 from bsm.codec.static.choice.settling import RATIO, Settler
+from bsm.codec.static.choice.trials import BYTES, DOUBT, Estimate, Trial, ladder_of
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.targets import TRIES
@@ -25,10 +25,12 @@ BROADEST = 0.14
 BASE = 0.36  # the step of blocks on all vertices below a layer, over the square root of the layer's step
 APART = 4.0  # steps with other blocks, over one another
 UNFOLDED = 4  # rounds in which edges that fold over are mended
+SMOOTH, ROUGHER = 0.42, 0.25
+"""Bytes of blocks with levels over those of a usual grid, where vertices are a step from the mean of their neighbors;
+and the power by which they grow with that."""
+VAIN = 1.5  # times the bytes of another way, from which on a rough estimate is enough
+CODED = 0.72  # bytes by the sizes of levels, over those of the stream
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
-
-
-Based = Callable[[float], RefinementBase]  # blocks for levels of about a step
 
 
 class OnCells:
@@ -36,26 +38,27 @@ class OnCells:
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
         self._measures = bounds.measures
-        self._spread = [InCells(prepared, options, BROADEST, spread) for spread in SPREADS]
+        self._spreads = [InCells(prepared, options, BROADEST, spread) for spread in SPREADS]
 
-    def __call__(self, step: float) -> RefinementBase:
+    def below(self, step: float) -> RefinementBase:
+        """Return the blocks for levels of about a step."""
         within, layer = self._measures.near.within(), Layer(single(step), RATIO)
         many = step > 2.0 * SEEN * self._measures.shaper.mean_edge  # most levels are 0
-        spreads = self._spread if many else self._spread[:1]
+        spreads = self._spreads if many else self._spreads[:1]
         best: RefinementBase | None = None
-        fewest = math.inf
+        least = math.inf
         for spread in spreads:
-            last = math.inf
+            before = math.inf
             # One after another, and only the best is kept: each holds arrays as large as several meshes.
             for base in spread.bases(step, within):
                 end_phase(len(base.positions))
                 size = base.about(layer)
-                if size < fewest:
-                    best, fewest = base, size
+                if size < least:
+                    best, least = base, size
                 # From the finest step of cells on, sizes fall to the best one and rise after it.
-                if size > last:
+                if size > before:
                     break
-                last = size
+                before = size
         assert best is not None  # each spread has at least one
         end_phase(len(best.positions))
         return best
@@ -69,67 +72,102 @@ class OnVertices:
         self.least = 1.01 * smallest_step(prepared.size)
         self.at = lru_cache(2)(lambda step: spectral.base(step, near.within()))
 
-    def below(self, step: float) -> float:
-        """The step of blocks for levels of a step."""
+    def step_below(self, step: float) -> float:
+        """Return the step of blocks for levels of a step."""
         return max(BASE * math.sqrt(step), self.least)
 
-    def __call__(self, step: float) -> RefinementBase:
-        return self.at(self.below(step))
+    def below(self, step: float) -> RefinementBase:
+        """Return the blocks for levels of about a step."""
+        return self.at(self.step_below(step))
 
 
 class Plain:
     """Only blocks; a layer of levels corrects vertices that are out of reach."""
 
+    name = "blocks only"
+
     def __init__(self, bounds: Bounds, blocks: OnVertices, first: float) -> None:
         self._bounds, self._blocks = bounds, blocks
-        self.least, self.most, self.first = blocks.least, 0.5, blocks.below(first)
+        self.least, self.most, self.first = blocks.least, 0.5, blocks.step_below(first)
+
+    @property
+    def ladder(self) -> Matrix:
+        return ladder_of(self.least, self.most)
+
+    def estimate(self, rival: float) -> Estimate:
+        """Return a guess: about as many bytes as others take."""
+        return Estimate(rival, DOUBT, BYTES * self._bounds.measures.prepared.graph.size)
 
     def at(self, step: float) -> Trial:
+        """Return the trial of a step."""
         base = self._blocks.at(step)
-        reaches, fixed = self._bounds.reaches, len(base.prepared.connectivity.data)
+        reaches = self._bounds.reaches
         out = squares_of(base.positions - base.prepared.positions) > reaches**2
         if not out.any():
-            return Trial(step, base.positions, lambda: base.draft, fixed)
+            return Trial(step, base.positions, lambda: base.draft)
         layer = Layer(single(max(float(reaches[out].min()), LEAST)), 1.0)
         levels = np.where(out[:, None], np.rint(base.offsets / layer.step), 0.0).astype(np.int32)
         moved = base.moved(layer, levels, base.known_steps(layer, levels))
-        return Trial(step, moved, partial(base.refined, layer, levels, moved), fixed)
+        return Trial(step, moved, partial(base.refined, layer, levels, moved))
 
 
 class Refined:
     """Blocks and a layer of refinement, by its step; steps along tangents are wider by a ratio."""
 
     def __init__(
-        self, prepared: Prepared, bounds: Bounds, based: Based, settled: bool = True, ratio: float = RATIO
+        self,
+        name: str,
+        prepared: Prepared,
+        bounds: Bounds,
+        blocks: OnCells | OnVertices,
+        *,
+        settled: bool = True,
+        ratio: float = RATIO,
     ) -> None:
-        self._prepared, self._bounds, self._settled, self.ratio = prepared, bounds, settled, ratio
+        self.name, self._prepared, self._bounds, self._settled, self.ratio = name, prepared, bounds, settled, ratio
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
         self.least, self.most = LEAST, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), LEAST)
-        self._based = lru_cache(2)(based)
-        self._last: tuple[float, Trial] | None = None
+        self._below = lru_cache(2)(blocks.below)
 
     @cached_property
     def first(self) -> float:
         # Of the look that a usual layer takes, steps along tangents take a little less than those along normals.
-        return self._bounds.first_step / math.hypot(1.0, 0.93 * self.ratio / RATIO)
+        wanted = self._bounds.first_step / math.hypot(1.0, 0.93 * self.ratio / RATIO)
+        return min(max(wanted, self.least), self.most)
+
+    @property
+    def ladder(self) -> Matrix:
+        return ladder_of(self.least, self.most)
+
+    def estimate(self, rival: float) -> Estimate:
+        """Return about the bytes of a trial at the first step: from the blocks below it, unless the mesh is so rough
+        that these would be coded in vain."""
+        graph, positions = self._prepared.graph, self._prepared.positions
+        degrees = np.diff(graph.offsets)
+        sums = [np.add.reduceat(column[graph.neighbors], graph.offsets[:-1]) for column in positions.T]
+        bends = squares_of(positions - np.column_stack(sums) / degrees[:, None]).mean()
+        rough = rival * SMOOTH * (math.sqrt(float(bends)) / self.first) ** ROUGHER
+        saving = BYTES * graph.size
+        if rough > VAIN * rival:
+            return Estimate(rough, DOUBT, saving)
+        base = self._base(self.first)
+        size, finer = (base.about(Layer(single(step), self.ratio)) for step in (self.first, self.first / math.e))
+        whole = (size + len(self._prepared.connectivity.data)) / CODED
+        return Estimate(whole, DOUBT, min(saving, (finer - size) / CODED))
 
     def at(self, step: float) -> Trial:
-        # Not by `lru_cache`: around a method, it is a cycle, which keeps all arrays until garbage is collected.
-        if self._last is None or self._last[0] != step:
-            self._last = step, self._made(step)
-        return self._last[1]
-
-    def _made(self, step: float) -> Trial:
+        """Return the trial of a step."""
         base = self._base(step)
         if self._settled:
-            return self._unfolded(step, base, *self._nearer(base, *self._evened(step, base)))
+            nearest = self._nearer(base, *self._evened(step, base))
+            return self._unfolded(step, base, *nearest)
         layer = Layer(single(step), RATIO)
         levels = self._shaped(base, layer)
         return self._leveled(step, base, layer, levels, base.known_steps(layer, levels))
 
     def _unfolded(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Trial:
-        """These levels, but with fewer edges folded over; others may then need it."""
+        """Return the trial of levels with fewer edges folded over; others may then need it."""
         for _ in range(UNFOLDED):
             positions = base.moved(layer, levels, known)
             directions = base.directions(known).reshape(-1, 9)
@@ -141,8 +179,7 @@ class Refined:
 
     def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Trial:
         positions = base.moved(layer, levels, known)
-        make = partial(base.refined, layer, levels, positions)
-        return Trial(step, positions, make, base.draft.size, self._settled)
+        return Trial(step, positions, partial(base.refined, layer, levels, positions), self._settled)
 
     def _near(self, steps: Matrix) -> Matrix:
         """How far vertices may be brought from their places by steps, shape (n, 3)."""
@@ -177,7 +214,7 @@ class Refined:
 
     def _base(self, step: float) -> RefinementBase:
         """The blocks below levels of about a step, which are the same for steps that are near the first one."""
-        return self._based(self.first * APART ** round(math.log(step / self.first, APART)))
+        return self._below(self.first * APART ** round(math.log(step / self.first, APART)))
 
     def _shaped(self, base: RefinementBase, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""

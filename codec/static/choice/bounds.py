@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable
 from copy import copy
-from dataclasses import dataclass
 from functools import lru_cache, partial
 from typing import NamedTuple
 from weakref import ReferenceType
@@ -15,11 +14,12 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
-from bsm.codec.geometry.metrics import nearest_points
+from bsm.codec.geometry.metrics import face_geometry, nearest_points
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
 from bsm.codec.static.choice.shaping import Shaper
+from bsm.codec.static.choice.trials import Trial
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, Contract
 
@@ -31,6 +31,8 @@ SPIKE = 4.0  # steps that a vertex may be off where its place is chosen: farther
 FINEST_PART = 0.1
 """No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
 pixel in a picture of 512. Of a gap between parts, as much is left."""
+FLAT = 1e-9  # area of a face that has none, over the square of its longest side
+NO_FACE_LOST, FEW_LOST = 0.5, 200  # the widest look with which no face loses its area; one in so many with wider ones
 MOST_PARTS = 64  # of more parts than these, none is asked how near it is to others
 
 
@@ -65,6 +67,17 @@ class Measures:
         other.painted = painted
         return other
 
+    def flat_faces(self, positions: Matrix) -> int:
+        """Return how many faces have no area, within rounding."""
+        faces = self.prepared.mesh.faces
+        areas = face_geometry(positions, faces).areas
+        sides = positions[faces] - positions[np.roll(faces, 1, axis=1)]
+        return int(np.count_nonzero(areas <= FLAT * np.square(sides).sum(axis=2).max(axis=1)))
+
+    @cached_property
+    def flat_before(self) -> int:
+        return self.flat_faces(self.prepared.positions)
+
     @cached_property
     def look(self) -> LookMetric | None:
         """None: nothing of the mesh can be seen."""
@@ -80,33 +93,9 @@ class Measures:
             self.near.by()
 
 
-@dataclass(frozen=True, eq=False)
-class Trial:
-    """The result of a step: decoded positions, in BSM units, shape (n, 3), and the stream."""
-
-    step: float
-    positions: Matrix
-    make: Callable[[], Draft]
-    fixed: int  # bytes that are the same at all steps
-    settled: bool = False  # whether levels are kept within reach, whatever the step is
-    repeating: Callable[[], Draft] | None = None  # the same positions, predicted by congruent parts
-    decoded: Positions | None = None  # in the unit of the mesh, where `positions` are rounded
-    about: Callable[[], int] = lambda: 0  # bytes by a quick coder; 0 where parts repeat
-
-    @cached_property
-    def draft(self) -> Draft:
-        return self.make()
-
-    @cached_property
-    def congruent(self) -> Draft:
-        """The stream, predicted by congruent parts where that takes fewer bytes."""
-        other = self.draft if self.repeating is None else self.repeating()
-        return min(self.draft, other, key=lambda draft: draft.size)
-
-
 def trial_of(prepared: Prepared, draft: Draft) -> Trial:
     """A stream as it is, for judging."""
-    return Trial(0.0, prepared.units.into(draft.decoded), lambda: draft, 0, decoded=draft.decoded)
+    return Trial(0.0, prepared.units.into(draft.decoded), lambda: draft, decoded=draft.decoded)
 
 
 class Bounds:
@@ -132,6 +121,14 @@ class Bounds:
         """How many edges are folded over, over how many may be."""
         return self.measures.shaper.folded(positions) / self.measures.shaper.most_folded
 
+    def loses_faces(self, positions: Matrix) -> bool:
+        """Whether more faces lose their areas than may: up to a look of 0.5 none, up to 1 one in 200."""
+        if self.contract.look > 1.0:
+            return False
+        flat = self.measures.flat_faces(positions)
+        most = 0 if self.contract.look <= NO_FACE_LOST else len(self.measures.prepared.mesh.faces) // FEW_LOST
+        return flat - self.measures.flat_before > most
+
     @property
     def metric(self) -> LookMetric | None:
         """None: no look is asked for, or nothing can be seen."""
@@ -155,12 +152,16 @@ class Bounds:
     @cached_property
     def first_step(self) -> float:
         """Return a step at which rounding uses up about the whole bound, in BSM units."""
+        contract, positions = self.contract, self.measures.prepared.positions
+        widest = COARSEST
         if self.metric is not None:
-            return min(self.usual_step * self.contract.look / self._aim, COARSEST)
-        step, positions = COARSEST, self.measures.prepared.positions
+            widest = min(self.usual_step * contract.look / self._aim, COARSEST)
+            if contract.angle == ANY_ANGLE and contract.visual == math.inf:
+                return widest
+        step = widest
         for _ in range(3):  # of errors, or of their squares
             step /= math.sqrt(max(*self._measured(np.rint(positions / step) * step), LEAST))
-        return min(step, COARSEST)
+        return min(step, widest)
 
     @cached_property
     def usual_step(self) -> float:
@@ -168,10 +169,9 @@ class Bounds:
         step, metric = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.metric
         if metric is None:
             return step
-        look = metric.glance if self.measures.prepared.light else metric.with_room
         for _ in range(2):
             placed = self.measures.prepared.units.back(np.rint(self.measures.prepared.positions / step) * step)
-            wider = self._aim / max(look(placed), LEAST)
+            wider = self._aim / max(metric.glance(placed), LEAST)
             step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
             if 0.5 < wider < 2.0:
                 break

@@ -1,29 +1,30 @@
-"""Positions on grids whose places are rounded, or chosen for the normals: ways to code a mesh."""
+"""Positions on grids: places that are rounded, or chosen for the normals, or images of others."""
 
 import math
-from collections.abc import Iterable, Iterator
-from copy import copy
+from collections.abc import Callable, Iterable
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm._core import rounded as places_on
+from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import MOST_GRID, Header
-from bsm.bitstream.container.packets import Grid
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.geometry.mesh import box_around, extent_of, squares_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
-from bsm.codec.static.choice.bounds import COARSEST, SEEN, SPIKE, Bounds, Trial
+from bsm.codec.static.choice.bounds import COARSEST, SEEN, SPIKE, Bounds
 from bsm.codec.static.choice.congruence import lattice, motions_of, planes_of, transforms_of
+from bsm.codec.static.choice.trials import BYTES, DOUBT, Estimate, Trial, ladder_of, on_ladder
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import SLACK
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_going, encode_grid, grid_of, sampled_size
 
 MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
+STAYING = 1.05  # times the bytes with images to which vertices go: those where they stay
 
 
 def grid_draft(
@@ -33,7 +34,7 @@ def grid_draft(
     grid = replace(grid, light=grid.light or prepared.light)
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
     faces = prepared.linked if brief else prepared.mesh.faces  # if others follow
-    coded: Iterable[Grid] = ()
+    coded: Iterable[packets.Grid] = ()
     if wanted is None:
         coded = encode_grid(faces, grid, places)
     else:
@@ -44,6 +45,20 @@ def grid_draft(
 def may_repeat(prepared: Prepared) -> bool:
     """Whether congruent parts are sought."""
     return prepared.congruence and 0 < prepared.graph.size <= MOST_CONGRUENT
+
+
+def repeating(prepared: Prepared, grid: Raster, places: Levels, draft: Draft) -> Draft:
+    """Return a draft of places, or their stream with images of congruent parts, if that is smaller."""
+    transforms = transforms_of(prepared, grid)
+    with_images = replace(grid, transforms=transforms)
+    if not len(transforms):
+        if prepared.light:
+            return draft
+        sampled = partial(sampled_size, prepared.mesh.faces, coded=places)
+        if len(places) > SAMPLE and sampled(with_images) >= sampled(grid):
+            return draft
+    other = grid_draft(prepared, with_images, places, not prepared.light)
+    return min(draft, other, key=lambda draft: draft.size)
 
 
 def paying(prepared: Prepared, draft: Draft) -> Draft:
@@ -137,178 +152,261 @@ def spacing_of(positions: Matrix, faces: Faces) -> float:
     return common
 
 
-class Gridded:
-    """Grids of one mesh, at one step after another; the worth of a nat in angles by which a step bends a mean face."""
+class Frame:
+    """The axes and the origin of the grids of a mesh; of a regular mesh, on its rows."""
 
-    def __init__(
-        self, prepared: Prepared, bounds: Bounds, worth: float = 0.0, turn: Turn = UNTURNED, spacing: float = 0.0
-    ) -> None:
-        self._prepared, self._shaper = prepared, bounds.measures.shaper
-        self._worth, self.turn, self.spacing = worth, turn, spacing
-        self.repeats = False  # whether a grid surely takes fewer bytes with congruent parts
-        self.stays = False  # whether vertices do not go to images then
-        own = turned_by(prepared.mesh.positions, turn, back=True)
-        self._positions = prepared.units.into(own) if any(turn) else prepared.positions
-        low = box_around(own)[0]
-        if spacing:  # then on rows
-            around = np.exp(2j * math.pi / spacing * (self._positions - prepared.units.into(low))).mean(axis=0)
+    def __init__(self, prepared: Prepared, bounds: Bounds, turn: Turn = UNTURNED, spacing: float = 0.0) -> None:
+        self.prepared, self.bounds, self.turn, self.spacing = prepared, bounds, turn, spacing
+        axes = turned_by(prepared.mesh.positions, turn, back=True)
+        self.positions = prepared.units.into(axes) if any(turn) else prepared.positions
+        low = box_around(axes)[0]
+        if spacing:
+            around = np.exp(2j * math.pi / spacing * (self.positions - prepared.units.into(low))).mean(axis=0)
             low = low + np.angle(around) / (2.0 * math.pi) * spacing * prepared.units.scale
         narrow = low.astype(np.float32)
-        fine = np.spacing(np.abs(narrow)).max() < 1e-6 * prepared.units.scale
-        self._hold = single if fine else float
+        is_exact_enough = np.spacing(np.abs(narrow)).max() < 1e-6 * prepared.units.scale
+        self.hold: Callable[[float], float] = single if is_exact_enough else float
         below = np.where(narrow > low, np.nextafter(narrow, np.float32(-np.inf)), narrow).astype(np.float64)
-        self._origin = below if fine else low
-        self._low = prepared.units.into(self._origin)
-        smallest = float(np.finfo(np.float32).smallest_subnormal) / prepared.units.scale
-        self.least = max(float((self._positions - self._low).max()) / (MOST_GRID - 4), smallest)
-        self.most = COARSEST
-        self._bounds = bounds
-        self._last: tuple[float, Trial] | None = None
+        self._origin = below if is_exact_enough else low
+        cells = float((self.positions - prepared.units.into(self._origin)).max()) / (MOST_GRID - 4)
+        self.least = max(cells, float(np.finfo(np.float32).smallest_subnormal) / prepared.units.scale)
 
     @cached_property
     def first(self) -> float:
+        """The step that a search begins with, which is on the ladder."""
         # Where half a diagonal of cells is beyond the least reach, it is not the look that decides.
-        step = min(self._bounds.first_step, COARSEST, 2.0 * float(self._bounds.reaches.min()) / math.sqrt(3.0))
-        return float(self.dividing(step))
+        reach = 2.0 * float(self.bounds.reaches.min()) / math.sqrt(3.0)
+        wanted = min(self.bounds.first_step, COARSEST, reach)
+        return float(self.dividing(max(on_ladder(wanted), self.least)))
 
     def dividing(self, step: npt.ArrayLike) -> Matrix:
-        """The widest step up to a wanted one that divides the spacing of rows and columns, if there are any."""
+        """Return the widest step up to a wanted one that divides the spacing of rows, if there is one."""
         parts = np.maximum(np.ceil(self.spacing / np.asarray(step) - 2.0 * SLACK), 1.0)
         return np.asarray(self.spacing / parts if self.spacing else step)
 
-    def regular(self) -> list["Gridded"]:
-        """These grids, rounded and chosen, with cells that divide the spacing of a regular mesh: at such steps, which
-        others meet by luck, its rows and columns take hardly any bytes."""
-        spacing = spacing_of(self._positions, self._prepared.mesh.faces)
-        worths = (0.0, 1.0) if spacing > 2.0 * SLACK * self.first else ()
-        return [Gridded(self._prepared, self._bounds, worth, self.turn, spacing) for worth in worths]
+    @cached_property
+    def planes(self) -> list[Matrix]:
+        axes = turned_by(self.prepared.mesh.positions, self.turn, back=True)
+        return planes_of(axes, self.prepared.mesh.faces)
 
     @cached_property
-    def _planes(self) -> list[Matrix]:
-        own = turned_by(self._prepared.mesh.positions, self.turn, back=True)
-        return planes_of(own, self._prepared.mesh.faces)
+    def motions(self) -> tuple[Matrix, Matrix, Matrix]:
+        """Motions between congruent parts, as for the first step."""
+        self._seek_motions()
+        return motions_of(self.prepared, max(self.first, self.least) * self.prepared.units.scale, self.turn)
+
+    def _seek_motions(self) -> None:
+        if not self.prepared.motions:  # the same ladder for all looks
+            motions_of(self.prepared, max(self.bounds.usual_step, self.least) * self.prepared.units.scale, self.turn)
+
+    @property
+    def explained(self) -> float:
+        """The share of vertices that may be images of others; 0: no parts are congruent."""
+        if not may_repeat(self.prepared):
+            return 0.0
+        return 1.0 - float(np.prod(1.0 - np.minimum(self.motions[2], 1.0)))
+
+    def cells(self, step: float, mirrored: bool) -> tuple[float, Matrix]:
+        """Return the length of a cell near a step, and the origin, in the unit of the mesh."""
+        cell = single(max(step, self.least) * self.prepared.units.scale)
+        if self.spacing or not mirrored or not may_repeat(self.prepared):
+            return cell, self._origin
+        self._seek_motions()
+        least = self.least * self.prepared.units.scale
+        cell, moved = lattice(self.prepared, self._origin, cell, least, self.turn, self.planes)
+        return cell, np.array([self.hold(value) for value in moved])
+
+    @cached_property
+    def light_size(self) -> int:
+        """About the bytes of rounded places at the first step."""
+        return Gridded("grid", self).light_size
+
+    @cached_property
+    def with_images(self) -> Trial:
+        """The trial of the first step, with images to which vertices go."""
+        return Gridded("images", self, images=True, going=True).at(self.first)
+
+    @property
+    def moves_are_seen(self) -> bool:
+        """Whether vertices are much farther off where they went to images, and images save less than a half."""
+        moved = self.with_images
+        grid, places = Gridded("grid", self).places(self.first)
+        rounded_positions = self.prepared.units.into(grid.positions(places))
+        squares = [squares_of(p - self.prepared.positions).sum() for p in (moved.positions, rounded_positions)]
+        far = squares[0] > math.exp(2.0 * DOUBT) * squares[1]
+        return bool(far and moved.draft.size > 0.5 * self.light_size)
+
+
+class Gridded:
+    """Places on the grids of a frame.
+
+    `worth`: the worth of a nat, in angles by which a step bends a mean face; 0: places are rounded. `images`: predict
+    places from congruent parts; `going`: vertices also go to where images are. `made`: the one step that it has.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        frame: Frame,
+        worth: float = 0.0,
+        *,
+        images: bool = False,
+        going: bool = False,
+        made: float = 0.0,
+    ) -> None:
+        self.name, self.frame = name, frame
+        self._prepared, self._bounds, self._shaper = frame.prepared, frame.bounds, frame.bounds.measures.shaper
+        self._worth, self._images, self._going, self._made = worth, images, going, made
+        self.least, self.most = (made, made) if made else (frame.least, COARSEST)
+
+    @property
+    def first(self) -> float:
+        return self._made or self.frame.first
+
+    @cached_property
+    def ladder(self) -> Matrix:
+        """The logarithms of the steps that may be tried."""
+        if self._made:
+            return np.log([self._made])
+        if not self.frame.spacing:
+            return ladder_of(self.least, self.most)
+        near = ladder_of(self.first / math.e, self.most)
+        return np.log(np.unique(self.frame.dividing(np.exp(near))))
+
+    @property
+    def light_size(self) -> int:
+        """About the bytes at the first step without images, by a quick coder."""
+        grid, places = self.places(self.first)
+        return grid_draft(self._prepared, replace(grid, light=True), places, may_repeat(self._prepared)).size
+
+    def estimate(self, rival: float) -> Estimate:
+        """Return about how many bytes a trial at the first step takes."""
+        fixed, size = len(self._prepared.connectivity.data), float(self.frame.light_size)
+        varying = BYTES * self._prepared.graph.size
+        if self._made:
+            return Estimate(float(self.light_size), DOUBT, varying)
+        if not self._images:
+            return Estimate(size, DOUBT, varying, also=self._usual, kin="places")
+        # Luck decides about bytes, so that shares of vertices tell little: the first trial is coded.
+        coded = self.frame.with_images
+        saving = min(varying, coded.draft.size - fixed) / 2.0
+        if self._going:
+            return Estimate(coded.draft.size, SLACK, saving, coded, self._usual)
+        return Estimate(STAYING * coded.draft.size, 2.0 * SLACK, saving)
+
+    @property
+    def _usual(self) -> float:
+        """The step with which a search for a look of 1 begins, if that is finer and parts or spacings repeat; or 0.
+
+        There, bytes hardly depend on steps, but on luck.
+        """
+        step = max(on_ladder(self._bounds.usual_step), self.least)
+        return step if (self._images or self.frame.spacing) and step < 0.99 * self.first else 0.0
 
     def at(self, step: float) -> Trial:
-        if self._last is None or self._last[0] != step:
-            self._last = step, self._made(step)
-        return self._last[1]
+        """Return the trial of a step."""
+        wanted = float(self.frame.dividing(step))
+        grid, places = self.places(wanted)
+        code: Callable[[], Draft] = partial(self._draft, grid, places)
+        if self._going:
+            draft = code()  # the coder decides where vertices go
+            decoded, code = draft.decoded, lambda: draft
+        else:
+            decoded = grid.positions(places)
+        positions = np.ascontiguousarray(self._prepared.units.into(decoded))
+        return Trial(
+            wanted,
+            positions,
+            code,
+            decoded=decoded,
+            complete=partial(completed, self._prepared, grid, places, self._images),
+        )
 
-    def _made(self, step: float, mirrored: bool = True) -> Trial:
-        unit = self._prepared.units.scale
-        step = float(self.dividing(step))
-        held, origin = single(max(step, self.least) * unit), self._origin
-        if mirrored and not self.spacing and may_repeat(self._prepared):
-            if not self._prepared.motions:  # the same ladder for all looks
-                motions_of(self._prepared, max(self._bounds.usual_step, self.least) * unit, self.turn)
-            held, moved = lattice(self._prepared, origin, held, self.least * unit, self.turn, self._planes)
-            origin = np.array([self._hold(value) for value in moved])
-        low = self._prepared.units.into(origin)
-        places = np.floor((self._positions - low) / (held / unit) + 0.5).astype(np.int32)
+    def places(self, step: float) -> tuple[Raster, Levels]:
+        """Return a grid, and the place of each vertex on it."""
+        frame, unit = self.frame, self._prepared.units.scale
+        length, origin = frame.cells(step, mirrored=not self._made)
+        cell, low = length / unit, self._prepared.units.into(origin)
+        places = np.floor((frame.positions - low) / cell + 0.5).astype(np.int32)
         if self._worth:
             worth, reach = self._worth * step / self._shaper.mean_edge, float(self._bounds.reaches.min())
-            places = self._shaper.places(places, low, held / unit, worth, min(reach, SPIKE * step))
-        places = self._apart(places, low, held / unit)
+            places = self._shaper.places(places, low, cell, worth, min(reach, SPIKE * step))
+        places = self._apart(places, low, cell)
         least = places.min(axis=0)  # some may be below the origin
-        start = tuple(self._hold(value) for value in origin + least * held)
-        grid = Raster(start, held, tuple(int(value) for value in np.ptp(places, axis=0)), turn=self.turn)
-        largest = np.array(grid.largest, np.int32)
+        start = tuple(frame.hold(value) for value in origin + least * length)
+        grid = Raster(start, length, tuple(int(value) for value in np.ptp(places, axis=0)), turn=frame.turn)
         places = places - least
         if self._bounds.metric is not None:  # pictures show faces without area; on coarse grids there are many
+            largest = np.array(grid.largest, np.int32)
             places = self._prepared.linked.mended(places, largest, self._wanted(grid, places))
-        return replace(self._candidate(grid, places), step=step)
+        return grid, places
 
     def _apart(self, places: Levels, low: Matrix, cell: float) -> Levels:
-        """Places from `low` on; vertices that would close a gap between parts are moved away, a cell or a few."""
-        gaps, toward = self._bounds.gaps, turned_by(self._bounds.gaps.closing[:, 0], self.turn, back=True)
+        """Return places from `low` on; vertices that would close a gap between parts move away, a cell or a few."""
+        gaps, turn = self._bounds.gaps, self.frame.turn
+        toward = turned_by(gaps.closing[:, 0], turn, back=True)
         away = -np.rint(toward / np.abs(toward).max(axis=1, keepdims=True)).astype(np.int32)
         for first in (1, 0, 0) if len(away) else ():
-            closed = gaps.closed(turned_by(places * cell + low - self._positions, self.turn)) > 1.0
-            wrong = closed & (gaps.ends[:, 0] >= first * gaps.ends[:, 1])  # at first, of one of two parts
+            moved = turned_by(places * cell + low - self.frame.positions, turn)
+            wrong = (gaps.closed(moved) > 1.0) & (gaps.ends[:, 0] >= first * gaps.ends[:, 1])  # at first, of one part
             places[gaps.ends[wrong, 0]] += away[wrong]
         return places
 
-    def in_frame(self) -> "Gridded":
-        """The grid in the axes of the part, if that takes much fewer bytes at the first step."""
-        prepared = self._prepared
-        if not may_repeat(prepared) or prepared.light or self._bounds.measures.normals is not None:
-            return self  # sent normals stay in the axes of the mesh, and may be predicted from the grid
-        positions, faces = prepared.positions, prepared.mesh.faces
-        if not any(turn := turn_of(positions, faces[:: 1 + len(faces) // (4 * SAMPLE)])):
-            return self
-        other = Gridded(prepared, self._bounds, turn=turn)
-        own, others = (grid.at(self.first).congruent.size for grid in (self, other))
-        return other if others < (1.0 - SLACK) * own else self
-
-    def repeat(self, first: Trial) -> Trial:
-        """Predict by congruent parts from now on if that pays in the first trial; return it so."""
-        prepared, step = self._prepared, max(first.step, self.least) * self._prepared.units.scale
-        if may_repeat(prepared) and len(motions_of(prepared, step, self.turn)[0]):
-            self.repeats = True
-            made = self._made(first.step)
-            self.repeats = made.draft.size < (1.0 - SLACK) * first.draft.size
-            if self.repeats:
-                self._last = None
-                return made
-        return first
-
-    def still(self) -> "Gridded":
-        """These grids with vertices that stay where parts repeat, because what moves may be seen."""
-        other = Gridded(self._prepared, self._bounds, turn=self.turn)
-        other.repeats, other.stays = self.repeats, True
-        return other
-
-    def usual(self) -> Iterator[Trial]:
-        """The trial with which the search for a look of 1 begins, if that is a stricter one and parts or spacings
-        repeat: there, bytes hardly depend on steps, but on luck."""
-        step = self._bounds.usual_step
-        if (self.repeats or self.spacing) and step < self.first:
-            yield self.at(max(step, self.least))
-
-    def made(self) -> Iterator[Trial]:
-        """The grids that the mesh was made on, or about, in single precision."""
-        unit = self._prepared.units.scale
-        for within in (0.0, SEEN * self._shaper.mean_edge * unit):
-            if (step := made_on(self._prepared.mesh.positions, within)) is not None:
-                yield self._made(step / unit, mirrored=False)
-
-    def _candidate(self, grid: Raster, places: Levels) -> Trial:
-        prepared, may = self._prepared, may_repeat(self._prepared)
-        way = copy(self)  # as it is now, and without its last trial, which would keep itself
-        way._last = None
-
-        @lru_cache
-        def coded(repeats: bool) -> Draft:
-            found = transforms_of(prepared, grid) if repeats else None
-            moves = way.repeats and not way.stays and found is not None and len(found) > 0
-            wanted = way._wanted(grid, places) if moves else None
-            whole = replace(grid, transforms=found)
-            return grid_draft(prepared, whole, places, may and not prepared.light, wanted)
-
-        def repeating() -> Draft:
-            if not may or way.repeats:
-                return coded(way.repeats)
-            some, sized = transforms_of(prepared, grid), partial(sampled_size, prepared.mesh.faces, coded=places)
-            if len(some) or prepared.light or len(places) <= SAMPLE:
-                return coded(len(some) > 0 or not prepared.light)
-            return coded(sized(replace(grid, transforms=some)) < sized(grid))
-
-        def about() -> int:
-            if may and len(transforms_of(prepared, grid)):
-                return 0
-            return grid_draft(prepared, replace(grid, light=True), places, may).size
-
-        decoded = coded(True).decoded if self.repeats else grid.positions(places)
-        positions = np.ascontiguousarray(prepared.units.into(decoded))
-        step, fixed = grid.step / prepared.units.scale, len(prepared.connectivity.data)
-        make = partial(coded, self.repeats)
-        return Trial(step, positions, make, fixed, repeating=repeating, decoded=decoded, about=about)
+    def _draft(self, grid: Raster, places: Levels) -> Draft:
+        """Return the stream of places."""
+        may_be_brief = may_repeat(self._prepared) and not self._prepared.light
+        if not self._images:
+            return grid_draft(self._prepared, grid, places, may_be_brief)
+        transforms = transforms_of(self._prepared, grid)
+        wanted = self._wanted(grid, places) if self._going and len(transforms) else None
+        return grid_draft(self._prepared, replace(grid, transforms=transforms), places, may_be_brief, wanted)
 
     def _wanted(self, grid: Raster, places: Levels) -> Matrix:
-        """Where each vertex would be, in cells, and the square of how far from there it may come, shape (n, 4)."""
+        """Return where each vertex would be, in cells, and the square of how far off it may be, shape (n, 4)."""
         cell, low = grid.step / self._prepared.units.scale, self._prepared.units.into(np.array(grid.origin))
-        wanted, gaps = (self._positions - low) / cell, self._bounds.gaps
+        wanted, gaps = (self.frame.positions - low) / cell, self._bounds.gaps
         reach = np.minimum(gaps.kept(self._bounds.reaches) / cell, SPIKE)
         # Who is past the middle of a gap leaves no room in it: there, all stay where they are.
         past = squares_of(places - wanted) > np.square(reach)
         reach[gaps.ends[past[gaps.ends].any(axis=1)]] = 0.0
         return np.column_stack([wanted, np.square(reach)])
+
+
+# Not a method: a trial that a frame keeps must not keep the frame.
+def completed(prepared: Prepared, grid: Raster, places: Levels, with_images: bool, draft: Draft) -> Draft:
+    """Return the smallest stream of places: with images where they pay, and with as many as pay."""
+    if may_repeat(prepared) and not with_images:
+        draft = repeating(prepared, grid, places, draft)
+    return paying(prepared, draft)
+
+
+def best_frame(prepared: Prepared, bounds: Bounds) -> Frame:
+    """Return the grids in the axes of the mesh, or of the part, if those take much fewer bytes at the first step."""
+    usual = Frame(prepared, bounds)
+    # Sent normals stay in the axes of the mesh, and may be predicted from the grid.
+    if not may_repeat(prepared) or prepared.light or bounds.measures.normals is not None:
+        return usual
+    some = prepared.mesh.faces[:: 1 + len(prepared.mesh.faces) // (4 * SAMPLE)]
+    turn = turn_of(prepared.positions, some)
+    if not any(turn):
+        return usual
+    turned = Frame(prepared, bounds, turn)
+    sizes = [Gridded("grid", frame).at(usual.first).final.size for frame in (usual, turned)]
+    return turned if sizes[1] < (1.0 - SLACK) * sizes[0] else usual
+
+
+def regular_frame(frame: Frame) -> Frame | None:
+    """Return the frame on the rows of a regular mesh: at steps that divide their spacing, which others meet by luck,
+    rows and columns take hardly any bytes. None: the mesh is irregular."""
+    spacing = spacing_of(frame.positions, frame.prepared.mesh.faces)
+    if spacing <= 2.0 * SLACK * frame.first:
+        return None
+    return Frame(frame.prepared, frame.bounds, frame.turn, spacing)
+
+
+def made_steps(frame: Frame) -> list[float]:
+    """Return the steps of the grids that the mesh was made on, or about, in single precision."""
+    unit = frame.prepared.units.scale
+    reaches = (0.0, SEEN * frame.bounds.measures.shaper.mean_edge * unit)
+    steps = [made_on(frame.prepared.mesh.positions, reach) for reach in reaches]
+    return sorted({step / unit for step in steps if step is not None})

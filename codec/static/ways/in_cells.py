@@ -84,7 +84,7 @@ class InCells:
         return Fit(self.cells, self._prepared.graph, self._prepared.positions, self._spread.rounds)
 
     def bases(self, step: float, progress: Progress | None = None) -> Iterator[RefinementBase]:
-        """The cells for levels of vertices at about a step, and their places prolonged, for all steps of cells."""
+        """The cells for levels at about a step, and their places prolonged, for all steps of cells, finest first."""
         coarse, cells = self._coarse, self._spread.levels * step
         rough = max(self._spread.coefficients * step, 1.01 * smallest_step(coarse.size))
         blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5), progress)

@@ -7,7 +7,7 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -59,6 +59,7 @@ class EncodeJob(Task):
     recursive: bool = False
     shared: tuple[str, ...] = ()  # digests of images that several meshes have
     dry_run: bool = False
+    explain: bool = False
     images: str | None = None
 
     @property
@@ -211,7 +212,11 @@ def _result(
     summary += f"{' without images' if images else ''}; {look}{binds}{errors}"
     facts: Facts = {"vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": written, "bytes": size}
     facts |= {"bpv_total": bpv} | ({"input_parts": parts, "output_parts": beside} if parts else {}) | numbers
-    return notes, summary, {**facts, "look": encoder.look, "binding": encoder.binding}
+    facts |= {"look": encoder.look, "binding": encoder.binding}
+    if job.explain:
+        notes += [str(event) for event in encoder.trials]
+        facts["trials"] = [asdict(event) for event in encoder.trials]
+    return notes, summary, facts
 
 
 def _measured(note: str, attributes: Mapping[str, Errors | None]) -> str:

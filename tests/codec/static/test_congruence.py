@@ -17,7 +17,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.turns import UNTURNED
 from bsm.codec.static.choice.bounds import Bounds, Measures
 from bsm.codec.static.choice.congruence import coded_transforms, lattice, planes_of, transforms_of
-from bsm.codec.static.choice.grids import Gridded, _rounded, grid_draft, paying, rounded
+from bsm.codec.static.choice.grids import Frame, Gridded, _rounded, grid_draft, paying, repeating, rounded
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
@@ -63,8 +63,8 @@ def prepared_of(mesh: TriangleMesh, bits: int) -> Prepared:
 
 def coded(prepared: Prepared, bits: int) -> tuple[Draft, Draft]:
     """A grid of so many bits, without and with congruent parts."""
-    grids = Gridded(prepared, Bounds(Measures(prepared, 1), Contract(0.01)))
-    return rounded(prepared, bits), grids._candidate(*_rounded(prepared, bits=bits)).congruent
+    grid, places = _rounded(prepared, bits=bits)
+    return rounded(prepared, bits), repeating(prepared, grid, places, grid_draft(prepared, grid, places, True))
 
 
 def version_of(data: bytes) -> int:
@@ -240,9 +240,10 @@ def test_a_part_of_equal_sectors_costs_little_more_than_one(sectors):
 
 def test_vertices_of_still_grids_do_not_go_to_images():
     prepared = Encoder(copies(bumpy(1), np.array([about(2, 7), about(2, 5)])))._input.prepared
-    grid = Gridded(prepared, Bounds(Measures(prepared, 1), Contract(0.01, look=1.0)))
-    usual = grid.at(grid.first)
-    moved, still = grid.repeat(usual), grid.still().at(grid.first)
+    frame = Frame(prepared, Bounds(Measures(prepared, 1), Contract(0.01, look=1.0)))
+    usual = Gridded("grid", frame).at(frame.first)
+    moved = Gridded("images", frame, images=True, going=True).at(frame.first)
+    still = Gridded("images, none moved", frame, images=True).at(frame.first)
     assert (still.positions == usual.positions).all() and (moved.positions != usual.positions).any()
     assert moved.draft.size < still.draft.size < usual.draft.size and still.draft.header.transforms > 0
 

@@ -11,9 +11,10 @@ import bsm
 from bsm import PRESETS, Attribute, Contract, EncodeOptions, Encoder, Target, TriangleMesh, encode
 from bsm.codec.look.measure import LookMetric, own_normals
 from bsm.codec.static import encoder
-from bsm.codec.static.choice import attributes, grids, search
-from bsm.codec.static.choice.bounds import Bounds, Trial
-from bsm.codec.static.choice.search import Search
+from bsm.codec.static.choice import attributes, grids
+from bsm.codec.static.choice.bounds import Bounds
+from bsm.codec.static.choice.search import OneSearch, Search
+from bsm.codec.static.choice.trials import Trial
 from bsm.ground.exits import exit_of
 from tests.shapes import patch
 
@@ -36,11 +37,15 @@ def colored(mesh: TriangleMesh) -> TriangleMesh:
 
 
 def rounded(given: Search, *_: object) -> object:
-    return grids.rounded(given._prepared, COARSE)
+    return grids.rounded(given.prepared, COARSE)
 
 
 def the_coarsest_step(attempt: Callable[[float], object], target: Target, first: float, *_: object) -> object:
     return attempt(first / 10.0 if target.shrinks_with_step else first * 10.0)
+
+
+def the_coarsest_trial(search: OneSearch, *_: object) -> None:
+    search.best = search.prospects[0].way.at(0.05)
 
 
 BROKEN = {
@@ -48,7 +53,7 @@ BROKEN = {
     "an angle": (MESH, {"target": Target("theta_deg", 0.5)}, Search, "smallest", rounded),
     "a visual error": (MESH, {"target": Target("nmsve_db", -60.0)}, Search, "smallest", rounded),
     "a bound": (MESH, {"contract": Contract(1e-4)}, Search, "smallest", rounded),
-    "whether bounds are kept": (MESH, {}, search, "search", lambda queue, *_: [queue[0].way.at(0.05)]),
+    "whether bounds are kept": (MESH, {}, OneSearch, "run", the_coarsest_trial),
     "normals": (shaded(MESH), {}, attributes, "bisect_left", lambda values, *_, **__: 0),
     "colors": (colored(patch(20, 20)), {}, attributes, "bisect_left", lambda values, *_, **__: 0),
     "a step": (
@@ -97,7 +102,7 @@ def test_a_draft_is_judged_by_what_is_decoded(tmp_path: Path) -> None:
     assert made._input.measured(draft, promise)[0] == ""
     assert "look" in made._input.measured(draft, replace(promise, look=promise.look / 50.0))[0]
     assert "vertex" in made._input.measured(draft, replace(promise, farthest=1e-7))[0]
-    decoded = Trial(0.0, made._input.prepared.units.into(draft.decoded), lambda: draft, 0)
+    decoded = Trial(0.0, made._input.prepared.units.into(draft.decoded), lambda: draft)
     assert Bounds(made._input.measures, promise).keeps(decoded)
     assert len(encode(MESH, EncodeOptions(threads=1))) > 0
 

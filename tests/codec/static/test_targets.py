@@ -186,7 +186,7 @@ def test_a_target_beside_the_look_takes_little_more(meshes: Path) -> None:
     mesh = read_mesh(str(meshes / "static" / "gargoyle_10002.ply")).mesh.bare
     target = Target("nmsve_db", -55.0)
     alone, both = (len(encode(mesh, replace(PRESETS[name], target=target))) for name in ("none", "balanced"))
-    assert both <= 1.1 * max(alone, len(encode(mesh)))
+    assert both <= 1.12 * max(alone, len(encode(mesh)))
 
 
 @pytest.mark.real

@@ -1,0 +1,101 @@
+"""The best look of a size: of each way the finest rungs of a ladder that fit.
+
+Rungs are an eighth of an octave apart and the same for all sizes, so that a larger size has all candidates of a smaller
+one, or finer ones. Looks depend on luck, so several rungs of a way are drawn: more than luck can turn around.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from bsm.bitstream.errors import LimitError
+from bsm.codec.arrays import Matrix
+from bsm.codec.static.choice.bounds import Bounds
+from bsm.codec.static.choice.trace import Trace
+from bsm.codec.static.choice.trials import BYTES, Trial, Way
+from bsm.codec.static.preamble_encoding import Draft
+from bsm.codec.static.targets import TRIES
+
+RUNG = math.log(2.0) / 8.0
+WORSE = 0.35  # logarithm of a look, by which a way is expected to be worse than another one, and is not opened
+
+
+class SizeSearch:
+    """Looks for the best trials of at most so many bytes."""
+
+    def __init__(self, bounds: Bounds, size: Callable[[Draft], int], additions: int, trace: Trace) -> None:
+        self._bounds, self._size, self._additions, self._trace = bounds, size, additions, trace
+        graph_size = bounds.measures.prepared.graph.size
+        self.usual_size = math.inf  # about the bytes of the default, once ways have told theirs
+        self._saving = BYTES * graph_size
+        self._drawn = 1 + math.ceil(graph_size**-0.25 / RUNG)  # rungs of a way, by how lucky looks may be
+
+    def trials(self, ways: list[Way], most: float) -> Iterator[tuple[float, Trial]]:
+        """Yield trials of at most `most` bytes with their quality, as a logarithm; the lowest is best."""
+        for way in self._promising(ways, most):
+            fitting = self._fitting(way, most)
+            for trial in fitting:
+                quality = self._bounds.quality(trial)
+                self._trace.note("draw", way.name, step=trial.step, size=trial.draft.size, error=math.exp(quality))
+                if self._bounds.keeps(trial):
+                    yield quality, trial
+
+    def _promising(self, ways: list[Way], most: float) -> list[Way]:
+        """Return the ways whose steps at the size are not expected to look much worse than those of another way."""
+        finest: dict[str, float] = {}
+        rival = math.inf
+        for way in ways:
+            try:
+                estimate = way.estimate(rival)
+            except LimitError:  # blocks that decoders would refuse
+                continue
+            rival = min(rival, estimate.size)
+            self._trace.note("estimate", way.name, step=way.first, size=estimate.size)
+            over = estimate.size + self._additions - most
+            finest[way.name] = math.log(way.first) + over / max(estimate.saving, 1.0)
+        self.usual_size = rival + self._additions
+        least = min(finest.values())
+        promising = [way for way in ways if finest.get(way.name, math.inf) <= least + WORSE]
+        return sorted(promising, key=lambda way: finest[way.name])
+
+    def _fitting(self, way: Way, most: float) -> list[Trial]:
+        """Return the trials of the finest rungs of a way that fit."""
+        rungs = way.ladder if len(way.ladder) == 1 else _every(way.ladder)
+        trials: dict[int, Trial] = {}
+
+        def excess(index: int) -> float:
+            """Return by how many bytes a rung is too large."""
+            if index not in trials:
+                trials[index] = way.at(math.exp(rungs[index]))
+                self._trace.note("code", way.name, step=trials[index].step, size=self._size(trials[index].draft))
+            return self._size(trials[index].final) - most
+
+        finest = self._finest(way, rungs, excess)
+        if finest is None:
+            return []
+        return [trials[index] for index in range(finest, min(finest + self._drawn, len(rungs))) if excess(index) <= 0.0]
+
+    def _finest(self, way: Way, rungs: Matrix, excess: Callable[[int], float]) -> int | None:
+        """Return the index of the finest rung that fits; None: none does."""
+        low, high = -1, len(rungs)  # too fine; coarse enough
+        index = int(abs(rungs - math.log(way.first)).argmin())
+        for _ in range(TRIES + 3):
+            over = excess(index)
+            if over > 0.0:
+                low = index
+            else:
+                high = index
+            if high - low <= 1:
+                break
+            jump = math.ceil(over / (self._saving * RUNG)) if over > 0.0 else math.floor(over / (self._saving * RUNG))
+            index = min(max(index + (jump or -1), low + 1), high - 1)
+        return high if high < len(rungs) else None
+
+
+def _every(ladder: Matrix) -> Matrix:
+    """Return the rungs of a ladder that are an eighth of an octave apart."""
+    first = math.ceil(ladder[0] / RUNG)
+    last = math.floor(ladder[-1] / RUNG)
+    rungs = RUNG * np.arange(first, last + 1)
+    return rungs if len(rungs) else ladder[-1:]
