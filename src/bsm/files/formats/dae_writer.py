@@ -91,7 +91,7 @@ def _add_geometry(
     """Return a geometry with its sources, and the indices of its corners, shape (m, 3, inputs)."""
     float_source = collada.source.FloatSource
     sources = [float_source("positions", mesh.positions.reshape(-1), ("X", "Y", "Z"))]
-    columns = [mesh.faces]
+    columns: list[Ints] = [mesh.faces.astype(np.int64)]
     kinds = (("normals", "XYZ"), ("texcoords", "ST"), ("colors", "RGBA"))
     for (kind, components), attribute in zip(kinds, attributes, strict=True):
         if attribute is None:
@@ -100,7 +100,7 @@ def _add_geometry(
         sources.append(float_source(kind, values.reshape(-1), tuple(components[: values.shape[1]])))
         columns.append(corners)
     geometry = collada.geometry.Geometry(document, "geometry", name, sources)
-    return geometry, np.stack(columns, axis=2).astype(np.int64)
+    return geometry, np.stack(columns, axis=2)
 
 
 def _rows(mesh: TriangleMesh, attribute: Attribute) -> tuple[Doubles, Ints]:
@@ -110,8 +110,8 @@ def _rows(mesh: TriangleMesh, attribute: Attribute) -> tuple[Doubles, Ints]:
         values, corners = np.unique(shares.reshape(-1, shares.shape[-1]), axis=0, return_inverse=True)
         return np.asarray(values, np.float64), corners.reshape(mesh.faces.shape)
     joined = materials.without_seams(attribute, mesh)
-    corners = mesh.faces if joined.indices is None else joined.indices
-    return np.asarray(joined.values, np.float64), corners
+    indices = mesh.faces if joined.indices is None else joined.indices
+    return np.asarray(joined.values, np.float64), indices.astype(np.int64)
 
 
 def _inputs(collada: Any, attributes: Sequence[Attribute | None]) -> Any:
@@ -151,9 +151,9 @@ def _add_material(collada: Any, document: Any, number: int, words: Material, ima
             properties[name] = value[0]
     parameters: list[Any] = []
     for word, name in IMAGES.items():
-        image = images.get(words[word]) if isinstance(words.get(word), int) else None
-        if image is not None:
-            properties[name] = _add_image(collada, document, f"{number}-{name}", image, parameters)
+        place = words.get(word)
+        if isinstance(place, int) and place in images:
+            properties[name] = _add_image(collada, document, f"{number}-{name}", images[place], parameters)
     opacity = as_numbers(words.get("d", ""))
     if len(opacity) == 1:
         properties |= {"transparent": (1.0, 1.0, 1.0, 1.0), "transparency": opacity[0], "opaque_mode": "A_ONE"}
