@@ -284,7 +284,10 @@ class Gridded:
         fixed, size = len(self._prepared.connectivity.data), float(self.frame.light_size)
         varying = BYTES * self._prepared.graph.size
         if self._made:
-            return Estimate(float(self.light_size), DOUBT, varying)
+            if not self._images:
+                return Estimate(float(self.light_size), DOUBT, varying)
+            trial = self.at(self._made)
+            return Estimate(trial.draft.size, SLACK, varying, trial)
         if not self._images:
             return Estimate(size, DOUBT, varying, also=self._usual, kin="places")
         # Luck decides about bytes, so that shares of vertices tell little: the first trial is coded.
