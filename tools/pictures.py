@@ -15,7 +15,6 @@ import tempfile
 from io import BytesIO
 from pathlib import Path
 from typing import Any
-from unittest.mock import patch
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -29,7 +28,6 @@ from bsm.codec.blocks.overlap import derive_partition
 from bsm.codec.denoise import FrameDenoiser
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.choice.bounds import Bounds, Trial
 from bsm.codec.static.choice.congruence import motions_between
 from bsm.evaluation.curve import decode_draco, encode_draco
 from bsm.ground.console import Console
@@ -129,21 +127,16 @@ def trials(mesh: TriangleMesh, target: Path) -> None:
     """Draw the trials of the default on a mesh, each by its bytes and its look, numbered as they were made."""
     from matplotlib.figure import Figure
 
-    made, measured = dict[tuple[float, float], None](), Bounds._shares  # in the order in which they came
-
-    def shares(self: Bounds, candidate: Trial, look: float | None = None) -> tuple[float, float, float, float]:
-        found = measured(self, candidate, look)
-        made[candidate.congruent.size, found[-1]] = None
-        return found
-
-    with patch.object(Bounds, "_shares", shares):
-        bsm.encode(mesh, threads=1)
+    encoder = bsm.Encoder(mesh, bsm.EncodeOptions(threads=1))
+    encoder.encode()
+    drawn = [event for event in encoder.trials if event.action == "draw"]
     figure = Figure(figsize=(6.0, 3.2), layout="constrained")
-    axes = figure.add_subplot(xlabel="bytes of a trial", ylabel="look (1: looks the same)")
+    axes = figure.add_subplot(xlabel="bytes of a trial", ylabel="share of its bound (1: looks the same)")
     axes.axhline(1.0, color="0.6", linestyle="--")
-    for number, (size, look) in enumerate(made, 1):
-        axes.plot(size, look, "o", color="tab:green" if look <= 1.0 else "tab:red")
-        axes.annotate(str(number), (size, look), (6, 4), textcoords="offset points")
+    for number, event in enumerate(drawn, 1):
+        color = "tab:green" if event.error <= 1.0 else "tab:red"
+        axes.plot(event.size, event.error, "o", color=color)
+        axes.annotate(str(number), (event.size, event.error), (6, 4), textcoords="offset points")
     figure.savefig(target, dpi=120)
 
 

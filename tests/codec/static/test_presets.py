@@ -105,7 +105,6 @@ def test_the_best_effort_is_smaller_than_nearby_looks(size: tuple[int, int]) -> 
 
 
 @pytest.mark.real
-@pytest.mark.xfail(reason="the search stops before a step of this part at which more repeats", strict=False)
 def test_steps_are_tried_where_folds_and_congruent_parts_make_bytes_jump(meshes: Path) -> None:
     mesh = read_mesh(str(meshes / "assets/1002_tray_bottom.STL")).mesh.bare
     usual = sizes(mesh, "normal")
