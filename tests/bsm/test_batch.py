@@ -325,7 +325,8 @@ def test_the_documents_list_all_keys_of_reports_and_of_info(corpus, meshes, tmp_
     decode = ("decode", "-f", "-r", tmp_path / "out", "-o", tmp_path / "back")
     denoise = ("denoise", "-f", meshes / "a.npz", "-o", tmp_path / "a.npz", "--look")
     facts = []
-    for words in (encode, (*encode, "--resume"), moving, decode, denoise):
+    explained = ("encode", "-f", meshes / "a.npz", "-o", tmp_path / "explained.bsm", "--explain")
+    for words in (encode, (*encode, "--resume"), moving, decode, denoise, explained):
         bsm(*words, "--report", tmp_path / "r.json")
         facts.append(report := json.loads((tmp_path / "r.json").read_text()))
         facts += report["files"]

@@ -10,7 +10,7 @@ import bsm
 from bsm import Attribute, EncodeOptions, Encoder, FormatError, MeshError, TriangleMesh, decode, read_mesh
 from bsm.account.comparison import in_order_of, read_permutation, reorder, write_permutation
 from bsm.cli import main
-from bsm.codec.look.measure import LookMetric
+from bsm.codec.look.measure import LOOK_VERSION, LookMetric
 from bsm.evaluation.sample import knot
 from tests.bsm.program import run_json
 from tests.shapes import soup, tetrahedron, torus
@@ -31,6 +31,7 @@ def test_the_command_says_what_python_says(files, capsys):
     original, decoded = (read_mesh(files / "a.ply").mesh, bsm.decode(files / "b.bsm"))
     assert found["look"] == {
         "distance": seen.distance,
+        "version": LOOK_VERSION,
         "unlike": seen.unlike,
         "gone": seen.gone,
         "flat": pytest.approx(LookMetric(original).flat(decoded)),

@@ -167,10 +167,10 @@ def _reported(run: Batch, asked: Task, work: Work, jobs: Sequence[Job]) -> "tupl
     from bsm.account.overview import load_mesh, load_stream, report_kind
     from bsm.jobs.report import NOTHING, Report, options_of, read_report, recorded
 
-    if report_kind(run.report) != "json" and run.resume:
-        raise OptionError(f"--resume reads a report in JSON; name it .json, not {run.report}")
     # A report with the name of an input would replace it.
     refuse_collisions([job.input for job in jobs], [*(job.output for job in jobs), run.report])
+    if report_kind(run.report) != "json" and run.resume:
+        raise OptionError(f"--resume reads a report in JSON; name it .json, not {run.report}")
     refuse_to_overwrite(run.report, asked.force or run.resume)
     command, options = work.__name__, options_of(asked)
     earlier = read_report(run.report, command, options) if run.resume else NOTHING

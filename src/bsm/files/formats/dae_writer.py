@@ -12,7 +12,7 @@ from bsm.codec.geometry.attributes import Attribute, at_corners
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of
 from bsm.files.formats import metadata as materials
-from bsm.files.formats.appearance import Material, as_numbers, one_line
+from bsm.files.formats.appearance import Material, as_numbers, in_mtl, is_mtl, one_line
 from bsm.files.parsing import Doubles, Ints
 from bsm.ground.lengths import metres, unit_of
 
@@ -49,12 +49,15 @@ def write_dae(mesh: TriangleMesh, stem: str) -> materials.Written:
     inputs = _inputs(collada, (normal, texcoord, color))
     symbols = []
     for number in np.unique(own).tolist():
-        words = library.materials.get(number, {})
+        said = library.materials.get(number, {})
+        words = in_mtl(said)
         rows = indices[own == number]
         symbol = f"material-{number}"
         geometry.primitives.append(geometry.createTriangleSet(rows.reshape(-1), inputs, symbol))
         material = _add_material(collada, document, number, words, library.images)
-        held |= {f"material.{number}.{word}" for word in words if _holds(word, words, library.images)}
+        held |= {
+            f"material.{number}.{word}" for word in said if not is_mtl(word) or _holds(word, words, library.images)
+        }
         symbols.append(collada.scene.MaterialNode(symbol, material, inputs=[("UV", "TEXCOORD", "0")]))
     document.geometries.append(geometry)
     node = collada.scene.Node(stem, children=[collada.scene.GeometryNode(geometry, symbols)])
@@ -63,7 +66,8 @@ def write_dae(mesh: TriangleMesh, stem: str) -> materials.Written:
     document.scene = scene
     data = _as_text(document, geometry)
     shown = [attribute for attribute in (normal, texcoord, color, numbers) if attribute is not None]
-    lost = materials.left_out(mesh, shown, [name for name in mesh.metadata if name not in held | library.written])
+    held = (held | library.written) - {*materials.unsaid(mesh.metadata, "MTL")}
+    lost = materials.left_out(mesh, shown, [name for name in mesh.metadata if name not in held])
     return materials.Written(data, lost, library.beside)
 
 

@@ -295,9 +295,14 @@ def _metadata_in(metadata: Metadata) -> dict[str, Array]:
 def _arrays_of(attributes: Iterable[Attribute]) -> dict[str, Array]:
     arrays: dict[str, Array] = {}
     for attribute in attributes:
-        arrays[f"{attribute.domain}/{attribute.name}"] = attribute.values
-        if attribute.indices is not None:
-            arrays[f"corner/{attribute.name}/indices"] = attribute.indices
+        name = f"{attribute.domain}/{attribute.name}"
+        if attribute.indices is None:
+            arrays[name] = attribute.values
+            continue
+        # Without the values of no corner: there may be no more of them than corners.
+        used, indices = np.unique(attribute.indices, return_inverse=True)
+        arrays[name] = attribute.values[used]
+        arrays[f"{name}/indices"] = indices.reshape(attribute.indices.shape).astype(attribute.indices.dtype)
     return arrays
 
 
