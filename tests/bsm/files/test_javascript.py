@@ -3,7 +3,6 @@
 import gzip
 import hashlib
 import json
-import os
 import re
 import shutil
 import struct
@@ -118,6 +117,10 @@ TEXTS = {
     "numbers": "v 0 0 0\nv 1e-3 +.5 1.\nv 0 1 1E2\nf 1 2 3\n",
     "special": "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 1\nvn 0 0 1\nf 1//1 2//2 3//2\n",
     "all special": "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 1\nf 1//1 2//1 3//1\n",
+    "no colors": "v 0 0 0 255 0 0\nv 1 0 0 nan nan nan\nv 0 1 0 0 0 51\nf 1 2 3\n",
+    "no shares": "v 0 0 0 1 0 .2\nv 1 0 0 0 inf 0\nv 0 1 0 0 0 1\nf 1 2 3\n",
+    "no texcoords": CORNERS + "vt nan .1\nvt .3 .4\nvt .7 .2\nvt .25 -inf\nf 1/1 2/2 3/3\nf 1/4 3/3 4/2\n",
+    "objects again": CORNERS + "o a\nf 1 2 3\no b\nf 1 2 4\no a\nf 1 2 5\no c\no b\nf 2 3 4\n",
     "fine": "v 0.1 0.2 0.3\nv 1000000.123456 0 0\nv 0 1 0\nf 1 2 3\n",
     "infinite": "v 0 0 inf\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
     "hexadecimal": "v 0 0 0x10\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
@@ -202,12 +205,54 @@ def plys():
             f"long{number}",
             ply_head(3, 1, more="property int64 id\n") + f"0 0 0 {number}\n1 0 0 1\n0 1 0 2\n3 0 1 2\n",
         )
+    yield from plys_of_colors()
+    yield from plys_of_textures()
     yield "mac", (ply_head(3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").replace("\n", "\r")
     yield "windows", (ply_head(3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").replace("\n", "\r\n")
 
 
+def plys_of_colors():
+    """Numbers of every type that are colors, or are none."""
+    rows = {
+        "bytes": "0 9 255", "words": "0 256 65535", "more": "0 1 65536", "less": "-1 0 3",
+        "shares": "0 .2 1", "floats": "0 51 255", "wide": "0 .5 300", "none": "nan 9 255", "nowhere": "nan inf nan",
+    }  # fmt: skip
+    for kind in ("uchar", "char", "ushort", "short", "uint", "int", "int64", "uint64", "float", "double"):
+        more = "".join(f"property {kind} {name}\n" for name in ("red", "green", "blue"))
+        for name, row in rows.items():
+            body = f"0 0 0 {row}\n1 0 0 255 255 255\n0 1 0 0 0 0\n3 0 1 2\n"
+            yield f"{kind} {name}", ply_head(3, 1, more=more) + body
+    more = "".join(f"property float {name}\n" for name in ("red", "green", "blue", "alpha", "quality"))
+    body = "0 0 0 1 0 0 9000 .5\n1 0 0 0 .2 0 1 nan\n0 1 0 0 0 1 1 .25\n3 0 1 2\n"
+    yield "wild alpha", ply_head(3, 1, more=more) + body
+    yield "no alpha", ply_head(3, 1, more=more) + body.replace("9000", "nan")
+    for names in (("diffuse_red", "diffuse_green", "diffuse_blue"), ("r", "g", "b")):
+        more = "".join(f"property uchar {name}\n" for name in names)
+        head = ply_head(3, 1, more=more).replace("end_header", f"{more}end_header")
+        yield names[0], head + "0 0 0 1 2 3\n1 0 0 4 5 6\n0 1 0 7 8 9\n3 0 1 2 7 7 7\n"
+
+
+def plys_of_textures():
+    """Texture coordinates of vertices and corners, and numbers of materials and images, with and without images."""
+    images = "comment TextureFile a.png\ncomment TextureFile b.png\n"
+    said = 'comment meta material.0.map_Kd: 1\ncomment meta image.1.name: "a.png"\n'
+    of_corners = "property list uchar float texcoord\n"
+    numbers = "".join(f"property int {name}\n" for name in ("material_index", "texnumber"))
+    square = "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 nan\n"
+    for comments in ("", images, f"{images}{said}"):
+        for u, v in (("u", "v"), ("s", "t"), ("texture_u", "texture_v"), ("texture_s", "texture_t")):
+            more = f"property float {u}\nproperty float {v}\n"
+            head = ply_head(4, 2, more=more).replace("element vertex", f"{comments}element vertex")
+            head = head.replace("end_header", f"{of_corners}{numbers}end_header")
+            for textures in ("01", "10", "00", "21"):
+                faces = f"3 0 1 2 6 0 0 1 0 1 1 0 {textures[0]}\n3 0 2 3 0 1 {textures[1]}\n"
+                yield f"{u} {len(comments)} {textures}", head + square + faces
+                alone = (head + square + faces).replace("material_index", "flag")
+                yield f"{u} {len(comments)} {textures} alone", alone
+
+
 def test_plys(tmp_path):
-    assert require_same(written(tmp_path, {f"{name}.ply": data for name, data in plys()})) > 10
+    assert require_same(written(tmp_path, {f"{name}.ply": data for name, data in plys()})) > 150
 
 
 def records(triangles, head=b""):
@@ -368,14 +413,11 @@ def test_scenes(tmp_path):
 
 
 @pytest.mark.real
-def test_assets():
-    folder = Path(os.environ.get("BSM_MESHES", ROOT.parent / "shared/meshes"))
+def test_assets(meshes):
     most = 10_000_000  # bytes: of larger ones there are some alike
-    found = [path for kind in READ for path in sorted(folder.rglob(f"*.{kind}")) if path.stat().st_size < most]
-    if not found:
-        pytest.skip("needs real meshes")
+    found = [path for kind in READ for path in sorted(meshes.rglob(f"*.{kind}")) if path.stat().st_size < most]
     assert require_same(found) > 10
-    scenes = sorted(folder.rglob("*.glb"))
+    scenes = sorted(meshes.rglob("*.glb"))
     for path, theirs in zip(scenes, by_javascript(scenes), strict=True):
         mesh = read_mesh(path).mesh
         assert theirs["counts"] == [len(mesh.positions), len(mesh.faces)], path

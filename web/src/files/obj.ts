@@ -70,9 +70,18 @@ export function readObj(bytes: Uint8Array): Polygons {
         columns.push(...found.columns);
         Object.assign(metadata, found.metadata);
     }
+    const again = repeatedNames(names.o, ofFace.o).slice(0, MOST_NAMED).join(", ");
+    if (again) notes.push(`objects of one name became one: ${again}`);
     if (libraries.size > 0) metadata.mtllib = [...libraries].join("\n");
     Object.assign(metadata, commentsOf(text, dropped));
     return { positions, sizes, corners, columns, metadata, notes, dropped };
+}
+
+/** The names that several objects with faces have; `ofFace` counts the names so far. */
+function repeatedNames(names: string[], ofFace: number[]): string[] {
+    const counts = new Map<string, number>();
+    for (const place of new Set(ofFace)) counts.set(names[place], (counts.get(names[place]) ?? 0) + 1);
+    return Array.from(counts).flatMap(([name, count]) => (name !== "" && count > 1 ? name : []));
 }
 
 /** Metadata in comments: what `bsm` wrote, and the text ahead of the first line of data. */

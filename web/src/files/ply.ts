@@ -13,7 +13,7 @@ const KINDS = {
     Float32: [Float32Array, "float32", "float"],
     Float64: [Float64Array, "float64", "double"],
     BigInt64: [Int32Array, "int64", "long"],
-    BigUint64: [Uint32Array, "uint64", "ulong"],
+    BigUint64: [Int32Array, "uint64", "ulong"],
 } as const;
 type NumberKind = keyof typeof KINDS;
 type Read = (this: DataView, at: number, little: boolean) => number | bigint;
@@ -33,7 +33,11 @@ const GROUPS: [meaning: "normal" | "color" | "texcoord", names: string[]][] = [
     ["texcoord", ["texture_u", "texture_v"]],
     ["texcoord", ["texture_s", "texture_t"]],
 ];
-const MATERIAL = ["texnumber", "material_index"];
+/** The first properties of groups that are written without their names, which everybody knows. */
+const USUAL = ["nx", "red", "s"];
+const TEXTURE = "texnumber"; // the number of the image of a face, by OpenMVS, MeshLab and VCG
+const MATERIALS = [TEXTURE, "material_index", "material"];
+const WEDGES = "texcoord"; // the list of texture coordinates of corners, by MeshLab, OpenMVS and VTK
 const MOST_COMPONENTS = 4;
 const MOST_HEADER = 2 ** 20;
 
@@ -98,10 +102,22 @@ function headerOf(bytes: Uint8Array): PlyHeader {
     return { order, elements, size, comments };
 }
 
+const isImage = (text: string): boolean => text.startsWith("TextureFile ");
+
+/** The names of images by their numbers, in the order of the file. */
+function imagesOf(comments: PlyHeader["comments"]): Map<number, string> {
+    const names = comments.filter(([, text]) => isImage(text)).map(([, text]) => trimmed(text.slice(12)));
+    const remarks = Object.entries(metadataIn(comments.map(([, text]) => text)));
+    const numbered = remarks.flatMap(([key, name]): [string, number][] => {
+        const number = /^image\.(\d{1,9})\.name$/.exec(key)?.[1];
+        return number && typeof name === "string" ? [[name, Number(number)]] : [];
+    });
+    const numbers = new Map(numbered.sort(([, a], [, b]) => a - b));
+    return new Map(names.map((name, place) => [numbers.get(name) ?? place, name]));
+}
+
 /** The metadata in comments; images are those of materials. */
-function metadataOf(comments: PlyHeader["comments"]): Polygons["metadata"] {
-    const isImage = (text: string): boolean => text.startsWith("TextureFile ");
-    const images = comments.filter(([, text]) => isImage(text)).map(([, text]) => trimmed(text.slice(12)));
+function metadataOf(comments: PlyHeader["comments"], images: Map<number, string>): Polygons["metadata"] {
     const found = metadataIn(comments.map(([, text]) => text));
     for (const kind of ["comment", "obj_info"]) {
         const own = comments.filter(([each, text]) => each === kind && text && !isImage(text));
@@ -109,11 +125,10 @@ function metadataOf(comments: PlyHeader["comments"]): Polygons["metadata"] {
         if (said.length > 0) found[kind] ??= said.join("\n");
     }
     const entries = Object.entries(found);
-    const isTexture = (key: string): boolean => /^material\.\d+\.(map_\w+|norm|\w+Texture)$/.test(key);
+    const isTexture = (key: string): boolean =>
+        /^material\.\d+\.(map_\w+|bump|disp|decal|norm|refl|.*Texture)$/.test(key);
     const shown = entries.flatMap(([key, image]) => (isTexture(key) ? image : []));
-    images.forEach((image, place) => {
-        const known = entries.find(([key, name]) => /^image\.\d+\.name$/.test(key) && name === image);
-        const number = known ? Number(known[0].split(".")[1]) : place;
+    images.forEach((image, number) => {
         found[`image.${number}.name`] = image;
         if (!shown.includes(number))
             Object.assign(found, { [`material.${number}.name`]: image, [`material.${number}.map_Kd`]: number });
@@ -186,11 +201,14 @@ function tablesOf({ elements, order, size }: PlyHeader, bytes: Uint8Array): Map<
     return tables;
 }
 
+const leastOf = (type: NumberKind): number => (type === "BigUint64" ? 0 : -Infinity);
+
 /** Numbers in the type that the header declares, if they fit into it, as those of a text may not. */
 function typed(values: number[], type: NumberKind): ColumnValues {
-    const isWide = type === "BigInt64" && values.some((value) => value >= 2 ** 31);
+    const isWide = type.startsWith("Big") && values.some((value) => value >= 2 ** 31);
     const made: ColumnValues = (isWide ? Uint32Array : KINDS[type][0]).from(values);
-    return type.startsWith("F") || values.every((value, i) => made[i] === value) ? made : Float64Array.from(values);
+    const fits = (value: number, i: number): boolean => made[i] === value && value >= leastOf(type);
+    return type.startsWith("F") || values.every(fits) ? made : Float64Array.from(values);
 }
 
 /** Read a PLY with points and faces, of any byte order, and whatever numbers they have. */
@@ -217,8 +235,13 @@ export function readPly(bytes: Uint8Array): Polygons {
     const broken = (corners as Float64Array).find((corner) => corner !== Math.floor(corner));
     if (broken !== undefined) throw new Error(`a vertex index is ${broken}, not a whole number`);
     const [notes, dropped]: [string[], string[]] = [[], []];
-    const wedges = wedgesOf(polygons, list, notes, dropped);
-    const columns = [...columnsOf(points, "vertex"), ...columnsOf(polygons, "face"), ...wedges];
+    const images = imagesOf(header.comments);
+    const isTextured = images.size > 0;
+    const wedges = wedgesOf(polygons, list, isTextured, notes, dropped);
+    const ofFaces = columnsOf(polygons, "face", isTextured);
+    const found = [...columnsOf(points, "vertex", isTextured), ...ofFaces, ...wedges];
+    const metadata = metadataOf(header.comments, images);
+    const columns = withoutTextures(found, metadata, [...images.keys()]);
     for (const { name, length } of points) if (length) dropped.push(`the list ${name} of vertices`);
     for (const element of [points, polygons]) {
         const all = element.map(({ name }) => name);
@@ -227,7 +250,7 @@ export function readPly(bytes: Uint8Array): Polygons {
     }
     for (const { name, count } of header.elements)
         if (name !== "vertex" && name !== "face" && count > 0) dropped.push(name);
-    return { positions, sizes, corners, columns, metadata: metadataOf(header.comments), notes, dropped };
+    return { positions, sizes, corners, columns, metadata, notes, dropped };
 }
 
 /** Columns of the same kind as one table of rows. */
@@ -240,24 +263,28 @@ function together(columns: ColumnValues[]): ColumnValues {
 }
 
 /** The properties that are numbers, those together that are one value. */
-function columnsOf(properties: ReadProperty[], domain: "vertex" | "face"): Column[] {
+function columnsOf(properties: ReadProperty[], domain: "vertex" | "face", isTextured: boolean): Column[] {
     const needed = domain === "vertex" ? ["x", "y", "z"] : [];
     const left = new Map<string, ReadProperty>();
     for (const own of properties) if (!own.length && !needed.includes(own.name)) left.set(own.name, own);
-    const take = (names: string[]): ColumnValues => {
+    const tableOf = (names: readonly string[]): ColumnValues => {
         const found = names.map((name) => left.get(name)!.values);
         const isOne = found.every((each) => each.constructor === found[0].constructor);
-        for (const name of names) left.delete(name);
         return together(isOne ? found : found.map((each) => Float64Array.from(each)));
     };
-    const typeOf = (name: string): string => left.get(name)!.type;
+    const typeOf = (name: string): NumberKind => left.get(name)!.type;
     const columns: Column[] = [];
     for (const [semantic, names] of GROUPS) {
         if (!names.every((name) => left.has(name)) || new Set(names.map(typeOf)).size > 1) continue;
-        const [values, components] = [take(names), names.length];
+        const [values, components] = [tableOf(names), names.length];
         const plain = { name: semantic, values, components, domain, semantic };
-        columns.push(semantic === "color" ? colorColumn(values, components, domain) : plain);
+        const column = semantic === "color" ? colorColumn(narrowed(values), components, domain) : plain;
+        if (column.semantic !== semantic) continue; // numbers that are not colors keep their names
+        for (const name of names) left.delete(name);
+        const isUsual = USUAL.includes(names[0]) && !(isTextured && semantic === "texcoord");
+        columns.push(isUsual ? column : { ...column, parts: names });
     }
+    const others = new Set(left.keys());
     while (left.size > 0) {
         const [name] = left.keys();
         const stem = name.replace(/_0$/, "");
@@ -267,24 +294,59 @@ function columnsOf(properties: ReadProperty[], domain: "vertex" | "face"): Colum
         const isRun = name.endsWith("_0") && run.length >= 2 && run.length <= MOST_COMPONENTS;
         const own = isRun ? run : [name];
         const called = isRun ? stem : name;
-        const isLong = typeOf(name).startsWith("Big");
-        const values = take(own);
-        const isTooLong = isLong && values instanceof Float64Array && values.every(Number.isInteger);
+        const type = typeOf(name);
+        const values = tableOf(own);
+        for (const each of own) left.delete(each);
+        const isDeclared = (value: number): boolean => Number.isInteger(value) && value >= leastOf(type);
+        const isTooLong = type.startsWith("Big") && values instanceof Float64Array && values.every(isDeclared);
         const fault = isTooLong ? "do not fit into 32 bits" : undefined;
-        const known = MATERIAL.includes(called) ? "material" : called;
-        columns.push({ name: known, values, components: own.length, domain, fault });
+        const isSecond = called === TEXTURE && MATERIALS.some((each) => each !== TEXTURE && others.has(each));
+        const known = MATERIALS.includes(called) && !isSecond ? "material" : called;
+        const column: Column = { name: known, values, components: own.length, domain, fault };
+        columns.push(known === called ? column : { ...column, called });
     }
     return columns;
 }
 
+/** Whole numbers as bytes or words if all of them fit: other programs show colors of any type of integers. */
+function narrowed(colors: ColumnValues): ColumnValues {
+    if (colors instanceof Float32Array || colors instanceof Float64Array || colors.length === 0) return colors;
+    let [least, most] = [Infinity, -Infinity];
+    for (const color of colors) [least, most] = [Math.min(least, color), Math.max(most, color)];
+    if (least < 0 || most > 0xffff) return colors;
+    return most > 0xff ? Uint16Array.from(colors) : Uint8Array.from(colors);
+}
+
+/** Columns without the numbers of images that `bsm` writes, which follow from the materials. */
+function withoutTextures(columns: Column[], metadata: Polygons["metadata"], images: number[]): Column[] {
+    const ofFaces = (name: string): Column | undefined =>
+        columns.findLast((column) => column.name === name && column.domain === "face");
+    const [materials, textures] = [ofFaces("material"), ofFaces(TEXTURE)];
+    if (!materials || !textures) return columns;
+    const imageOf = (material: number): unknown =>
+        ["baseColorTexture", "map_Kd"].map((word) => metadata[`material.${material}.${word}`]).find(Number.isInteger);
+    const count = materials.values.length / materials.components;
+    for (let face = 0; face < count; face++) {
+        const image = imageOf(materials.values[face * materials.components]);
+        if (textures.values[face * textures.components] !== images.indexOf(image as number)) return columns;
+    }
+    return columns.filter(({ name }) => name !== TEXTURE);
+}
+
 /** Values of corners: lists as long as that of the vertices, or twice, and so on; the lists that are not; and notes. */
-function wedgesOf(polygons: ReadProperty[], list: ReadProperty, notes: string[], dropped: string[]): Column[] {
+function wedgesOf(
+    polygons: ReadProperty[],
+    list: ReadProperty,
+    isTextured: boolean,
+    notes: string[],
+    dropped: string[],
+): Column[] {
     const most = (sizes: Uint32Array): number => sizes.reduce((high, size) => Math.max(high, size), 0);
     const { sizes, values: corners } = list;
     return polygons.flatMap((own): Column[] => {
         const { name, length, sizes: lengths, values: made } = own;
         if (!length || own === list) return [];
-        const width = name === "texcoord" ? 2 : Math.floor(most(lengths) / Math.max(most(sizes), 1));
+        const width = name === WEDGES ? 2 : Math.floor(most(lengths) / Math.max(most(sizes), 1));
         const present = Array.from(lengths, (each, i) => each === width * sizes[i]);
         const isFit = width >= 1 && width <= MOST_COMPONENTS && present.some(Boolean);
         if (!isFit || !present.every((is, i) => is || lengths[i] === 0)) return (dropped.push(name), []);
@@ -296,6 +358,7 @@ function wedgesOf(polygons: ReadProperty[], list: ReadProperty, notes: string[],
         });
         const lacking = present.filter((is) => !is).length;
         if (lacking > 0) notes.push(`faces without ${PLURALS.get(name) ?? name} were given zeros: ${lacking}`);
-        return [{ name, values: rows, components: width, domain: "corner", semantic: meaningOf(name, width) }];
+        const called = name === WEDGES && !isTextured ? name : undefined;
+        return [{ name, values: rows, components: width, domain: "corner", semantic: meaningOf(name, width), called }];
     });
 }

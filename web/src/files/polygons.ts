@@ -22,6 +22,10 @@ export interface Column {
     semantic?: AttributeInput["semantic"];
     /** Which value each corner has; undefined: corner i has value i. */
     indices?: ArrayLike<number>;
+    /** What the file calls it, if its name is another one. */
+    called?: string;
+    /** What the file calls its components, if its meaning does not tell. */
+    parts?: readonly string[];
     /** Why it cannot be an attribute. */
     fault?: string;
 }
@@ -65,9 +69,10 @@ export function meshOfPolygons(polygons: Polygons): { mesh: PlainMesh; notes: st
     if (large > 0) notes.push(`polygons were cut into triangles: ${large}`);
     const { places, owners, crossing } = triangulated(positions, every, corners);
     if (crossing > 0) notes.push(`polygons whose sides cross, so that their triangles overlap: ${crossing}`);
-    const finite = columns.map((column) => withoutInfinite(column, notes));
+    const finite = columns.flatMap((column) => withoutInfinite(column, dropped));
     const rows = { vertex: count, face: every.length };
     const attributes: AttributeInput[] = [];
+    const fileNames: Record<string, string> = {};
     const refused: [string, string][] = [];
     for (const column of finite) {
         const { components, domain, semantic = "generic", values } = column;
@@ -81,6 +86,9 @@ export function meshOfPolygons(polygons: Polygons): { mesh: PlainMesh; notes: st
         const indexOf = (place: number): number => column.indices?.[place] ?? place;
         const indices = domain === "corner" ? Int32Array.from(places, indexOf) : undefined;
         attributes.push({ name, values: own, components, domain, semantic, indices });
+        const called = column.called ?? (name === column.name ? undefined : column.name);
+        if (called) fileNames[`called.${name}`] = called;
+        if (column.parts) fileNames[`components.${name}`] = column.parts.join("\n");
     }
     if (dropped.length > 0) notes.push(`left out: ${dropped.join(", ")}`);
     for (const [name, why] of refused) notes.push(`left out: ${name}, because ${why}`);
@@ -88,7 +96,8 @@ export function meshOfPolygons(polygons: Polygons): { mesh: PlainMesh; notes: st
     if (faces.length === 0) throw new Error("the mesh has no faces; point clouds are not supported");
     const single = Float32Array.from(positions);
     const isSingle = single.every((number, i) => number === positions[i]);
-    const mesh = { positions: isSingle ? single : positions, faces, attributes, metadata };
+    const own = { positions: isSingle ? single : positions, faces, attributes };
+    const mesh = { ...own, metadata: { ...metadata, ...fileNames } };
     return { mesh, notes, dropped: [...dropped, ...refused.map(([name]) => name)] };
 }
 
@@ -117,15 +126,36 @@ function faultOf(
     return outside === undefined ? undefined : `a corner refers to value ${indices?.[outside] ?? outside}`;
 }
 
-/** A column with zeros for values that are not finite, where others are. */
-function withoutInfinite(column: Column, notes: string[]): Column {
-    const { name, values } = column;
-    const lost = values instanceof Float32Array || values instanceof Float64Array ? countOf(values) : 0;
-    if (lost === 0 || lost === values.length) return column;
-    notes.push(`values of ${PLURALS.get(name) ?? name} that are not finite were set to zero: ${lost}`);
-    const kept = (values as Float64Array).map((value) => (Number.isFinite(value) ? value : 0));
-    return { ...column, values: kept };
+/** A column with the median of the others for values that are not finite, and one that marks these. */
+function withoutInfinite(column: Column, dropped: string[]): Column[] {
+    const { name, values, components, domain, indices } = column;
+    const lost = isFloat(values) ? countOf(values) : 0;
+    if (lost === 0 || lost === values.length) return [column];
+    const called = PLURALS.get(name) ?? name;
+    dropped.push(`values of ${called} that are not numbers (${lost}); ${name}.none marks them`);
+    const floats = values as Float64Array;
+    const usual = medianOf(floats.filter(Number.isFinite));
+    const kept = floats.map((value) => (Number.isFinite(value) ? value : usual));
+    const marks = new Uint8Array(values.length / components);
+    floats.forEach((value, i) => {
+        if (!Number.isFinite(value)) marks[Math.floor(i / components)] = 1;
+    });
+    return [
+        { ...column, values: kept },
+        { name: `${name}.none`, values: marks, components: 1, domain, indices },
+    ];
 }
+
+/** The middle of floats, or the mean of the two in the middle, in their own precision. */
+function medianOf(values: Float32Array | Float64Array): number {
+    const [sorted, half] = [values.slice().sort(), Math.floor(values.length / 2)];
+    if (values.length % 2 === 1) return sorted[half];
+    const sum = sorted[half - 1] + sorted[half];
+    return (values instanceof Float32Array ? Math.fround(sum) : sum) / 2;
+}
+
+const isFloat = (values: ColumnValues): values is Float32Array | Float64Array =>
+    values instanceof Float32Array || values instanceof Float64Array;
 
 const countOf = (values: Float32Array | Float64Array): number =>
     (values as Float64Array).reduce((count, value) => count + Number(!Number.isFinite(value)), 0);
@@ -181,8 +211,9 @@ export function compact(values: Float64Array, width: number): Float32Array | Flo
 export function colorColumn(values: ColumnValues, components: number, domain: Column["domain"]): Column {
     const column = { name: "color", values, components, domain };
     if (values instanceof Uint8Array || values instanceof Uint16Array) return { ...column, semantic: "color" };
-    if (!(values instanceof Float32Array || values instanceof Float64Array)) return { ...column, semantic: "generic" };
-    if (values.length === 0 || countOf(values) > 0) return column;
+    if (!isFloat(values)) return { ...column, semantic: "generic" };
+    if (values.length === 0) return column;
+    if (countOf(values) > 0) return partlyColored(values, column);
     const floats = values as Float64Array;
     const exact = floats.some((value) => value > 1) ? floats : floats.map((value) => 255 * value);
     const isWhole = (value: number): boolean => {
@@ -193,6 +224,18 @@ export function colorColumn(values: ColumnValues, components: number, domain: Co
     const plain = values instanceof Float64Array ? compact(values, components) : values;
     const isShare = floats.every((value) => value >= 0 && value <= 1);
     return { ...column, values: plain, semantic: isShare ? "color" : "generic" };
+}
+
+/** Floats of which some rows are no colors: the others tell what they are. */
+function partlyColored(values: Float32Array | Float64Array, column: Column): Column {
+    const { components, domain } = column;
+    const isWhole = (row: number): boolean => countOf(values.subarray(components * row, components * (row + 1))) === 0;
+    const rows = Array.from({ length: values.length / components }, (_, row) => row).filter(isWhole);
+    if (rows.length === 0) return column;
+    const whole = picked(values, components, rows);
+    const { values: made, semantic } = colorColumn(whole, components, domain);
+    const isBytes = made instanceof Uint8Array && (whole as Float64Array).some((value) => value > 1);
+    return { ...column, values: isBytes ? (values as Float64Array).map((value) => value / 255) : values, semantic };
 }
 
 /** The meaning of values by their name, if as many components can mean that. */
