@@ -248,7 +248,7 @@ decode streams | bsm decode -r streams
 decode none.bsm | No such file
 decode old.bsm -o a.fbx | not written as fbx | 2
 decode old.bsm -o a.ply --blocks 0 | at least one block | 2
-decode old.bsm -o a.usdc | single meshes are not written as usdc; use one of .3mf, .glb
+decode old.bsm -o a.usdc | single meshes are not written as usdc; use one of .3mf, .dae, .glb
 decode old.bsm -o a.ply --format usdc | not written as usdc
 decode moving.bsm --layers 1 -o a.npz | single meshes
 decode old.bsm -o old.bsm | -o

@@ -9,6 +9,8 @@ from pathlib import Path
 
 from tools.release.cross import clean
 
+DEVELOP = "tools/develop.sh"
+"""The script by which README installs a checkout."""
 COMPILERS = ("cc", "gcc", "clang", "c++", "cmake", "ninja")
 
 
@@ -50,6 +52,10 @@ def readme_commands(sources: Path) -> list[str]:
 
 def _from_wheel(command: str, wheel: Path) -> str:
     """A command that installs the wheel where README's installs the checkout; no dependency is compiled."""
+    if DEVELOP in command:
+        lines = (Path(__file__).parents[2] / DEVELOP).read_text("utf-8").splitlines()
+        install = next(line for line in lines if "-e '.[" in line)
+        command = command.replace(DEVELOP, install.replace("--no-build-isolation ", ""))
     without = command.replace("-q -e '.[", "-q '.[")
     if "-q '.[" not in without:
         raise SystemExit(f"README's command does not install the checkout: {command}")

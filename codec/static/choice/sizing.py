@@ -18,6 +18,7 @@ from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import TRIES
 
 RUNG = math.log(2.0) / 8.0
+SPARSE = 3  # rungs from one trial to the next, where the search found none that fits
 WORSE = 0.35  # logarithm of a look, by which a way is expected to be worse than another one, and is not opened
 
 
@@ -80,6 +81,8 @@ class SizeSearch:
         """Return the index of the finest rung that fits; None: none does."""
         low, high = -1, len(rungs)  # too fine; coarse enough
         index = int(abs(rungs - math.log(way.first)).argmin())
+        # Sizes depend on luck, so a slope may lead nowhere: until a rung fits and another does not, strides double.
+        stride = 1
         for _ in range(TRIES + 3):
             over = excess(index)
             if over > 0.0:
@@ -88,9 +91,16 @@ class SizeSearch:
                 high = index
             if high - low <= 1:
                 break
-            jump = math.ceil(over / (self._saving * RUNG)) if over > 0.0 else math.floor(over / (self._saving * RUNG))
-            index = min(max(index + (jump or -1), low + 1), high - 1)
-        return high if high < len(rungs) else None
+            is_between = low >= 0 and high < len(rungs)
+            expected = abs(over) / (self._saving * RUNG)
+            jump = max(math.floor(expected), 1 if is_between else stride)
+            stride *= 2
+            index = min(max(index + (jump if over > 0.0 else -jump), low + 1), high - 1)
+        if high < len(rungs):
+            return high
+        # Wide steps move vertices so far that images no longer help: sizes fall, and rise again.
+        begin = int(abs(rungs - math.log(way.first)).argmin())
+        return next((index for index in range(begin, len(rungs), SPARSE) if excess(index) <= 0.0), None)
 
 
 def _every(ladder: Matrix) -> Matrix:
