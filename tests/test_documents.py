@@ -56,6 +56,10 @@ PLACES = {
 }
 
 
+MANY = "bsm encode -q -f a.ply b.obj c.stl -o streams/ --report report.json"
+"""Makes the folder and the report that some commands read."""
+
+
 SETTING = """
 from bsm.files.mesh import read_mesh
 mesh = read_mesh("bunny.ply").mesh
@@ -178,6 +182,7 @@ def test_blocks(name, block, folder):
         try:
             # A server runs until it is stopped; tests/bsm/test_view.py talks to it. That C compiles needs no optimizer.
             block = re.sub(r"^cc -O3 ", "cc -O0 ", block, flags=re.MULTILINE)
+            block = re.sub(r"^python spec/", f"python {ROOT}/spec/", block, flags=re.MULTILINE)
             passed(run(folder, re.sub(r"^bsm view .*\n", "", block, flags=re.MULTILINE)))
         finally:
             (folder / "bunny.bsm").write_bytes(stream)
@@ -213,6 +218,8 @@ def test_commands(command, folder):
             assert only.group(1) in done.stdout
     else:
         shutil.rmtree(folder / "streams", ignore_errors=True)
+        if re.match(r"bsm (?:decode -r|verify|view streams)", command):
+            passed(run(folder, MANY))
         passed(run(folder, filled(command)))
 
 

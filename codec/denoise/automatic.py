@@ -147,7 +147,9 @@ def choose(positions: Positions, finding: Finding, surface: Filters, goal: str, 
     if len(members) < len(positions):
         surface, chosen = Filters(part, len(members)), positions[members]
     level = estimate_noise(chosen, surface.smooth(chosen, filters[0]), surface.probe)
-    slides = general and level.tangential > SLIDING * level.normal
+    # Rounding moves vertices along all axes alike, though those that it merged hide that from the measure.
+    least = 0.0 if finding.kind == "grid" else SLIDING
+    slides = general and level.tangential > least * level.normal
     if slides:
         level = NoiseLevel(level.normal, level.across, level.across, slides=True)
         filters = tuple(replace(each, hand_over=each.hand_over.replace("heights", "positions")) for each in filters)

@@ -74,7 +74,7 @@ class DenoiseOptions:
         along the surface), "normals" (the noisy mesh, after a pass guided by the coarse mesh's normals) or "none" (no
         coarse step).
     fine : str
-        Name of the fine step, see `codec.denoise.normals.FINE_STEPS`.
+        Name of the fine step, see `codec.denoise.surface.FINE_STEPS`.
     iterations : int, optional
         Of the fine step; None: the method's own number, 0: only the coarse step.
     keep : float

@@ -100,7 +100,8 @@ def measure_jumps(places: Positions, topology: Topology) -> Jumps:
 
 def _solved(system: sparse.csr_matrix, target: Floats, start: Floats) -> Floats:
     """Go a few steps of conjugate gradients from the start, shape (k, 3), in an order that no turn changes."""
-    scale = 1.0 / system.diagonal()[:, None]
+    diagonal = system.diagonal()[:, None]
+    scale = 1.0 / np.where(diagonal > 0.0, diagonal, 1.0)  # 0: a face without area
     values, rest = start, target - system @ start
     way = scale * rest
     size = np.vdot(rest, way)
