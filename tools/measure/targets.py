@@ -24,7 +24,7 @@ from bsm.ground.console import Console
 from tools.command import run_command
 from tools.made_shapes import made_shape
 
-LARGER, USED, SCAN = 1.01, 0.92, 5
+LARGER, USED, SCAN = 1.01, 0.9, 5
 FIGURES = Path(__file__).with_suffix(".json")
 TARGETS: dict[str, tuple[float, ...]] = {
     "look": (3.0, 1.0, 0.5),
