@@ -299,7 +299,7 @@ def test_frames_of_exodus_move_and_keep_the_numbers_of_all_steps(tmp_path):
 
 
 def test_each_setting_of_the_readers_of_vtk_is_decided():
-    from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+    vtkAlgorithm = pytest.importorskip("vtkmodules.vtkCommonExecutionModel").vtkAlgorithm
 
     from bsm.files.formats.with_vtk import _READERS
 

@@ -326,7 +326,7 @@ def open_npz_sequence(
             nonlocal taken
             for name, values in {"positions": np.asarray(frame, "<f8"), **_arrays_of(shared.attributes())}.items():
                 before = first.setdefault(name, values)
-                if name not in moved and (name == "positions" or values is not before):
+                if name not in moved and (name == "positions" or not np.array_equal(values, before)):
                     moved[name] = waiting.enter_context(tempfile.TemporaryFile())
                     # Until now the values were those of the first frame, and so they were for all frames before.
                     moved[name].writelines(before.tobytes() for _ in range(taken))
