@@ -91,9 +91,12 @@ class SizeSearch:
                 high = index
             if high - low <= 1:
                 break
-            is_between = low >= 0 and high < len(rungs)
-            expected = abs(over) / (self._saving * RUNG)
-            jump = max(math.floor(expected), 1 if is_between else stride)
+            if low >= 0 and high < len(rungs):
+                # Between two rungs that are coded bytes fall about evenly.
+                share = excess(low) / (excess(low) - excess(high))
+                index = min(max(low + round(share * (high - low)), low + 1), high - 1)
+                continue
+            jump = max(math.floor(abs(over) / (self._saving * RUNG)), stride)
             stride *= 2
             index = min(max(index + (jump if over > 0.0 else -jump), low + 1), high - 1)
         if high < len(rungs):
