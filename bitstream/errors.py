@@ -16,7 +16,7 @@ class BsmError(Exception):
     offset : int, optional
         Byte offset of the fault in the stream or file.
     frame : int, optional
-        Number of the stream frame, counted from 0.
+        Number of the section of the stream, counted from 0.
     block : int, optional
         Number of the block concerned.
 
@@ -45,7 +45,7 @@ class BsmError(Exception):
         return self
 
     def __str__(self) -> str:
-        places = [("byte", self.offset), ("frame", self.frame), ("block", self.block)]
+        places = [("byte", self.offset), ("section", self.frame), ("block", self.block)]
         where = ", ".join(f"{name} {value}" for name, value in places if value is not None)
         return f"{self.message} [{where}]" if where else self.message
 

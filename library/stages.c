@@ -268,7 +268,7 @@ bool accept_section(bsmdec *decoder, const Packet *packet) {
         case ATTRIBUTE_FRAME: return accept_attribute(decoder, packet);
         case VALUES_FRAME: return accept_values(decoder, packet);
         case END_FRAME: return finish_mesh(decoder);
-        default: return FAIL(context, UNSUPPORTED, "frames of type # are unknown to this decoder", packet->type);
+        default: return FAIL(context, UNSUPPORTED, "sections of type # are unknown to this decoder", packet->type);
     }
 }
 

@@ -55,7 +55,7 @@ static void drop(Reader *reader, int64_t count) {
 
 static Arrival incomplete(Reader *reader) {
     if (!reader->finished) return NO_MORE_YET;
-    FAIL(reader->context, TRUNCATED, "the stream ends before its END frame; get the rest of it");
+    FAIL(reader->context, TRUNCATED, "the stream ends too early; get the rest of it");
     locate(&reader->context->error, reader->offset + reader->end - reader->begin, -1, -1);
     return NOTHING_BUT_AN_ERROR;
 }
@@ -116,6 +116,28 @@ static int read_tag(Span bytes, Section *frame) {
     return head;
 }
 
+#ifndef BSMDEC_TERSE
+/* A message on the checksum of a section, in words for users. */
+static const char *checksum_message(int type) {
+    switch (type) {
+        case VALUES_FRAME: return "values of an attribute are damaged: the checksum of # bytes is wrong";
+        case HEADER_FRAME: return "the header is damaged: the checksum of # bytes is wrong";
+        case METADATA_FRAME:
+            return "metadata (names, materials, images) are damaged: the checksum of # bytes is wrong";
+        case CONNECTIVITY_FRAME: return "the faces are damaged: the checksum of # bytes is wrong";
+        case PARTITION_FRAME: return "the labels of parts are damaged: the checksum of # bytes is wrong";
+        case ORDER_FRAME: return "the order of vertices is damaged: the checksum of # bytes is wrong";
+        case BLOCK_FRAME: return "positions of a block are damaged: the checksum of # bytes is wrong";
+        case GOP_FRAME: return "positions of several frames are damaged: the checksum of # bytes is wrong";
+        case GRID_FRAME: return "positions are damaged: the checksum of # bytes is wrong";
+        case REFINEMENT_FRAME: return "details of positions are damaged: the checksum of # bytes is wrong";
+        case ATTRIBUTE_FRAME: return "the description of an attribute is damaged: the checksum of # bytes is wrong";
+        case END_FRAME: return "the end of the stream is damaged: the checksum of # bytes is wrong";
+        default: return "the stream is damaged: the checksum of # bytes is wrong";
+    }
+}
+#endif
+
 /* The frame at the start of some bytes, whose checksum is right; `size` 0 if it is not complete. */
 static bool read_frame(Reader *reader, Span bytes, Section *frame) {
     Context *context = reader->context;
@@ -134,8 +156,7 @@ static bool read_frame(Reader *reader, Span bytes, Section *frame) {
     int sum = (int)(frame->size - body.size);
     uint32_t expected = sum == 2 ? crc16_of(&reader->sums, body) : crc32_of(&reader->sums, body, 0);
     if (little_endian(bytes.data + body.size, sum) != expected)
-        return FAIL(context, CORRUPT, "the checksum of a frame of type # and # bytes is wrong", frame->type,
-            frame->payload.size);
+        return FAIL(context, CORRUPT, checksum_message(frame->type), frame->payload.size);
     frame->payload.data = bytes.data + head;
     return true;
 }
@@ -227,7 +248,7 @@ static bool read_packet(Reader *reader, Section frame, Packet *packet) {
     Context *context = reader->context;
     Grammar *grammar = &reader->grammar;
     if (is_skippable(frame.type))
-        return grammar->header != NULL || FAIL(context, CORRUPT, "the first frame must be HEADER");
+        return grammar->header != NULL || FAIL(context, CORRUPT, "the first section must be a header");
     if (!announces(grammar, frame.type))
         return FAIL(context, UNSUPPORTED, "section type # is not declared in the header", frame.type);
     if (!read_payload(reader, frame, packet)) return false;
@@ -241,7 +262,8 @@ static bool read_packet(Reader *reader, Section frame, Packet *packet) {
         return true;
     }
     if (packet->count != reader->frames)
-        return FAIL(context, CORRUPT, "END counts # frames before it, there were #", packet->count, reader->frames);
+        return FAIL(context, CORRUPT, "the stream had # sections when it was written, and has # now", packet->count,
+            reader->frames);
     return packet->sum == reader->sum || FAIL(context, CORRUPT, "the CRC-32 of the whole stream is wrong");
 }
 

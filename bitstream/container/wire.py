@@ -3,7 +3,8 @@
 import binascii
 import struct
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any
 
@@ -57,6 +58,16 @@ def write_varint(value: int) -> bytes:
     return bytes(out)
 
 
+def read_varint(data: bytes | memoryview) -> tuple[int, int]:
+    """Return the number at the start of some bytes and its size in bytes; a size of 0 where there is none."""
+    value = 0
+    for place, byte in enumerate(data[:MAX_VARINT_BYTES]):
+        value |= (byte & 0x7F) << 7 * place
+        if byte < 0x80:
+            return value, place + 1
+    return 0, 0
+
+
 def with_lengths(payloads: list[bytes]) -> bytes:
     """Payloads one after the other, each but the last with its length before it."""
     return b"".join(write_varint(len(payload)) + payload for payload in payloads[:-1]) + payloads[-1]
@@ -79,6 +90,31 @@ def write_frame(frame_type: int, payload: bytes) -> bytes:
     """Tag, payload and checksum."""
     body = write_varint(len(payload) << 4 | frame_type) + payload
     return body + checksum(checksum_size(frame_type, len(payload)), body)
+
+
+@dataclass(frozen=True)
+class Section:
+    """A section as its tag describes it, which may be cut off, or have a wrong checksum."""
+
+    type: int
+    payload: memoryview
+    is_sound: bool
+
+
+def sections_of(stream: bytes) -> Iterator[Section]:
+    """Walk over the sections of a stream by the lengths in their tags, as far as these lead."""
+    # A view, since a slice of a large stream for each section would copy it many times.
+    rest = memoryview(stream)[PREAMBLE_BYTES:]
+    while rest:
+        tag, head = read_varint(rest)
+        length, kind = divmod(tag, 16)
+        body_size = head + length
+        sum_size = checksum_size(kind, length)
+        if head == 0:
+            return
+        expected = bytes(rest[body_size : body_size + sum_size])
+        yield Section(kind, rest[head:body_size], checksum(sum_size, rest[:body_size]) == expected)
+        rest = rest[body_size + sum_size :]
 
 
 MAX_ENTRIES = 256

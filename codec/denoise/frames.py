@@ -182,7 +182,8 @@ class FrameDenoiser:
             # The user chose the options, and they may be wrong for this mesh, so measure first what they destroy.
             good, reason = judge(noisy, result, find_noise(noisy, self._surface.probe), self._surface.probe)
             if reason:
-                raise HarmError(f"{reason}; nothing is written unless it is forced", frame=number)
+                place = "" if number is None else f"frame {number}: "
+                raise HarmError(f"{place}{reason}; nothing is written unless it is forced")
             return given, np.where(good[:, None], result, noisy)
 
         numbers: Iterable[int | None] = count() if len(first) == 2 else [None]  # a mesh has no frames

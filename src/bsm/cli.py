@@ -27,9 +27,6 @@ FILES = (
 )
 """What files and folders are called in the help."""
 _WRITTEN = {"output", "report", "save", "picture", "map", "work"}
-_DAMAGED = "--tolerant decodes the undamaged parts"
-_ADVICE: dict[str, dict[type[BaseException], str]] = {"decode": {CorruptError: _DAMAGED, TruncatedError: _DAMAGED}}
-"""The advice of a command on an error."""
 _USED = {
     "encode": "--output --preset --max-error --look --size --attribute --images --simplify --meta --recursive --jobs"
 }
@@ -73,8 +70,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         error = behind(raised)
         if not is_expected(error):
             raise
-        report_error(error, as_json=as_json, options=options, advice=_ADVICE.get(words[0], {}).get(type(error), ""))
+        report_error(error, as_json=as_json, options=options, advice=_advice_on_damage(words, error))
         return exit_of(error).code
+
+
+def _advice_on_damage(words: Sequence[str], error: BaseException) -> str:
+    """Return the advice to decode the rest of a damaged stream, or say that no part is left."""
+    if words[0] != "decode" or type(error) not in (CorruptError, TruncatedError):
+        return ""
+    if "--tolerant" in words:
+        return "no other part can be decoded without it"
+    return "--tolerant decodes what does not need the damaged part"
 
 
 def named_files(command: str, parser: "Parser", args: argparse.Namespace) -> tuple[list[str], list[str]]:

@@ -115,6 +115,37 @@ def test_meshes_are_encoded_and_shown_beside_their_original(tmp_path, capsys):
     assert f"{len(stream)} bytes as a stream" in capsys.readouterr().err
 
 
+def test_scenes_of_ours_are_shown_as_they_are_and_not_encoded_again(tmp_path, capsys):
+    source, small, page = tmp_path / "ball.glb", tmp_path / "small.glb", tmp_path / "page.html"
+    bsm.save(torus(), source)
+    assert main(["glb", str(source), "-o", str(small)]) == 0
+    plain, obj = tmp_path / "plain.glb", tmp_path / "plain.obj"
+    capsys.readouterr()
+    for output in (plain, obj):
+        assert main(["decode", str(small), "-o", str(output)]) == 0
+    assert main(["view", str(small), "--save", str(page)]) == 0
+    words = capsys.readouterr().err
+    # Nothing is encoded, so no errors add up.
+    assert "errors add up" not in words and "as a stream" not in words
+    (entry,) = listed(page.read_text("utf-8"))
+    (layer,) = entry["layers"]
+    assert (entry["main"], layer["title"], layer["size"]) == (0, "GLB", small.stat().st_size)
+    shown, decoded = bsm.decode(base64.b64decode(layer["data"])), bsm.load(plain)
+    assert sorted(map(tuple, shown.positions)) == sorted(map(tuple, decoded.positions))
+    *_, content = uploaded([("small.glb", small.read_bytes())], "small")
+    assert [each.title for each in content.layers] == ["GLB"] and content.layers[0].size == layer["size"]
+
+
+def test_a_scene_that_wraps_a_sequence_is_shown_by_its_own_stream(tmp_path):
+    positions, faces = bending(4)
+    stream = bsm.encode_sequence(positions, faces)
+    (tmp_path / "sway.bsm").write_bytes(stream)
+    assert main(["glb", str(tmp_path / "sway.bsm"), "-o", str(tmp_path / "sway.glb")]) == 0
+    assert main(["view", str(tmp_path / "sway.glb"), "--save", str(tmp_path / "page.html")]) == 0
+    (entry,) = listed((tmp_path / "page.html").read_text("utf-8"))
+    assert [base64.b64decode(layer["data"]) for layer in entry["layers"]] == [stream]
+
+
 @pytest.mark.parametrize(
     ("scale", "offset"),
     [(1.0, (500123.0, 4649776.0, 1600.0)), (1e-3, (2e7, 0.0, -3e7)), (1e29, (0.0, 0.0, 0.0)), (1e-41, (0.0, 0.0, 0.0))],

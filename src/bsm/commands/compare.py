@@ -37,6 +37,7 @@ from bsm.codec.geometry.metrics import Reference, distances_to_surface, folded_e
 from bsm.codec.look.measure import LOOK_VERSION, AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_flags
+from bsm.files.formats.polygons import without_compression_notes
 from bsm.files.images import with_linked_images
 from bsm.files.mesh import read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
@@ -293,7 +294,7 @@ def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh
             # Streams of a batch may have their images beside them. Without these, all images would count as missing.
             return with_linked_images(decode_whole(read_chunks(path), as_limits(args.limits)), path)
         source = read_mesh(path)
-    for note in source.notes:
+    for note in without_compression_notes(source.notes):
         console.note(f"{path}: {note}")
     return source.mesh
 

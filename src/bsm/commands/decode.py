@@ -16,6 +16,7 @@ from bsm.codec.arrays import Faces, Order
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.commands.flags import add_flags, add_inputs, adder, asked, refuse_two_on_one_pipe
 from bsm.files.formats.metadata import Written
+from bsm.files.formats.polygons import without_compression_notes
 from bsm.files.images import is_link, linked_images, with_linked_images
 from bsm.files.inspection import inspect_stream
 from bsm.files.libraries import as_decoded
@@ -145,8 +146,8 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         if image.fault:
             console.note(f"{args.input}: {image.note}")
     mesh = _as_asked(args, console, with_linked_images(mesh, args.input), kind, exact=exact)
-    # A stream that was cut, or decoded in part, has values of the first attributes only.
-    if header is not None and header.attributes > len(mesh.attributes):
+    # A stream that was decoded in part has values of the first attributes only. Tolerant decoding names those it lost.
+    if not args.tolerant and header is not None and header.attributes > len(mesh.attributes):
         missing = f"{header.attributes - len(mesh.attributes)} of {header.attributes} attributes"
         console.note(f"{args.input}: left out: {missing}, whose values are missing")
     counts = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
@@ -204,7 +205,7 @@ def _decode_scene(args: DecodeJob, console: Console) -> Facts:
         file = Written(by_name("bsm.gltf.compress", "restore")(document))
     else:
         source = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
-        for note in source.notes:
+        for note in without_compression_notes(source.notes):
             console.note(f"{args.input}: {note}")
         file = written_mesh(source.mesh, kind, output)
     return _saved(args, console, output, kind, file, "", time.perf_counter() - begin)

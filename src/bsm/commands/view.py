@@ -19,7 +19,7 @@ from bsm.files.stream import MANIFEST, is_tiles
 from bsm.ground.console import Console, Progress
 from bsm.jobs.plan import STREAM_SUFFIXES, files_in
 from bsm.tiles.shards import open_tiles
-from bsm.viewer.contents import NO_STREAM, PRESETS, Content, against, alone, given_at, made
+from bsm.viewer.contents import NO_STREAM, PRESETS, Content, against, alone, encoded_scene, given_at, made
 from bsm.viewer.page import Arrival, PageServer, Ranged, Tiled, in_browser, page_with, site_with, written_to
 
 
@@ -118,6 +118,12 @@ def _opened(
             console.note(note)
         return content
     with about(path):
+        scene = encoded_scene(name, path, as_limits(args.limits))
+        if scene is not None:
+            for note in scene.facts["notes"]:
+                console.note(f"{path}: {note}")
+            console.note(f"{path}: shown as it decodes; nothing was encoded")
+            return scene
         given = given_at(path)
         if isinstance(given.source, bytes):
             # A page on a disk is opened by people who were not there. A damaged stream must be found now.

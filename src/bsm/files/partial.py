@@ -3,8 +3,10 @@
 from collections.abc import Callable, Iterator
 from typing import Any
 
+import msgpack
 import numpy as np
 
+from bsm.bitstream.container.wire import MAX_ENTRIES, FrameType, Section, read_varint, sections_of
 from bsm.bitstream.errors import MeshError, OptionError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Faces
@@ -13,6 +15,9 @@ from bsm.codec.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEven
 from bsm.codec.geometry.mesh import TriangleMesh
 
 Progress = Callable[[int, int], None]
+_NAME = 1  # the key of a declaration (specification, D 1)
+_KINDS_OF_METADATA = {"image": "images", "material": "materials", "mtllib": "materials"}
+"""Kinds of metadata by the first word of the key; all others are other metadata."""
 
 
 def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress, limits: Limits) -> TriangleMesh:
@@ -35,16 +40,89 @@ def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress, limit
 
 def decode_what_is_left(chunks: Iterator[bytes], report: Callable[[str], None], limits: Limits) -> TriangleMesh:
     """Decode every block of a damaged stream that does not depend on lost data; call `report` for each loss."""
+    received = bytearray()
+    declared = 0
+    losses = 0
+
+    def receive() -> Iterator[bytes]:
+        for chunk in chunks:
+            received.extend(chunk)
+            yield chunk
 
     def reported(event: Any) -> bool:
+        nonlocal declared, losses
         match event:
+            case HeaderEvent(header):
+                declared = header.attributes
             case LossEvent(_, error):
+                losses += 1
                 report(f"lost: {error}")
-            case EndEvent(losses) if len(losses.missing) or len(losses.degraded):
-                report(f"{len(losses.missing)} vertices missing, {len(losses.degraded)} degraded")
+            case EndEvent(lost) if len(lost.missing) or len(lost.degraded):
+                report(f"{len(lost.missing)} vertices missing, {len(lost.degraded)} degraded")
         return False
 
-    return _decode_until(Decoder(limits, tolerant=True), chunks, reported)
+    mesh = _decode_until(Decoder(limits, tolerant=True), receive(), reported)
+    if losses or len(mesh.attributes) < declared:
+        for text in _lost_contents(bytes(received), mesh, declared):
+            report(f"left out: {text}")
+    return mesh
+
+
+def _lost_contents(data: bytes, mesh: TriangleMesh, declared: int) -> Iterator[str]:
+    """Name the attributes and the metadata that a stream has and the decoded mesh lacks."""
+    sections = list(sections_of(data))
+    present = {attribute.name for attribute in mesh.attributes}
+    names = [_name_of(section) for section in sections if section.type == FrameType.ATTRIBUTE]
+    lost = sorted({name for name in names if name} - present)
+    if lost:
+        yield f"the attributes {', '.join(lost)}" if len(lost) > 1 else f"the attribute {lost[0]}"
+    # Sections that are damaged themselves, or were cut off, do not tell a name.
+    unnamed = declared - len(present) - len(lost)
+    if unnamed > 0:
+        yield f"{unnamed} of {declared} attributes, whose values are missing"
+    metadata = [section for section in sections if section.type == FrameType.METADATA]
+    contents = sorted({kind for section in metadata for kind in _lost_kinds(section, mesh)})
+    if contents:
+        yield " and ".join(contents)
+
+
+def _name_of(section: Section) -> str:
+    """Return the name of the attribute that a section declares, if its checksum is right."""
+    if not section.is_sound:
+        return ""
+    rest = section.payload
+    for _ in ("number of the attribute", "length of the map"):
+        _, size = read_varint(rest)
+        rest = rest[size:]
+    unpacker = _unpacker(rest)
+    try:
+        entries = {unpacker.unpack(): unpacker.unpack() for _ in range(unpacker.read_map_header())}
+    except (ValueError, msgpack.UnpackException):
+        return ""
+    return str(entries.get(_NAME, ""))
+
+
+def _unpacker(data: memoryview) -> msgpack.Unpacker:
+    """Return a reader of small maps, which neither builds lists nor takes more memory than the bytes."""
+    unpacker = msgpack.Unpacker(max_array_len=MAX_ENTRIES, max_map_len=MAX_ENTRIES, max_buffer_size=len(data))
+    unpacker.feed(data)
+    return unpacker
+
+
+def _lost_kinds(section: Section, mesh: TriangleMesh) -> set[str]:
+    """Return the kinds of metadata, such as images, that a section holds and the mesh lacks."""
+    if not section.is_sound:
+        return {"metadata (names, materials or images)"}
+    unpacker = _unpacker(section.payload)
+    keys = list[str]()
+    try:
+        for _ in range(unpacker.read_map_header()):
+            keys.append(str(unpacker.unpack()))
+            unpacker.skip()
+    except (ValueError, msgpack.UnpackException):
+        return set()
+    lost = [key for key in keys if key not in mesh.metadata]
+    return {_KINDS_OF_METADATA.get(key.partition(".")[0], "other metadata") for key in lost}
 
 
 def _decode_until(decoder: Decoder, chunks: Iterator[bytes], enough: Callable[[Any], bool]) -> TriangleMesh:

@@ -515,7 +515,7 @@ def read_gltf_mesh(document: Document) -> shapes.MeshFile:
         lost = Counter(scene.notes)
         points = lost.pop(_NO_SURFACES, 0)
         counts = [f"{note}: {count}" for note, count in lost.items()]
-        counts += [f"compressed already, by {name}: errors add up" for name in document.compressed]
+        counts += map(shapes.compression_note, document.compressed)
         dropped = (*_unread(document, still=True), *([f"points and lines ({points})"] if points else []))
         found = replace(found, notes=(*found.notes, *counts), dropped=dropped)
         return found.checked(document.limits, document.received)

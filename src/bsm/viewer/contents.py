@@ -38,14 +38,14 @@ from bsm.codec.static.options import PRESETS as ALL
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import Contract
 from bsm.encoding.given import Wishes, given_frames, given_mesh
-from bsm.files.formats.polygons import MeshFile
+from bsm.files.formats.polygons import MeshFile, without_compression_notes
 from bsm.files.mesh import parts_of, read_mesh, size_with_parts
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.pipes import Input, is_url, read_chunks, size_of
 from bsm.files.sequence import open_sequence
-from bsm.files.stream import SequenceStream, decode_whole, peek_header
+from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header
 from bsm.files.table import GLTF, by_name, is_mesh_name
 from bsm.ground.console import Progress
 from bsm.ground.exits import worded
@@ -282,6 +282,22 @@ def made(
     return replace(content, facts={**content.facts, "seconds": seconds, "notes": notes, "less": less})
 
 
+def encoded_scene(name: str, path: str, limits: Limits = DEFAULT_LIMITS) -> Content | None:
+    """Return the decoded contents of a glTF scene with streams; None for all other inputs."""
+    if not is_scene(path):
+        return None
+    document = by_name("bsm.gltf.document", "read_document")(path, limits)
+    if not document.streams:
+        return None
+    size = size_of(path) or document.received
+    if document.moving is not None:
+        return Content(name, (Shown("GLB", "", size, document.moving),), facts={"notes": []})
+    source = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
+    # The page draws one stream, and the scene may have several, at places that its nodes tell.
+    facts = {"notes": without_compression_notes(source.notes)}
+    return Content(name, (Shown("GLB", "", size, carried(source.mesh)),), facts=facts)
+
+
 def _lost_data(given: MeshFile | Frames) -> bool:
     """Whether so much of a file is left out that sizes cannot be compared: more than cameras and lights."""
     return isinstance(given, MeshFile) and not all(map(_SCENERY.fullmatch, given.dropped))
@@ -358,7 +374,7 @@ def against(before: Given, given: Given, limits: Limits) -> Content:
     second = replace(second, title=title, detail=name, size=given.size or 0)
     layers = (replace(first, detail=PurePath(before.name).name), second, *(rivals if stream else ()))
     read = [(PurePath(each.name).name, each.source) for each in (before, given) if not isinstance(each.source, bytes)]
-    notes = [f"{which}: {note}" for which, source in read for note in source.notes]
+    notes = [f"{which}: {note}" for which, source in read for note in without_compression_notes(source.notes)]
     if isinstance(original, TriangleMesh) and isinstance(shown, TriangleMesh):
         notes += changed(compare_images(original.metadata, shown.metadata))
     said = {"notes": notes, "less": any(_lost_data(source) for _, source in read)}
@@ -382,7 +398,8 @@ def _work(pipe: Connection, paths: Sequence[str], folder: str, preset: str) -> N
         elif isinstance(first.source, bytes):
             raise FormatError(f"{name} is a stream, which the page opens by itself, or empty")
         else:
-            content = made(name, first.size, first.source, preset, report)
+            scene = encoded_scene(name, first.name, Limits.service())
+            content = scene or made(name, first.size, first.source, preset, report)
         # Temporary folders may lie behind a link, as /tmp does on macOS. Names are compared where they lead.
         used = {os.path.realpath(path) for each in given for path in each.used}
         said = {"missing": [name for each in given for name in each.missing]}

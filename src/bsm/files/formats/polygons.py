@@ -275,6 +275,19 @@ class MeshFile:
     dropped: tuple[str, ...] = ()
 
 
+_ERRORS_ADD_UP = ": errors add up"
+
+
+def compression_note(codec: str) -> str:
+    """Return the note that a codec has compressed the geometry of a file."""
+    return f"compressed already, by {codec}{_ERRORS_ADD_UP}"
+
+
+def without_compression_notes(notes: Iterable[str]) -> list[str]:
+    """Return the notes for a command that does not encode the mesh again."""
+    return [note for note in notes if not note.endswith(_ERRORS_ADD_UP)]
+
+
 @dataclass(frozen=True, eq=False)
 class Polygons:
     """The points of a file in full precision, and its polygons over them."""
