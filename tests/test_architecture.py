@@ -65,7 +65,7 @@ FLOORS = {
         ("payloads",),
     ),
     "bsm.codec.static": (
-        ("coding", "targets", "units"),
+        ("coding", "presets", "targets", "units"),
         ("preamble_encoding",),
         ("attributes",),
         ("options", "verification"),

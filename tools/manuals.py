@@ -1,4 +1,4 @@
-"""Make the manual pages of the commands, and the files by which shells complete them: `python -m tools.manuals`."""
+"""Make manual pages, files by which shells complete commands, and tables of presets: `python -m tools.manuals`."""
 
 import re
 from pathlib import Path
@@ -8,6 +8,7 @@ import shtab
 from argparse_manpage.manpage import Manpage
 
 from bsm.cli import COMMANDS, Parser, command_parser, program_parser
+from tools.preset_tables import write_tables
 
 SHARE = Path(__file__).parents[1] / "share"
 _TABLE = re.compile(r"(?:^[^.\n].*\S {2,}\S.*\n)+", re.MULTILINE)
@@ -29,6 +30,7 @@ def main() -> None:
             action.complete = shtab.FILE
     for shell, path in (("bash", "bash-completion/completions/bsm"), ("zsh", "zsh/site-functions/_bsm")):
         (SHARE / path).write_text(shtab.complete(program, shell), encoding="utf-8")
+    write_tables()
 
 
 def _manual(parser: Parser, summary: str) -> str:

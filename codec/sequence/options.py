@@ -9,6 +9,7 @@ from bsm.bitstream.errors import OptionError, public
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import checked_qualities
+from bsm.codec.static.presets import SEQUENCE_ROWS
 from bsm.codec.static.targets import SEQUENCE_TARGETS, Contract, Target
 
 CHOICES = {"limits": tuple(NAMED_LIMITS)}
@@ -29,12 +30,7 @@ RANGES: dict[str, tuple[float, float]] = {
 }
 
 
-PROMISES = {
-    "small": Contract(0.02, look=3.0),
-    "balanced": Contract(0.01, look=1.0),
-    "fine": Contract(0.005, look=0.5),
-    "near-lossless": Contract(0.0005),
-}
+PROMISES = {row.name: Contract(row.farthest, look=row.frame_look) for row in SEQUENCE_ROWS}
 """The presets of sequences, with the bounds of those of meshes."""
 
 

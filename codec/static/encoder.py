@@ -24,7 +24,7 @@ from bsm.codec.static.choice.attributes import Sent, smallest
 from bsm.codec.static.choice.bounds import LEAST
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
 from bsm.codec.static.choice.trace import Event
-from bsm.codec.static.options import PRESETS, RANGES, EncodeOptions
+from bsm.codec.static.options import PROMISES, RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import WIDEST, Contract, Target, search_step
 from bsm.codec.static.verification import AsGiven, require, verify
@@ -63,7 +63,7 @@ class Attempt:
 SIZES, PROMISED_SIZES = RANGES["grid_cell"], (1e-42, 1e30)
 """Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
-LOOKS = [Contract(WIDEST, look=kept.look) for preset in reversed(PRESETS.values()) if (kept := preset.promise)]
+LOOKS = [Contract(WIDEST, look=look) for look in sorted(promise.look for promise in PROMISES.values())]
 """The coarseness of attributes if a size is promised: that of the first look with which the shape fits."""
 OVER = "eps_h is exceeded in {} of {} blocks: these have as many coefficients as they may have"
 OWN_RULE = "METIS (pymetis) is not installed: BSM's own rule cuts the mesh into parts"

@@ -9,6 +9,7 @@ from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options, named
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
 from bsm.codec.static.coding import KEY_SEEDS
+from bsm.codec.static.presets import DEFAULT, PRESET_ROWS
 from bsm.codec.static.targets import TARGETS, Contract, Target
 
 CHOICES = {
@@ -37,7 +38,8 @@ RANGES: dict[str, tuple[float, float]] = {
 }
 
 
-BALANCED = Contract(0.01, look=1.0, by_part=0.01)  # what is promised unless something else is asked for
+PROMISES = {row.name: Contract(row.farthest, look=row.look, by_part=row.by_part) for row in PRESET_ROWS if row.farthest}
+BALANCED = PROMISES[DEFAULT]  # what is promised unless something else is asked for
 
 
 @public
@@ -298,17 +300,16 @@ FINE, SMALL = 0.001, 0.02  # promises of positions, from which on attributes are
 STEP = 0.004  # of blocks alone
 PAPER_OVERLAP = 1.15
 
-PRESETS: dict[str, EncodeOptions] = {
-    "small": EncodeOptions(contract=Contract(0.02, look=3.0, by_part=0.02)),
-    "balanced": EncodeOptions(contract=BALANCED),
-    "fine": EncodeOptions(contract=Contract(0.005, look=0.5, by_part=0.005)),
-    "near-lossless": EncodeOptions(contract=Contract(0.0005, look=0.25, by_part=0.005)),
+_WITHOUT_PROMISE = {
     "grid14": EncodeOptions(grid=14),
     "lossless": EncodeOptions(exact=True, attributes={"*": "exact"}),
     "none": EncodeOptions(block_size=1500, contract=None),
     "paper": EncodeOptions(
         paper=Paper(bits=12, partition="metis", power=2, doi=(0.9 * EPS_H, EPS_H)), key_interval=0, contract=None
     ),
+}
+PRESETS: dict[str, EncodeOptions] = {
+    row.name: _WITHOUT_PROMISE.get(row.name) or EncodeOptions(contract=PROMISES[row.name]) for row in PRESET_ROWS
 }
 """Names for what most users want, each a promise; "balanced" is the default, "none" promises nothing but what is
 asked for beside it, and "paper" is the codec of the paper. Larger blocks are smaller files and slower to decode."""

@@ -69,9 +69,8 @@ def encode(
         Called in this thread with the finished work and the total; the first number never falls. If it raises an
         exception, the work ends, the exception reaches the caller, and unfinished files are removed.
     **keywords
-        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none",
-        "paper"), bounds (`look`, `max_error`), one target (`theta`, `nmsve_db`, `bpv`, `size`), and fields of
-        `EncodeOptions` (`step`, `block_size`, `keep_order`, `threads`, ...).
+        As on the command line: `preset` (a name of `PRESETS`), bounds (`look`, `max_error`), one target (`theta`,
+        `nmsve_db`, `bpv`, `size`), and fields of `EncodeOptions` (`step`, `block_size`, `keep_order`, `threads`, ...).
 
     Returns
     -------
@@ -327,9 +326,9 @@ def encode_sequence(
         Attributes that do not change; `SequenceDecoder.attributes` returns them. The option `attributes` sets their
         quality, as for a mesh.
     **keywords
-        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless": promises for every frame),
-        `low_delay`, bounds (`look`, `max_error`), one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
-        `SequenceOptions` (`step`, `gop`, `frame_rate`, ...).
+        As on the command line: `preset` (one of `PRESETS` that promises a look: here of every frame), `low_delay`,
+        bounds (`look`, `max_error`), one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of `SequenceOptions`
+        (`step`, `gop`, `frame_rate`, ...).
 
     Returns
     -------

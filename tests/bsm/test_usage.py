@@ -30,8 +30,10 @@ from bsm.ground.lengths import (
 from tests.bsm.test_batch import bsm as program
 from tests.shapes import torus
 from tests.streams import events_of
+from tools.preset_tables import DOCUMENTS, with_table
 
-SHARE = Path(__file__).parents[2] / "share"
+ROOT = Path(__file__).parents[2]
+SHARE = ROOT / "share"
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -168,6 +170,12 @@ def test_help_says_what_presets_promise():
             look = f"{options.contract.look:g}" if np.isfinite(options.contract.look) else "any"
             assert row.split()[:3] == [look, f"{100 * options.contract.farthest:g}", "%"]
             assert ("whole mesh" in row) == (options.contract.by_part > options.contract.farthest)
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_documents_have_the_table_of_presets(name):
+    text = (ROOT / name).read_text("utf-8")
+    assert with_table(text) == text, "run python -m tools.manuals"
 
 
 @pytest.mark.parametrize("words", [["--max-error", "1%"], ["--nmsve-db", "-40"]])

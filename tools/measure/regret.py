@@ -18,7 +18,7 @@ from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.search import PRICE, OneSearch
 from bsm.codec.static.choice.table import ways_of
 from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.options import PRESETS, PROMISES, EncodeOptions
 from bsm.codec.static.targets import Contract, Target
 from bsm.files.mesh import read_mesh
 from bsm.ground.console import Console
@@ -26,12 +26,11 @@ from tools.command import run_command
 
 MEAN, WORST = 1.01, 1.05
 PATIENCE, CHEAPER = 10, 0.1  # times as many trials, at so much of the price
-NAMED = ("small", "balanced", "fine", "near-lossless")
 
 
 def options_of(targets: bool) -> Iterator[tuple[str, EncodeOptions]]:
     """Yield the options that are measured, with their names."""
-    for name in NAMED:
+    for name in PROMISES:
         yield name, replace(PRESETS[name], threads=1)
     if targets:
         for kind, value in (("theta_deg", 5.0), ("nmsve_db", -48.0)):

@@ -8,11 +8,9 @@ from bpy.app.handlers import persistent
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
-PRESETS = [
-    ("balanced", "Balanced", "The same at a glance in smooth shading; vertex error up to 1 % of the diagonal"),
-    ("fine", "Fine", "Twice as close to the original, larger"),
-    ("small", "Small", "A preview, smaller"),
-]
+from bsm.codec.static.presets import DEFAULT, SEQUENCE_ROWS
+
+PRESETS = [(row.name, row.name.capitalize(), row.use) for row in SEQUENCE_ROWS]
 
 
 @contextmanager
@@ -84,7 +82,7 @@ class BSM_OT_export(bpy.types.Operator, ExportHelper):
     filename_ext = ".bsm"
     filter_glob: StringProperty(default="*.bsm", options={"HIDDEN"})
     animation: BoolProperty(name="Animation", default=True, description="All frames of the scene, not only this one")
-    preset: EnumProperty(name="Preset", items=PRESETS, default="balanced")
+    preset: EnumProperty(name="Preset", items=PRESETS, default=DEFAULT)
     look: FloatProperty(
         name="Look",
         default=0.0,

@@ -3,7 +3,6 @@
 import argparse
 import csv
 import math
-import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from itertools import accumulate, groupby
@@ -12,6 +11,7 @@ from typing import Any, TypeVar
 
 from bsm.bitstream.errors import OptionError
 from bsm.codec.choices import suggestion
+from bsm.codec.static.presets import DEFAULT, PRESET_ROWS
 from bsm.files.output import refuse_terminal
 
 
@@ -130,10 +130,10 @@ def named_setting(text: str) -> tuple[str, Any]:
         raise argparse.ArgumentTypeError(f"{name}={setting.value} is expected, not {text!r}") from None
 
 
-# The numbers stand in the codec as well. A test holds the text against them.
-PROMISES = Path(__file__).with_name("presets.txt").read_text("utf-8").rstrip()
-"""A table of the presets; written out, because importing their definitions takes time."""
-PRESETS = tuple(re.findall(r"^([\w-]+)  ", PROMISES, re.MULTILINE))[1:]
+PROMISES = "The encoder checks the decoded result before it writes a file. All constraints apply together.\n\n"
+PROMISES += "preset         look  vertex  (look distance; largest error, relative to the diagonal of its component)\n"
+PROMISES += "\n".join("{:14} {:5} {:7} {}".format(row.name, *row.bounds, row.use) for row in PRESET_ROWS)
+PRESETS = tuple(row.name for row in PRESET_ROWS)
 
 
 def number_or_length(text: str) -> float | str:
@@ -218,7 +218,7 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
 def add_preset_flags(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("quality and size", PROMISES)
     group.add_argument(
-        "--preset", choices=PRESETS, default=argparse.SUPPRESS, help="a promise of the table (default: balanced)"
+        "--preset", choices=PRESETS, default=argparse.SUPPRESS, help=f"a promise of the table (default: {DEFAULT})"
     )
     add_flags(group, "bounds")
     add_flags(group.add_mutually_exclusive_group(), "targets")

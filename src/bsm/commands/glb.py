@@ -8,6 +8,7 @@ from typing import Any
 
 from bsm.account.images import changed
 from bsm.bitstream.errors import HarmError, OptionError
+from bsm.codec.static.presets import PRESET_ROWS
 from bsm.commands.flags import add_flags, adder
 from bsm.files.images import ImageRule, with_linked_images
 from bsm.files.mesh import read_mesh, size_with_parts, written_mesh
@@ -22,14 +23,15 @@ from bsm.gltf.write import moving_scene
 from bsm.ground.console import Console, print_json
 
 MANY = 16  # primitives from which on a page waits longer for decoding than for the bytes that it saves
-PRESETS = ("balanced", "fine", "near-lossless", "lossless", "grid14")
+_NO_PROMISE, _USUAL = ("none", "paper"), "grid14"
 VISIBLE = 0.01  # of the diagonal of a component: an error that is worth a note
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
-    promised = "quality of each mesh (default: grid14, as exact as Draco with 14 bits)"
-    add("--preset", "", promised, choices=PRESETS, default=PRESETS[-1])
+    quality = f"quality of each mesh (default: {_USUAL}, as exact as Draco with 14 bits)"
+    names = [row.name for row in PRESET_ROWS if row.name not in _NO_PROMISE]
+    add("--preset", "", quality, choices=names, default=_USUAL)
     quick = "code only grids: pages decode them several times as fast, with a small decoder "
     quick += f"(default: for scenes of {MANY} primitives and more)"
     add("--quick", "", quick, action=argparse.BooleanOptionalAction)
@@ -51,8 +53,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
     quick = count_primitives(document) >= MANY if args.quick is None else args.quick
     if args.preset == "lossless" and args.quick:
         raise OptionError("--quick rounds positions to a grid; leave out --preset lossless")
-    if args.one_grid and args.preset != PRESETS[-1]:
-        raise OptionError(f"--one-grid shares the grid of --preset {PRESETS[-1]}; leave out the preset")
+    if args.one_grid and args.preset != _USUAL:
+        raise OptionError(f"--one-grid shares the grid of --preset {_USUAL}; leave out the preset")
     options = {"preset": args.preset, "attributes": _qualities(args)}
     options |= {"effort": "quick"} if quick and args.preset != "lossless" else {}
     beside = Path(args.output).with_suffix(".fallback.bin") if args.fallback else None
@@ -89,7 +91,7 @@ def _finish(
 
 def _wrap_sequence(args: argparse.Namespace, console: Console) -> None:
     changes = (args.fallback, args.images, args.quick is not None, args.attribute, args.one_grid, args.jobs != 1)
-    if any(changes) or args.preset != PRESETS[-1]:
+    if any(changes) or args.preset != _USUAL:
         raise OptionError("a stream is wrapped unchanged; only -o, -f, -q and --json apply")
     stream = as_input(args.input).read_all()
     scene = moving_scene(stream)

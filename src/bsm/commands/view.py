@@ -11,6 +11,7 @@ from threading import Thread
 from bsm.account.overview import load_mesh, write_page
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.bitstream.limits import as_limits
+from bsm.codec.static.presets import DEFAULT, SEQUENCE_ROWS
 from bsm.commands.flags import add_flags, adder
 from bsm.files.inspection import inspect_stream
 from bsm.files.output import write_output
@@ -19,7 +20,7 @@ from bsm.files.stream import MANIFEST, is_tiles
 from bsm.ground.console import Console, Progress
 from bsm.jobs.plan import STREAM_SUFFIXES, files_in
 from bsm.tiles.shards import open_tiles
-from bsm.viewer.contents import NO_STREAM, PRESETS, Content, against, alone, encoded_scene, given_at, made
+from bsm.viewer.contents import NO_STREAM, Content, against, alone, encoded_scene, given_at, made
 from bsm.viewer.page import Arrival, PageServer, Ranged, Tiled, in_browser, page_with, site_with, written_to
 
 
@@ -29,7 +30,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "stream, - for a pipe, folder of streams or of tiles. Meshes and sequences are encoded and compared. Without "
     )
     add("inputs", "IN", f"{shown}inputs, opens an empty page; drop a mesh on it", nargs="*")
-    add("--preset", "", "preset for meshes and sequences (default: balanced)", choices=PRESETS, default="balanced")
+    names = [row.name for row in SEQUENCE_ROWS]
+    add("--preset", "", f"preset for meshes and sequences (default: {DEFAULT})", choices=names, default=DEFAULT)
     add_flags(parser, "view", "limits")
 
 

@@ -9,6 +9,7 @@ from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.choices import checked, named, suggestion
 from bsm.codec.sequence.options import PROMISES, SequenceOptions
 from bsm.codec.static.options import CODING, PRESETS, EncodeOptions, Paper, changed
+from bsm.codec.static.presets import DEFAULT, SEQUENCE_ROWS
 from bsm.codec.static.targets import WIDEST, Contract, Target
 from bsm.ground.lengths import parse_bytes, parse_length
 
@@ -20,7 +21,7 @@ BOUNDS = ("look", "max_error")  # keywords of bounds of a mesh; they apply toget
 
 SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}  # the same for sequences
 
-SEQUENCE_STEPS = {"small": 0.006, "balanced": 0.002, "fine": 0.0007, "near-lossless": 0.0001}
+SEQUENCE_STEPS = {row.name: row.frame_step for row in SEQUENCE_ROWS}
 """The presets of sequences that are sent frame by frame, which promise nothing."""
 
 
@@ -68,9 +69,9 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
 
 
 def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keywords: Any) -> SequenceOptions:
-    name = "balanced" if preset is None else preset
+    name = DEFAULT if preset is None else preset
     # Said by name, since these are known words for meshes, and "unknown preset" would surprise.
-    if name in ("none", "lossless", "grid14", "paper"):
+    if name in PRESETS and name not in SEQUENCE_STEPS:
         why = "it is for static meshes only" if name == "paper" else "GOPs round frames together"
         raise OptionError(f"a sequence cannot have preset {name}: {why}; try near-lossless")
     effort = keywords.pop("effort", "normal")

@@ -34,8 +34,7 @@ from bsm.codec.look.measure import look
 from bsm.codec.sequence.options import PROMISES
 from bsm.codec.sequence.step_search import KNOTS, shading_error
 from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import PRESETS as ALL
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.targets import Contract
 from bsm.encoding.given import Wishes, given_frames, given_mesh
 from bsm.files.formats.polygons import MeshFile, without_compression_notes
@@ -54,7 +53,6 @@ DRACO_LEVEL = 10
 DRACO_BITS = range(4, 25)
 _SCENERY = re.compile(r"cameras?|(lights? of )?KHR_lights_punctual")
 NO_STREAM = "the pipe does not contain a BSM stream; encode it: bsm encode - -o - | ..."
-PRESETS = ("small", "balanced", "fine", "near-lossless")
 _EVERY = 0.1  # seconds between two reports of a process
 _ENCODING = 0.7  # of the time that a mesh takes
 _LONGEST = 60  # letters of a name
@@ -103,7 +101,7 @@ def _carrier(mesh: TriangleMesh) -> tuple[bytes, Order]:
     """Return a stream to the bit, or on the finest grid where single precision is coarser; and its order."""
     # Lossless streams hold single precision. A mesh in doubles may have more, and is then drawn from a grid.
     with suppress(MeshError, TargetError):
-        encoder = Encoder(mesh, ALL["lossless"])
+        encoder = Encoder(mesh, PRESETS["lossless"])
         return b"".join(encoder.chunks()), encoder.vertex_order
     encoder = Encoder(mesh, EncodeOptions(grid=_FINEST, attributes={"*": "exact"}))
     return b"".join(encoder.chunks()), encoder.vertex_order
@@ -140,7 +138,7 @@ def compared(
     else:
         found, off, rivals = _at_rest(original, decode_whole(Input(stream).chunks(), limits), len(stream))
         plain = 12 * (len(original.positions) + len(original.faces))
-        promised = _promised({known: options.contract for known, options in ALL.items()}, preset)
+        promised = _promised({known: options.contract for known, options in PRESETS.items()}, preset)
     first = Shown("Original", "" if size else "as plain arrays", size or plain, before or carried(original))
     second = Shown("BSM", preset or "", len(stream), stream, off)
     return Content(name, (first, second, *rivals), 1, {"preset": preset, **found, **promised})

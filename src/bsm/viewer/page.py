@@ -29,10 +29,11 @@ from bsm._core import SkimmedPacket
 from bsm.bitstream.container.wire import MAGIC, FrameType, write_preamble
 from bsm.bitstream.errors import BsmError, DependencyError
 from bsm.bitstream.limits import Limits
+from bsm.codec.static.presets import DEFAULT, SEQUENCE_ROWS
 from bsm.files.inspection import Skimmer
 from bsm.files.pipes import place_of, read_range
 from bsm.ground.exits import worded
-from bsm.viewer.contents import PRESETS, Content, uploaded
+from bsm.viewer.contents import Content, uploaded
 
 _CHUNK = 1 << 18
 _PAUSE = 0.05  # seconds between looks at a file that has not grown
@@ -190,6 +191,8 @@ _POLICY = (
     "style-src 'unsafe-inline'; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
 
+_PRESETS = sorted((row.name for row in SEQUENCE_ROWS), key=lambda name: name != DEFAULT)
+"""What pages offer; the first is chosen."""
 Place = Callable[[str, bytes], dict[str, str]]
 
 
@@ -213,7 +216,8 @@ def embedded(_: str, data: bytes) -> dict[str, str]:
 def script(place: Place, *more: str) -> str:
     """Return the module of the page with the addresses of the full kernels, and of `more` smaller ones or scripts."""
     kernels = {PurePath(name).stem: place(f"/{name}", _built(name)) for name in ("kernels.wasm", *more)}
-    return f"const KERNELS={json.dumps(kernels)};{_built('viewer.js').decode()}"
+    told = {**kernels, "presets": _PRESETS}
+    return f"const KERNELS={json.dumps(told)};{_built('viewer.js').decode()}"
 
 
 def page_with(contents: Sequence[Content]) -> str:
@@ -372,7 +376,7 @@ class _Handler(BaseHTTPRequestHandler):
         # Pages of others may send here, too, but not in our name.
         if self.headers.get("Origin") != f"http://{self.server.host}":
             self.send_error(HTTPStatus.FORBIDDEN)
-        elif url.path != UPLOAD or asked.get("preset", [""])[0] not in PRESETS:
+        elif url.path != UPLOAD or asked.get("preset", [""])[0] not in _PRESETS:
             self.send_error(HTTPStatus.NOT_FOUND)
         # int() takes signs, spaces, underscores and digits of other scripts, which no header has.
         elif not all(map(_LENGTH.fullmatch, (length, *sizes))) or sum(map(int, sizes)) != int(length):

@@ -13,11 +13,12 @@ export interface Inlined {
 }
 
 /** What `bsm.viewer.page` says before the script. */
-declare const KERNELS: { kernels: Inlined; grid?: Inlined; encoder?: Inlined };
+declare const KERNELS: { kernels: Inlined; grid?: Inlined; encoder?: Inlined; presets: string[] };
 
 /** The script of the thread that encodes, where no server does; whether `bsm view` serves the page, and can encode. */
 export const encoder = KERNELS.encoder?.url;
 export const served = KERNELS.kernels.url !== undefined && !encoder;
+export const offered = KERNELS.presets; // what the server encodes with
 
 export async function fetched(url: string, start?: RequestInit): Promise<Response> {
     const response = await fetch(url, start);

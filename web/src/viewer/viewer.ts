@@ -3,7 +3,7 @@ import { messageOf } from "../fetched";
 import { Pool } from "../pool";
 import type { Job, Status } from "./encoder";
 import type { Content } from "./facts";
-import { bytesOf, encoder, fetched, inlined, load, served } from "./inlined";
+import { bytesOf, encoder, fetched, inlined, load, offered, served } from "./inlined";
 import { bytesIn, contentOf, type Encode, isStream, pathOf } from "./upload";
 import { View } from "./view";
 
@@ -76,7 +76,7 @@ const encodeHere: Encode = async (files, preset, report, signal) => {
 async function fillPage(list: HTMLElement): Promise<void> {
     const contents = JSON.parse(list.textContent!) as Content[];
     const pool = new Pool(inlined);
-    const [own, presets] = encoder ? [encodeHere, BITS] : served ? [encode] : [];
+    const [own, presets] = encoder ? [encodeHere, BITS] : served ? [encode, offered] : [];
     const view = new View(document.body, pool, LICENSES, own, presets);
     const open = async (index: number): Promise<void> => {
         const mine = view.begin();
