@@ -61,9 +61,6 @@ THICK, BENDS_WIDTH, BENDS_ITERATIONS = 2.5, 0.3, (8, 12)
 """Slices from `THICK` cells across on also get the surface of fewest bends, from twice that on in two versions. It is
 best on smooth shapes; its mean with the other filter loses nothing where detail is finer than slices."""
 WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
-SLIDING = 0.44
-"""Noise along the surface over that along the normals, from which on vertices slide: equal noise reads 0.45 to 1 on
-eight meshes, irregular triangles up to 0.43."""
 STAGES = 4  # that progress tells of: noise is found, filters are rehearsed twice, and the choice is carried out
 MOST_TAUGHT = 40_000
 """Vertices up to which white noise is removed with learnt normals, which leave 3 % less of it, and any noise by total
@@ -147,17 +144,13 @@ def choose(positions: Positions, finding: Finding, surface: Filters, goal: str, 
     if len(members) < len(positions):
         surface, chosen = Filters(part, len(members)), positions[members]
     level = estimate_noise(chosen, surface.smooth(chosen, filters[0]), surface.probe)
-    # Rounding moves vertices along all axes alike, though those that it merged hide that from the measure.
-    least = 0.0 if finding.kind == "grid" else SLIDING
-    slides = general and level.tangential > least * level.normal
-    if slides:
-        level = NoiseLevel(level.normal, level.across, level.across, slides=True)
+    if level.slides:
         filters = tuple(replace(each, hand_over=each.hand_over.replace("heights", "positions")) for each in filters)
     known = finding.on(members).reaching(surface.topology, level.slides)
     mesh = surface.filtered(chosen, known)
     rehearsal = Rehearsal(mesh, surface, known, level, filters[0], named("goal", GOALS, goal))
     flat = mesh.planes(rehearsal.truth.positions).share if finding.kind == "white" else 0.0
-    finishes = ["none", "learnt"] if general and learnt and not slides and flat < MOST_FLAT else ["none"]
+    finishes = ["none", "learnt"] if general and learnt and not level.slides and flat < MOST_FLAT else ["none"]
     winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, (1.0 + done) / STAGES))
     steadied = finding.kind == "unsteady"
     if not steadied:
@@ -172,7 +165,7 @@ def choose(positions: Positions, finding: Finding, surface: Filters, goal: str, 
     doubt = _doubt(winner.error, untreated, changed, forecast.untreated if forecast else np.inf)
     if steps and doubt:
         steps, expected, reason = (), untreated, f"{reason}, but {doubt}"
-    noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge, slides=level.slides)
+    noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
     detailed = finding.kind == "white" and rehearsal.lost(winner) > DETAIL_LOST[goal]
     why = f"these of {len(filters)} filters left the least error on the result with new noise"
     return AutomaticChoice(

@@ -26,9 +26,9 @@ from bsm.codec.geometry.metrics import face_normals
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}
 METHODS = ("spectral", "oi", "guided", "tgv", "learnt")  # of options; without options, the data choose
 WITHOUT_COARSE = METHODS[2:]
-RAYS = "rays"  # the hand-over of scans of one view, see `View.flattened`; what is kept is its strength then
-TGV = "tgv"  # total generalized variation of normals; what is kept is its weight then
-BENDS = "bends"  # of thick slices, see `Cells.flattened`, and of fused views, where `keep` is the weight of bends
+RAYS, BENDS, TGV = "rays", "bends", "tgv"
+"""Hand-overs without a coarse step: the surface of fewest bends along camera rays (`View.flattened`), or within cells
+(`Cells.flattened`) or on its own; and total generalized variation of normals. `Filter.keep` is their weight."""
 
 HandOver = Callable[[Positions, Positions, GuidedFilter], Positions]
 """From noisy and coarse positions, both (n, 3), to those from which the fine step starts (a new array)."""
