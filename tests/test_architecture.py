@@ -8,6 +8,7 @@ import tokenize
 from collections import Counter, defaultdict
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -370,3 +371,73 @@ def test_nothing_escapes():
     assert {"bsm.bitstream.container.wire", "bsm.codec.geometry.mesh", "tools"} <= set(MODULES)
     assert {"library.stages", "library.python.binding", "bsm.codec.basis.cosines"} <= set(map(c_name, SOURCES))
     assert {"engine", "viewer/view"} <= arrows_of_typescript().keys()
+
+
+def rows_of_map(heading: str) -> list[list[str]]:
+    """The cells of the table of CONTRIBUTING.md that follows a text."""
+    _, _, text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition(heading)
+    table = re.search(r"^\|[-|]+\|\n((?:\|.*\n)+)", text, re.MULTILINE)
+    assert table
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in table[1].splitlines()]
+
+
+def rooms_in(folder: str) -> set[str]:
+    """The folders with sources below a folder."""
+    paths = [path for path in (ROOT / folder).iterdir() if path.is_dir() and not path.is_symlink()]
+    return {path.name for path in paths if [*path.glob("*.py"), *path.glob("*.c")]}
+
+
+@pytest.mark.parametrize("folder", ["bitstream", "codec", "src/bsm"])
+def test_the_map_has_the_rooms_and_floors_of_the_tree(folder):
+    rows = {cells[0]: cells[1] for cells in rows_of_map("## The map")}
+    floors = [re.findall(r"\w+", words) for words in rows[f"`{folder}/`"].split("·")]
+    package = FOLDERS[folder]
+    assert rooms_in(folder) <= {name for names in floors for name in names}
+    levels = [{floor(f"{package}.{name}", package)[0] for name in names} for names in floors]
+    assert max(level for each in levels for level in each) < len(FLOORS[package]), "a room that is on no floor"
+    assert all(max(below) < min(above) for below, above in pairwise(levels))
+
+
+def test_the_rooms_of_the_encoder_are_those_of_the_tree():
+    folder = ROOT / "codec/static"
+    cells = [re.findall(r"`(?:static/)?(\w+)[./]", row[0]) for row in rows_of_map("The rooms of `codec/static/`")]
+    names = [name for names in cells for name in names]
+    files = {path.stem for path in folder.glob("*.py") if path.stem != "__init__"}
+    assert sorted(names) == sorted(rooms_in("codec/static") | files)
+    levels = [floor(f"bsm.codec.static.{name}", "bsm.codec.static")[0] for name in names]
+    assert levels == sorted(levels)
+
+
+def is_defined(name: str) -> bool:
+    """Whether a dotted name is that of a module, or of what a module defines; `bsm` loads its names on demand."""
+    module, _, rest = name, "", ""
+    while module and module not in MODULES:
+        module, _, part = module.rpartition(".")
+        rest = f"{part}.{rest}".strip(".")
+    if not rest:
+        return bool(module)
+    source = MODULES[module].read_text(encoding="utf-8") if module else ""
+    first, *inside = rest.split(".")
+    begins = rf'["\s]{first}["\s]' if module == "bsm" else rf"^(?:def |class |from .* import .*\b)?{first}\b"
+    return bool(re.search(begins, source, re.MULTILINE)) and all(part in source for part in inside)
+
+
+def unknown_names(text: str) -> list[str]:
+    """The dotted names of a text that nothing has."""
+    names = re.findall(r"`((?:bsm|codec|bitstream|tools)\.[\w.]+\w)", text)
+    return [name for name in names if not is_defined(re.sub(r"^(?=codec|bitstream)", "bsm.", name))]
+
+
+def test_docstrings_name_what_there_is():
+    assert unknown_names("`codec.denoise.normals`, `bsm.nothing`, `codec.look`, `bsm.encode`") == [
+        "codec.denoise.normals",
+        "bsm.nothing",
+    ]
+    wrong = {}
+    for name, path in MODULES.items():
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+        texts = [ast.get_docstring(node) or "" for node in ast.walk(tree) if isinstance(node, kinds)]
+        if names := unknown_names("\n".join(texts)):
+            wrong[name] = names
+    assert not wrong
