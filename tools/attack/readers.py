@@ -34,7 +34,7 @@ from bsm.files.formats.npz import write_npy
 from bsm.files.mesh import read_mesh, written_mesh
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
-from bsm.files.table import SEQUENCES_READ
+from bsm.files.table import MESH_FORMATS, SEQUENCES_READ
 from tests.gltf import Built, Tree, glb, unpack
 from tests.shapes import ply_head
 from tools.attack.taken import Taken, bounds, taken_by_each
@@ -189,10 +189,7 @@ def samples() -> dict[str, Sample]:
     beside = (("a.obj", plain),)
     painted = ply_head(more="property uchar red\nproperty uchar green\nproperty uchar blue\n")
     found = {
-        **{
-            kind: Sample(kind, written_mesh(mesh, kind).data)
-            for kind in ("obj", "off", "ply", "stl", "vtp", "npz", "glb")
-        },
+        **{kind: Sample(kind, written_mesh(mesh, kind).data) for kind in (*MESH_FORMATS, "glb")},
         "ply of text": Sample("ply", (painted + "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n3 0 1 2\n").encode()),
         "ply of polygons": Sample("ply", _ragged_ply()),
         "stl of text": Sample("stl", _ASCII_STL),

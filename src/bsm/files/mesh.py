@@ -1,4 +1,4 @@
-"""Mesh files: OBJ, OFF, PLY, STL, VTP and npz by our own readers and writers, others by the libraries of their makers.
+"""Mesh files: by our own readers and writers, or by the libraries of the makers of a format, as the table says.
 
 Coordinates are in double precision; vertices, faces and corners keep their order; all other data becomes attributes and
 metadata; notes name changes and losses. Files may be hostile: a file that declares more than it contains is refused
@@ -39,7 +39,6 @@ from bsm.ground.lengths import metres
 
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
 _ALL = 1 << 62
-_UNITLESS = ("obj", "ply", "off", "vtp")  # where metadata, which only we read, say the unit
 _WAY = "convert it to GLB, OBJ, PLY or VTU first, with the program that made it"
 _FOREIGN = {
     ("fbx", "blend", "abc", "3ds", "x3d", "wrl"): "convert it to GLB, OBJ or PLY first, for instance with Blender",
@@ -134,12 +133,11 @@ def read_cut(
     if data.startswith(MAGIC):
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
     kind = _kind(name, data, file_format)
-    # Only formats with many namesakes: .obj is also object code, .off a disk image. A reader's error about line 1 would
-    # say less.
-    other = other_kind(data, kind) if kind in ("obj", "off", "ply", "glb") else ""
+    row = FORMATS.get(kind)
+    # A reader's error about line 1 would say less.
+    other = other_kind(data, kind) if row is not None and row.namesakes else ""
     if other and (kind, other) != ("glb", "JSON"):
         raise FormatError(f"this is {other}, not .{kind}; give it the right name, or name its format")
-    row = FORMATS.get(kind)
     if row is None or not row.reader or (kind in USD_FORMATS and not path):
         way = next((way for kinds, way in _FOREIGN.items() if kind in kinds), _WAY)
         raise FormatError(f"{f'.{kind}' if kind else 'this'} is not a mesh format that is known here: {way}")
@@ -196,7 +194,7 @@ def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[s
 def unheard(metadata: Metadata, file_format: str) -> str:
     """Return the unit and the axis of a mesh that other programs do not learn from a format, in words."""
     unit, up = str(metadata.get("unit", "")), str(metadata.get("up", "")).lower()
-    said = [f"the unit ({unit})"] if file_format in _UNITLESS and metres(unit) not in (None, 1.0) else []
+    said = [f"the unit ({unit})"] if FORMATS[file_format].own_unit and metres(unit) not in (None, 1.0) else []
     said += [f"the upward axis ({up})"] if file_format == "obj" and up in ("x", "z") else []
     return " and ".join(said)
 

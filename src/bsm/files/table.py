@@ -33,16 +33,18 @@ class Format:
     beside: bool = False  # materials and images that its metadata name are read from its folder
     by_path: bool = False  # the reader is told the path
     apart: bool = False  # read in a process of its own, since its library may crash
-    begins: bytes = b"(?!)"  # what the first bytes of a file match
+    begins: bytes = b""  # what the first bytes of a file match, if they tell
     called: str = ""  # in errors, where a file has the suffix of another format
+    namesakes: bool = False  # files of other kinds have its suffix: .obj is also object code, .off a disk image
     unit: str = ""
+    own_unit: bool = False  # only we read the unit in it
     up: str = ""
     times: frozenset[str] = _NUMBERED  # metadata that frames say by their times, or by the numbers in their names
     empty: bytes | None = None  # a file of a frame without faces
     modules: tuple[str, ...] = ()  # loaded before such a file is read in a process of its own
 
 
-def _own(kind: str, begins: bytes, **more: Any) -> Format:
+def _own(kind: str, begins: bytes = b"", **more: Any) -> Format:
     module = f"bsm.files.formats.{kind}"
     return Format(f"read_{kind}", f"{module}:write_{kind}", True, begins=begins, modules=(module,), **more)
 
@@ -56,7 +58,14 @@ _EMPTY_PLY += b"element face 0\nproperty list uchar int vertex_indices\nend_head
 _OBJ = rb"(?:[^\0]{0,65536}[\r\n])?[ \t]*v[ \t]+[-+\d.]"
 _GLTF = Format("read_gltf_mesh", frames="r", modules=("bsm.gltf.scene", "bsm.gltf.coding", "DracoPy", "PIL.Image"))
 _GLB = replace(
-    _GLTF, frames="rw", writer="bsm.gltf.write:write_glb", begins=b"glTF", called="a GLB", unit="meters", up="y"
+    _GLTF,
+    frames="rw",
+    writer="bsm.gltf.write:write_glb",
+    begins=b"glTF",
+    called="a GLB",
+    namesakes=True,
+    unit="meters",
+    up="y",
 )
 _PXR = ("bsm.files.motion.usd", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel")
 _USD = Format("read_usd_mesh", frames="rw", unit="named", up="named", modules=_PXR)
@@ -70,17 +79,18 @@ _VTK = {
 XDMF = ("xdmf", "xmf")
 OF_OTHERS = (*XDMF, "case", "encas", "foam", "pvtu", "pvtp", "pvts", "pvtr", "pvti", "vtm", "vtpc")
 """Suffixes of files that name others, which hold most of the data."""
+_WITH_MANY_NAMESAKES: dict[str, Any] = {"beside": True, "namesakes": True, "own_unit": True}
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")
 
 FORMATS: Mapping[str, Format] = {
-    "obj": _own("obj", _OBJ, called="an OBJ", beside=True, empty=b"# a frame without faces\n"),
-    "ply": _own("ply", rb"\s*ply\b", called="a PLY", beside=True, empty=_EMPTY_PLY),
-    "off": _own("off", rb"(?s:.{0,5})OFF", called="an OFF", beside=True, empty=b"OFF\n0 0 0\n"),
+    "obj": _own("obj", _OBJ, called="an OBJ", empty=b"# a frame without faces\n", **_WITH_MANY_NAMESAKES),
+    "ply": _own("ply", rb"\s*ply\b", called="a PLY", empty=_EMPTY_PLY, **_WITH_MANY_NAMESAKES),
+    "off": _own("off", rb"(?s:.{0,5})OFF", called="an OFF", empty=b"OFF\n0 0 0\n", **_WITH_MANY_NAMESAKES),
     "glb": replace(_GLB, times=_TIMED),
     "gltf": _GLTF,
     "stl": _own("stl", rb"\s*solid", called="an STL", beside=True, empty=bytes(84)),
     "npz": _own("npz", rb"(?s:PK\x03\x04.*positions\.npy)", frames="rw", times=frozenset()),
-    "vtp": _own("vtp", rb"(?s:.{0,1000})<VTKFile[^>]*\bPolyData", times=_TIMED),
+    "vtp": _own("vtp", rb"(?s:.{0,1000})<VTKFile[^>]*\bPolyData", times=_TIMED, own_unit=True),
     "3mf": Format("read_3mf", f"{_3MF}:write_3mf", unit="named", up="z", modules=(_3MF, "lib3mf")),
     "dae": Format(
         "read_dae",
@@ -139,12 +149,12 @@ def format_of_bytes(data: bytes) -> str | None:
     """Return the format that the bytes of a file tell."""
     if len(data) == 84 + 50 * int.from_bytes(data[80:84], "little"):
         return "stl"
-    return next((kind for kind, row in FORMATS.items() if re.match(row.begins, data)), None)
+    return next((kind for kind, row in FORMATS.items() if row.begins and re.match(row.begins, data)), None)
 
 
 def other_kind(head: bytes, suffix: str) -> str:
     """Return the kind of a file whose first bytes are those of another format than its suffix; "" if they are not."""
-    kinds = _FOREIGN | {row.begins: row.called for row in FORMATS.values() if row.called}
+    kinds = _FOREIGN | {row.begins: row.called for row in FORMATS.values() if row.begins and row.called}
     found = next((called for begins, called in kinds.items() if re.match(begins, head[:1024])), "")
     return "" if found == FORMATS[suffix].called else found
 
