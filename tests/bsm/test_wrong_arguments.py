@@ -219,7 +219,8 @@ def test_coordinates_that_overflow_are_reported_wherever_they_come(use, position
 def test_coordinates_that_overflow_are_read_and_neither_cut_nor_compared_nor_encoded(tmp_path, name, capsys):
     path, positions = tmp_path / name, _one_far(1e308)
     bsm.save((positions, torus(6, 6).faces), str(path))
-    assert np.array_equal(bsm.load(path).positions, positions)
+    # A format without vertices may have them in another order.
+    assert np.array_equal(np.unique(bsm.load(path).positions, axis=0), np.unique(positions, axis=0))
     with np.errstate(all="raise", under="ignore"):
         tile = [["tile", "-o", tmp_path / "tiles"]] if path.suffix in (".ply", ".obj") else []
         for words in (
