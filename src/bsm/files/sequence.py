@@ -175,7 +175,7 @@ def sequence_writer(
         elif kind == "glb":
             yield enter(by_name("bsm.gltf.write", "write_frames")(file, path, faces, shared))
         else:
-            yield enter(by_name("bsm.files.motion.usd", "write_usd")(file, kind, faces, shared))
+            yield enter(by_name("bsm.files.motion.usd.writing", "write_usd")(file, kind, faces, shared))
 
 
 def _of_files(

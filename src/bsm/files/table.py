@@ -67,7 +67,7 @@ _GLB = replace(
     unit="meters",
     up="y",
 )
-_PXR = ("bsm.files.motion.usd", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel")
+_PXR = ("bsm.files.motion.usd.reading", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel")
 _USD = Format("read_usd_mesh", frames="rw", unit="named", up="named", modules=_PXR)
 _3MF = "bsm.files.formats.three_mf"
 _LINES = {"inp": "abaqus", "bdf": "nastran", "nas": "nastran"}
