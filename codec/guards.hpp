@@ -53,10 +53,6 @@ inline bool collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends
 inline bool vertex_faces(ConstInts2 faces, Longs starts, Ints members) {
     return starts.size > 0 && below(faces, starts.size - 1) && members.size >= faces.rows * faces.columns;
 }
-inline bool normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around) {
-    return triples(original.rows, original, decoded) && corners(faces, original.rows)
-        && rows_of(7, original.rows, around);
-}
 inline bool geometric_laplacian(ConstDoubles2 positions, Lists neighbors, Doubles2 result) {
     int64_t n = positions.rows;
     return triples(n, positions, result) && graph(neighbors, n, n);

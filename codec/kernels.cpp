@@ -37,9 +37,10 @@ using namespace nb::literals;
 
 void bind_codec(nb::module_ &m) {
     CHECKED(equal_rows)
-    GUARDED(vertex_faces) GUARDED(normals_apart) GUARDED(geometric_laplacian) GUARDED(build_tree)
+    GUARDED(vertex_faces) GUARDED(geometric_laplacian) GUARDED(build_tree)
     GUARDED(nearest_distances) CHECKED(shown_normals) CHECKED(draw_shaded) CHECKED(paint_colors) CHECKED(paint_checker)
-    CHECKED(averaged) CHECKED(contrast) GUARDED(add_copies) GUARDED(collect_edges) GUARDED(patch_guidance)
+    CHECKED(averaged) CHECKED(contrast) CHECKED(foresee) CHECKED(bounds_along)
+    CHECKED(measure_faces) GUARDED(add_copies) GUARDED(collect_edges) GUARDED(patch_guidance)
     GUARDED(weighed_normals) GUARDED(reach)
     GUARDED(face_geometry) GUARDED(follow_normals)
     GUARDED(cosines) GUARDED(project) GUARDED(reconstruct) CHECKED(show_frames) CHECKED(turn_columns)

@@ -51,7 +51,6 @@ int64_t equal_rows(ConstLongs2 rows, int64_t seed, Ints places, Ints numbers);
 int64_t label_components(ConstInts offsets, ConstInts neighbors, Ints waiting, Ints labels);
 bool reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch);
 void vertex_faces(ConstInts2 faces, Longs starts, Ints members);
-double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around);
 void face_geometry(
     ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals, Bytes whole);
 void geometric_laplacian(ConstDoubles2 positions, Lists neighbors, Doubles2 result);

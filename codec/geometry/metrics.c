@@ -1,32 +1,5 @@
-/* Normals of faces, what those of vertices are made of, and the geometric Laplacian of NMSVE (paper, section 8). */
+/* Normals of faces, and the geometric Laplacian of NMSVE (paper, section 8). */
 #include "codec/geometry/geometry.h"
-
-/* How far normals of vertices of `decoded` are off those of `original`, by the areas around: the mean of sqrt(1 - cos).
- * Where a normal is zero, the cosine is. `around`, which begins as zeros, has of each vertex the sums of the cross
- * products of the faces' edges, of both, and of the original's lengths: 7 numbers. */
-double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around) {
-    double apart = 0.0, total = 0.0;
-    for (int64_t f = 0; f < faces.rows; f++) {
-        const int32_t *face = faces.data + 3 * f;
-        double own[3], other[3];
-        cross_of_face(original.data, face, own);
-        cross_of_face(decoded.data, face, other);
-        double length = __builtin_sqrt(dot3(own, own));
-        for (int k = 0; k < 3; k++) {
-            double *sums = around.data + 7 * (int64_t)face[k];
-            for (int d = 0; d < 3; d++) sums[d] += own[d], sums[3 + d] += other[d];
-            sums[6] += length;
-        }
-    }
-    for (int64_t v = 0; v < around.rows; v++) {
-        const double *a = around.data + 7 * v, *b = a + 3;
-        double lengths = __builtin_sqrt(dot3(a, a)) * __builtin_sqrt(dot3(b, b));
-        double cosine = lengths > 0.0 ? dot3(a, b) / lengths : 0.0;
-        apart += a[6] * __builtin_sqrt(cosine < 1.0 ? 1.0 - cosine : 0.0);
-        total += a[6];
-    }
-    return total > 0.0 ? apart / total : 0.0;
-}
 
 /* Each vertex minus the mean of its neighbors, weighted by inverse distance; zero beside a neighbor at distance 0. */
 void geometric_laplacian(ConstDoubles2 positions, Lists neighbors, Doubles2 result) {

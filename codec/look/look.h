@@ -3,6 +3,11 @@
 
 #include "codec/geometry/geometry.h"
 
+/* How bright a face is that the light passes, how much brighter one that faces it, and the background. */
+#define AMBIENT 0.12f
+#define DIFFUSE 0.78f
+#define BACKGROUND 1.0f
+
 /* How viewers shade: faces whose bend has a larger cosine are smooth; `half` is that of a little less than half that
  * angle; a vertex with more than `most` faces smooths nothing. */
 typedef struct {
@@ -30,3 +35,7 @@ int64_t paint_colors(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, C
     ConstSingles2 picture, Singles2 painted);
 int64_t paint_checker(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,
     ConstDoubles steepness, double dark, Singles2 picture);
+int64_t foresee(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, ConstInts2 edges, ConstDoubles2 views,
+    Doubles2 around, Bytes facing, Doubles2 sums);
+int64_t bounds_along(ConstDoubles2 positions, ConstDoubles2 directions, Doubles2 bounds);
+int64_t measure_faces(ConstDoubles2 positions, ConstInts2 faces, Doubles2 lengths, Doubles areas, Doubles2 bounds);

@@ -11,8 +11,6 @@ import numpy.typing as npt
 from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Matrix, Positions, end_phase
 from bsm.codec.geometry.graph import Lists, vertex_faces
-from bsm.codec.geometry.mesh import box_around
-from bsm.codec.geometry.metrics import face_geometry
 from bsm.codec.geometry.welding import degenerate, group_rows
 
 Picture = npt.NDArray[np.float32]  # shades, 0 (black) to 1 (white, the background); first row on top
@@ -142,24 +140,50 @@ def axes(towards: tuple[int, int, int]) -> Matrix:
     return np.array([right, up, ahead])
 
 
+def light_of(towards: tuple[int, int, int]) -> Matrix:
+    """Return the direction of the light in a picture from a side, in the axes of the mesh."""
+    right, up, ahead = axes(towards)
+    return np.asarray(LIGHT[0] * right + LIGHT[1] * up + LIGHT[2] * ahead)
+
+
+def _rolled_axes(towards: tuple[int, int, int]) -> Matrix:
+    right, up, ahead = axes(towards)
+    cosine, sine = math.cos(ROLL), math.sin(ROLL)
+    return np.array([cosine * right + sine * up, cosine * up - sine * right, ahead])
+
+
+def _bounds_along(positions: Positions, directions: Matrix) -> Matrix:
+    """Return the least and the largest coordinate along each direction, shape (k, 2)."""
+    # Not a matrix product, whose sums BLAS orders as it likes: pictures must be equal on all machines.
+    bounds = np.empty((len(directions), 2))
+    _kernels.bounds_along(np.ascontiguousarray(positions), np.ascontiguousarray(directions), bounds)
+    return bounds
+
+
+def _side_of(bounds: Matrix) -> float:
+    """Return the side of a picture, from bounds to the right and up."""
+    low, high = bounds.T
+    return AIR * float((high - low)[:2].max()) or 1.0
+
+
+def sides_of(positions: Positions) -> Matrix:
+    """Return the sides of the pictures of positions, shape (n, 3), in their unit."""
+    rows = np.concatenate([_rolled_axes(towards)[:2] for towards in TOWARDS])
+    return np.array([_side_of(bounds) for bounds in _bounds_along(positions, rows).reshape(-1, 2, 2)])
+
+
 def cameras(positions: Positions, pixels: int, sides: tuple[tuple[int, int, int], ...] = TOWARDS) -> list[Matrix]:
     """Return the arguments of `draw_shaded` for sides, shape (15,), so that positions, shape (n, 3), fill pictures."""
-    found = []
-    # Written out instead of a matrix product, whose sums BLAS orders as it likes: pictures must be equal on all
-    # machines.
-    across, deep, high_up = np.ascontiguousarray(positions.T)
-    cosine, sine = math.cos(ROLL), math.sin(ROLL)
-    for towards in sides:
-        right, up, ahead = axes(towards)
-        rows = np.array([cosine * right + sine * up, cosine * up - sine * right, ahead])
-        seen = [across * x + deep * y + high_up * z for x, y, z in rows]
-        low, high = (np.array([values.min() for values in seen]), np.array([values.max() for values in seen]))
-        side = AIR * float((high - low)[:2].max()) or 1.0
+    rows = [_rolled_axes(towards) for towards in sides]
+    extents = _bounds_along(positions, np.concatenate(rows)).reshape(-1, 3, 2)
+    arguments = []
+    for towards, rotation, bounds in zip(sides, rows, extents, strict=True):
+        side, (low, high) = _side_of(bounds), bounds.T
         scale = np.array([pixels / side, -pixels / side, 2.0**22])  # as many depths in the box's diagonal
         offset = np.array([pixels / 2, pixels / 2, 0.0]) + ASIDE - scale * (low + high) / 2
-        light = LIGHT[0] * right + LIGHT[1] * up + LIGHT[2] * ahead  # stays where it is
-        found.append(np.concatenate([np.column_stack([rows * scale[:, None], offset]).ravel(), light]))
-    return found
+        to_picture = np.column_stack([rotation * scale[:, None], offset])
+        arguments.append(np.concatenate([to_picture.ravel(), light_of(towards)]))
+    return arguments
 
 
 @dataclass(frozen=True)
@@ -172,18 +196,15 @@ class Size:
     @classmethod
     def of(cls, positions: Positions, faces: Faces, most_pixels: int = MOST_PIXELS) -> Size:
         """Enough pixels that the mean edge has `EDGE_PIXELS`, but no more than `MOST_COVERED` ones that are covered."""
-        corners = [positions[corner] for corner in np.ascontiguousarray(faces.T)]
-        sides = [corners[0] - corners[1], corners[1] - corners[2], corners[2] - corners[0]]
-        lengths = np.sqrt([np.einsum("fd,fd->f", side, side) for side in sides])
-        ends = np.array([box_around(corner) for corner in corners])
-        extent = AIR * float((ends[:, 1].max(axis=0) - ends[:, 0].min(axis=0)).max())
+        lengths, areas, bounds = np.empty((3, len(faces))), np.empty(len(faces)), np.empty((3, 2))
+        _kernels.measure_faces(positions, np.ascontiguousarray(faces, np.int32), lengths, areas, bounds)
+        extent = AIR * float((bounds[:, 1] - bounds[:, 0]).max())
         # Detail as fine as the mesh must be seen, so dense meshes get larger pictures, as on a screen that is zoomed
         # in.
         edge = float(lengths.sum()) / (3 * len(faces))
         if not edge > 0.0:
             return cls(LEAST_PIXELS, 0.0)
         # On average over all sides, a face covers half of its area, and has rows for half of its longest side.
-        areas = face_geometry(positions, faces).areas
         # Triangles that cover each other many times would make drawing arbitrarily slow. The pictures shrink instead.
         covered = float(areas.sum()) / (2.0 * extent**2)
         rows = ROW * float(lengths.max(axis=0).sum()) / (2.0 * extent)

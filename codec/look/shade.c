@@ -2,11 +2,8 @@
 #include "codec/geometry/geometry.h"
 #include "codec/look/look.h"
 
-#define AMBIENT 0.12f
-#define DIFFUSE 0.78f
 #define DARK 1e-24f /* the squared length of a normal that is none */
 #define FAR 1e6     /* a place in samples, within which sums are exact to far less than one */
-#define BACKGROUND 1.0f
 #define NEAR 6.0f /* depths that rounding may put between faces at one place */
 #define TILE 8    /* pixels of the side of squares that faces may be hidden in */
 #define SAMPLE 4096 /* faces that tell which half is ahead */

@@ -4,7 +4,7 @@ Frames and a bound come in; the smallest encoding that keeps it in every frame g
 the others sets the step of all. So an attempt has two results: how far the worst frame is from its bound, which gives
 the next step, and how unlike frames look, which gives weights of frames: the temporal basis then spends more on those
 that look worse. Pictures are the dear part. The first attempt draws a few frames, each one those that are likely the
-worst; errors of normals, which cost little, tell of the others: the logarithm of look over error is noise on a random
+worst; foreseen looks, which cost little, tell of the others: the logarithm of look over foresight is noise on a random
 walk in time. It hardly changes from attempt to attempt, so that frames drawn before count as known, nearly. Only the
 encoding that would be returned has all of its own frames drawn that may exceed the bound: it is the promise, so that
 nothing is taken on trust. If one does exceed it, the search goes on from there, or takes the next smallest. The search
@@ -22,11 +22,11 @@ from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
-from bsm._core import codec as _kernels
 from bsm.bitstream.errors import MeshError, OptionError, TargetError
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
 from bsm.codec.geometry.welding import group_rows
+from bsm.codec.look.foreseen import Foresight
 from bsm.codec.look.measure import POWER, LookMetric
 from bsm.codec.sequence.frames import same_frames
 from bsm.codec.static.targets import WIDEST as COARSEST_STEP
@@ -35,10 +35,10 @@ from bsm.codec.static.units import Units
 from bsm.codec.threads import ordered_map
 
 KNOTS = 8  # frames, evenly over a GOP, that are drawn at the first attempt
-DRIFT = 0.05  # standard deviation of what the logarithm of look over error changes by from attempt to attempt
-PACE, NOISE, LIKE_SEEN = 0.05, 0.05, 3
-"""Of the logarithm of look over error: the variance by which it walks from frame to frame, over that of its noise; the
-standard deviation of this before frames are drawn, and how many differences of frames that counts as."""
+DRIFT = 0.05  # standard deviation of what the logarithm of look over foresight changes by from attempt to attempt
+PACE, NOISE, LIKE_SEEN = 0.05, 0.03, 3
+"""Of the logarithm of look over foresight: the variance by which it walks from frame to frame, over that of its noise;
+the standard deviation of this before frames are drawn, and how many differences of frames that counts as."""
 LIKELY, DEVIATIONS = 1.5, 4.0
 """Standard deviations: frames that may be the worst within the first are drawn at each attempt; an attempt is accepted
 once all frames that may exceed the bound within the second are drawn."""
@@ -54,7 +54,7 @@ EVENING, LEAST_LOOK, WIDEST = 1.6, 0.1, 1.4
 """Power of looks by which the first attempt weighs frames, the k-th by 1 / k of it; the least look that counts,
 relative to the largest; and the largest logarithm of a weight."""
 BELL = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)  # smooths weights, whose quick changes are dear in the temporal basis
-RELIEF = 0.15  # share of the largest change of a weight by which the excess falls, about
+RELIEF = 0.35  # share of the largest change of a weight by which the excess falls, about
 TRIES, HELD = 20, 2  # attempts, and how many of them are held that seem to keep the promise
 LEAST_STEP, FINER = 1e-7, 0.8  # the finest step, and what steps shrink by at least once all attempts have failed
 COPIES_APART = 2.0**-22
@@ -89,6 +89,7 @@ class StepSearch:
         self._ratios: dict[int, float] = {}
         self.worst_look = 0.0  # of the frames that were drawn of the returned encoding
         if promise.look < math.inf:
+            self._foresight = Foresight(faces)
             # Captured motion rests for many frames, which look the same and need be drawn once.
             self._twins = same_frames(frames, (), TWIN_STEP * self._reach)
             self._knots.update(np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist())
@@ -165,11 +166,11 @@ class StepSearch:
         farthest = math.sqrt(max(squares_of(one - other).max() for one, other in pairs)) / self._reach
         if not self._knots:
             return Measured(farthest, np.zeros(0), {})
-        # Errors of normals follow the look closely and cost a hundredth of a picture.
-        wrong = ordered_map(lambda pair: shading_error(*pair, self._faces), pairs, self._threads)
-        errors = np.array(list(wrong)).clip(1e-12) ** POWER
+        # Foreseen looks follow the drawn ones closely and cost a twentieth of them.
+        looks = ordered_map(lambda pair: self._foresight.look(*pair), pairs, self._threads)
+        foreseen = np.array(list(looks)).clip(1e-12)
         knots = () if self._ratios else self._knots
-        measured = Measured(farthest, errors, {index: self._look(index, decoded) for index in knots}, self._ratios)
+        measured = Measured(farthest, foreseen, {index: self._look(index, decoded) for index in knots}, self._ratios)
         while (index := int(measured.looks(LIKELY).argmax())) not in measured.drawn:
             measured.drawn[index] = self._look(index, decoded)
         self._ratios = measured.ratios
@@ -225,13 +226,13 @@ class Tried(Generic[Found]):
 
 @dataclass(eq=False)
 class Measured:
-    """Measurements of the frames of one attempt, as shares of their bounds; `errors` are of normals."""
+    """Measurements of the frames of one attempt, as shares of their bounds; `foreseen` are looks without pictures."""
 
     farthest: float
-    errors: Matrix
+    foreseen: Matrix
     drawn: dict[int, float]
     before: dict[int, float] = field(default_factory=dict)
-    """Logarithms of looks over errors, of frames that earlier attempts drew."""
+    """Logarithms of looks over foreseen ones, of frames that earlier attempts drew."""
 
     @property
     def excess(self) -> float:
@@ -248,24 +249,24 @@ class Measured:
         """The frame that may exceed the bound most of those not drawn; None if none may."""
         most = self.looks(DEVIATIONS)
         if self.drawn:
-            most[self.errors.argmax()] = 2.0  # the verification draws the largest error, too
+            most[self.foreseen.argmax()] = 2.0  # the verification draws this frame, too
         most[list(self.drawn)] = 0.0
         return int(most.argmax()) if most.max(initial=0.0) > 1.0 else None
 
     @property
     def ratios(self) -> dict[int, float]:
-        """Logarithms of looks over errors, of all frames that were ever drawn."""
-        now = {index: math.log(share / self.errors[index]) for index, share in self.drawn.items() if share > 0.0}
+        """Logarithms of looks over foreseen ones, of all frames that were ever drawn."""
+        now = {index: math.log(share / self.foreseen[index]) for index, share in self.drawn.items() if share > 0.0}
         return {**self.before, **now}
 
     def looks(self, deviations: float = 0.0) -> Matrix:
         """Return the looks of all frames, shape (T,), expected ones of those not drawn plus standard deviations."""
         if not (known := sorted(self.ratios.items())):
-            return np.zeros(len(self.errors))
+            return np.zeros(len(self.foreseen))
         seen, ratios = (np.array(column) for column in zip(*known))
         doubts = np.where(np.isin(seen, list(self.drawn)), 0.0, DRIFT**2)
-        mean, variance = _foretold(seen, ratios, doubts, len(self.errors))
-        looks = self.errors * np.exp(mean + deviations * np.sqrt(variance))
+        mean, variance = _foretold(seen, ratios, doubts, len(self.foreseen))
+        looks = self.foreseen * np.exp(mean + deviations * np.sqrt(variance))
         looks[list(self.drawn)] = list(self.drawn.values())
         return np.asarray(looks)
 
@@ -300,6 +301,8 @@ def _with_copies_apart(frame: Positions) -> Positions:
     Vertices that a run keeps apart, for instance since their colors differ, are coded and shaded apart.
     """
     index = group_rows(np.ascontiguousarray(frame, np.float64))
+    if index[-1] == len(index) - 1:
+        return frame  # no vertex is a copy
     counts = np.bincount(index)
     rank = np.empty(len(index), np.int64)
     rank[np.argsort(index, kind="stable")] = np.arange(len(index)) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -314,10 +317,3 @@ def metric_of(frame: Positions, faces: Faces, threads: int | None = None) -> Loo
         return LookMetric(TriangleMesh(_with_copies_apart(frame), faces), threads=threads)
     except MeshError:
         return None
-
-
-def shading_error(original: Positions, decoded: Positions, faces: Faces) -> float:
-    """How far normals of vertices, shape (n, 3), are off the original's: a measure much cheaper than pictures."""
-    first, second = (np.ascontiguousarray(positions, np.float64) for positions in (original, decoded))
-    around = np.zeros((len(first), 7))
-    return _kernels.normals_apart(first, second, np.ascontiguousarray(faces, np.int32), around)

@@ -14,9 +14,10 @@ from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.decoding import SequenceDecoder
 from bsm.codec.events import ConnectivityEvent, EndEvent, FrameEvent, Signal
 from bsm.codec.geometry.mesh import Metadata
+from bsm.codec.look.foreseen import Foresight
 from bsm.codec.sequence.attributes import Expected
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.step_search import metric_of, shading_error
+from bsm.codec.sequence.step_search import metric_of
 from bsm.codec.static.attributes.encoding import PreparedAttribute
 from bsm.codec.static.verification import AsGiven, require, require_attributes, require_positions
 
@@ -62,7 +63,7 @@ class SequenceVerifier:
 
     @property
     def worst_look(self) -> float | None:
-        """The look of the frame whose normals are farthest off; None if nothing of it can be seen."""
+        """The look of the frame that is foreseen to look worst; None if nothing of it can be seen."""
         metric = metric_of(self._worst[1], self._worst[3]) if self._worst else None
         return metric.look(self._worst[2]).moving if self._worst and metric else None
 
@@ -106,6 +107,7 @@ class SequenceVerifier:
         require(bool(self._meshes), "the decoder returned a mesh that was not encoded")
         self._original, self._carried = self._meshes.popleft()
         self._matched = self._original.matched(faces, vertices)
+        self._foresight = Foresight(self._original.prepared.mesh.faces)
         self._diagonal = 0.0
         self._checked, self.faces, self._once = False, faces, np.unique(self._matched, return_index=True)[1]
 
@@ -145,6 +147,6 @@ class SequenceVerifier:
             # Positions far from the origin are rounded when they go back to the unit of the mesh.
             rounding = ROUNDING * most + 8.0 * float(np.finfo(np.float64).eps * np.abs(original).max())
             require(far <= most + rounding, f"a vertex of frame {frame.index} is off by {far:.4g}")
-        error = shading_error(original, decoded, faces)
-        if self._worst is None or error > self._worst[0]:
-            self._worst = error, original, decoded, faces
+        foreseen = self._foresight.look(original, decoded)
+        if self._worst is None or foreseen > self._worst[0]:
+            self._worst = foreseen, original, decoded, faces

@@ -30,9 +30,10 @@ from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
 from bsm.codec.geometry.metrics import distances_to_surface, farthest_from_surface, surface_distance
+from bsm.codec.look.foreseen import Foresight
 from bsm.codec.look.measure import look
 from bsm.codec.sequence.options import PROMISES
-from bsm.codec.sequence.step_search import KNOTS, shading_error
+from bsm.codec.sequence.step_search import KNOTS
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.targets import Contract
@@ -205,7 +206,8 @@ def _over_time(
         known = [fields for _, fields in moments]
         facts["attributes"] = errors_of_frames(fields, known, (faces, decoder.faces), paired)
         errors = np.linalg.norm(first - second, axis=2).max(axis=1) / facts["diagonal"]
-        shaded = [shading_error(*both, shared) for both in zip(first, second, strict=True)]
+        foresight = Foresight(shared)
+        foreseen = [foresight.look(*both) for both in zip(first, second, strict=True)]
         # The page colors decoded vertices, so errors are needed in their order as well.
         with suppress(MeshError):  # vertices that were merged have no error of their own
             back_again = paired_frames(decoded, decoder.faces, before, faces)
@@ -218,9 +220,9 @@ def _over_time(
         # only.
         back = [farthest_from_surface(t[used], d, decoder.faces) for d, t in zip(decoded, before, strict=True)]
         errors = np.maximum(np.nanmax(off, axis=1), back) / facts["diagonal"]
-        facts["apart"], shaded = float(np.nanmean(off)) / facts["diagonal"], errors.tolist()
+        facts["apart"], foreseen = float(np.nanmean(off)) / facts["diagonal"], errors.tolist()
     looks = []  # of the frames that an encoder draws, too
-    for frame in sorted({*some.tolist(), int(np.argmax(shaded))}):
+    for frame in sorted({*some.tolist(), int(np.argmax(foreseen))}):
         with suppress(MeshError):  # nothing of it can be seen
             then, now = TriangleMesh(before[frame], faces), TriangleMesh(decoded[frame], decoder.faces)
             looks.append(look(then, now).moving)

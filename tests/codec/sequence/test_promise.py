@@ -11,8 +11,9 @@ import pytest
 import bsm
 from bsm import Contract
 from bsm.codec.arrays import Matrix
+from bsm.codec.look.foreseen import Foresight
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.sequence.step_search import Measured, StepSearch, _evening, _foretold, shading_error
+from bsm.codec.sequence.step_search import Measured, StepSearch, _evening, _foretold
 from bsm.codec.sequence.targets import compare_sequences
 from bsm.codec.static.units import Units
 from tests.motion import bending
@@ -88,10 +89,11 @@ def test_the_encoder_reports_errors_of_decoded_frames(changes: dict[str, Any]) -
     decoded, found = bsm.decode_sequence(b"".join(encoder.chunks(positions)), threads=1)
     original = positions[:, encoder.vertex_order]
     assert encoder.kg == pytest.approx(compare_sequences(original, decoded, found).kg, rel=1e-9)
-    wrong = [shading_error(*pair, found) for pair in zip(original, decoded, strict=True)]
+    foresight = Foresight(found)
+    foreseen = [foresight.look(*pair) for pair in zip(original, decoded, strict=True)]
     seen = looks(original, decoded, found)
-    # Short GOPs are drawn as a whole; without a promise only the frame is that has the largest normal error.
-    expected = max(seen) if chosen.promise else seen[int(np.argmax(wrong))]
+    # Short GOPs are drawn as a whole; without a promise only the frame is that is foreseen to look worst.
+    expected = max(seen) if chosen.promise else seen[int(np.argmax(foreseen))]
     assert encoder.worst_look == pytest.approx(expected, rel=1e-4)
 
 
