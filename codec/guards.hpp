@@ -170,7 +170,7 @@ inline bool shape_levels(Wanted given, Aim, Shaped, ConstDoubles2, ConstDoubles,
 inline bool shape_grid(Wanted given, Aim, Shaped, double, Flaps edges, Ints2, ConstDoubles) {
     return flapped(given, edges);
 }
-inline bool unfold_levels(Wanted given, ConstDoubles, Shaped, ConstDoubles2, Flaps edges, int64_t, Bytes) {
+inline bool unfold_levels(Wanted given, ConstDoubles, Shaped, ConstDoubles2, Flaps edges, int64_t, ConstBytes) {
     return flapped(given, edges);
 }
 

@@ -33,6 +33,7 @@ FINEST_PART = 0.1
 pixel in a picture of 512. Of a gap between parts, as much is left."""
 FLAT = 1e-9  # area of a face that has none, over the square of its longest side
 NO_FACE_LOST, FEW_LOST = 0.5, 200  # the widest look with which no face loses its area; one in so many with wider ones
+SLIVERS = 1e-3  # of the faces: so many edges may fold on a grid
 MOST_PARTS = 64  # of more parts than these, none is asked how near it is to others
 
 
@@ -117,9 +118,12 @@ class Bounds:
         self.measures.near.by()
         return math.log(max(*shares, LEAST))
 
-    def folded(self, positions: Matrix) -> float:
-        """How many edges are folded over, over how many may be."""
-        return self.measures.shaper.folded(positions) / self.measures.shaper.most_folded
+    def is_faulty(self, trial: Trial) -> bool:
+        """Whether more faces lose their areas, or more edges fold, than may."""
+        shaper = self.measures.shaper
+        # On grids, slivers of parts fold where nothing shows.
+        most = shaper.most_folds if trial.settled else max(SLIVERS * len(self.measures.prepared.mesh.faces), 1.0)
+        return self.loses_faces(trial.positions) or shaper.more_folds(trial.positions) > most
 
     def loses_faces(self, positions: Matrix) -> bool:
         """Whether more faces lose their areas than may: up to a look of 0.5 none, up to 1 one in 200."""

@@ -93,7 +93,7 @@ int64_t shape_grid(
     Wanted wanted, Aim aim, Shaped shaped, double step, Flaps edges, Ints2 bends, ConstDoubles rates);
 int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps, Bytes folded);
 int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Shaped shaped, ConstDoubles2 directions, Flaps edges,
-    int64_t most, Bytes wrong);
+    int64_t most, ConstBytes were);
 
 int64_t fit_cells(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstInts links, ConstInts linked,
     ConstDoubles2 positions, int64_t rounds, double bent, int64_t steps, Singles scratch, Doubles2 places,

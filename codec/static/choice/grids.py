@@ -24,6 +24,8 @@ from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_going, encode_grid, grid_of, sampled_size
 
 MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
+SAVED = 0.5  # bytes with images, over those without, below which images explain most
+HALVES = 1, 2, 7  # how often the usual step is halved then
 STAYING = 1.05  # times the bytes with images to which vertices go: those where they stay
 
 
@@ -234,7 +236,7 @@ class Frame:
         rounded_positions = self.prepared.units.into(grid.positions(places))
         squares = [squares_of(p - self.prepared.positions).sum() for p in (moved.positions, rounded_positions)]
         far = squares[0] > math.exp(2.0 * DOUBT) * squares[1]
-        return bool(far and moved.draft.size > 0.5 * self.light_size)
+        return bool(far and moved.draft.size > SAVED * self.light_size)
 
 
 class Gridded:
@@ -289,22 +291,26 @@ class Gridded:
             trial = self.at(self._made)
             return Estimate(trial.draft.size, SLACK, varying, trial)
         if not self._images:
-            return Estimate(size, DOUBT, varying, also=self._usual, kin="places")
+            return Estimate(size, DOUBT, varying, also=self._also(), kin="places")
         # Luck decides about bytes, so that shares of vertices tell little: the first trial is coded.
         coded = self.frame.with_images
         saving = min(varying, coded.draft.size - fixed) / 2.0
         if self._going:
-            return Estimate(coded.draft.size, SLACK, saving, coded, self._usual)
+            # Where images explain most, finer steps may take fewer bytes: images are nearer to places.
+            halves = HALVES if coded.draft.size < SAVED * size else ()
+            return Estimate(coded.draft.size, SLACK, saving, coded, self._also(halves))
         return Estimate(STAYING * coded.draft.size, 2.0 * SLACK, saving)
 
-    @property
-    def _usual(self) -> float:
-        """The step with which a search for a look of 1 begins, if that is finer and parts or spacings repeat; or 0.
+    def _also(self, halves: tuple[int, ...] = ()) -> tuple[float, ...]:
+        """The step with which a search for a look of 1 begins, and it halved so often, as far as they are finer.
 
-        There, bytes hardly depend on steps, but on luck.
+        Where parts or spacings repeat, bytes hardly depend on steps, but on luck. The steps are the same for all looks.
         """
-        step = max(on_ladder(self._bounds.usual_step), self.least)
-        return step if (self._images or self.frame.spacing) and step < 0.99 * self.first else 0.0
+        if not self._images and not self.frame.spacing:
+            return ()
+        usual = self._bounds.usual_step
+        steps = [max(on_ladder(usual / 2.0**half), self.least) for half in (0, *halves)]
+        return tuple(step for step in steps if step < 0.99 * self.first)
 
     def at(self, step: float) -> Trial:
         """Return the trial of a step."""
@@ -334,6 +340,8 @@ class Gridded:
         if self._worth:
             worth, reach = self._worth * step / self._shaper.mean_edge, float(self._bounds.reaches.min())
             places = self._shaper.places(places, low, cell, worth, min(reach, SPIKE * step))
+        if self._bounds.metric is not None and not self._going:  # or the coder decides where vertices go
+            places = self._unfolded(places, low, cell)
         places = self._apart(places, low, cell)
         least = places.min(axis=0)  # some may be below the origin
         start = tuple(frame.hold(value) for value in origin + least * length)
@@ -343,6 +351,14 @@ class Gridded:
             largest = np.array(grid.largest, np.int32)
             places = self._prepared.linked.mended(places, largest, self._wanted(grid, places))
         return grid, places
+
+    def _unfolded(self, places: Levels, low: Matrix, cell: float) -> Levels:
+        """Return places from `low` on with fewer edges folded over."""
+        turn, reaches = self.frame.turn, np.minimum(self._bounds.reaches, SPIKE * cell)
+        positions = turned_by(places * cell + low, turn)
+        directions = turned_by(cell * np.eye(3), turn).reshape(1, 9)
+        other = self._shaper.unfold(positions, places, directions, reaches)
+        return places if other is None else other
 
     def _apart(self, places: Levels, low: Matrix, cell: float) -> Levels:
         """Return places from `low` on; vertices that would close a gap between parts move away, a cell or a few."""

@@ -15,6 +15,7 @@ from bsm.codec.static.choice.trials import DOUBT, Estimate, Trial, Way
 from bsm.codec.static.targets import SLACK, TRIES
 
 TRUST = 2  # trials that the usual luck stands for
+MOST_CODED = 3 * TRIES  # trials of a way
 UNTRIED = 2.0 * SLACK  # of the bytes, as a logarithm: by so much, ways whose errors are unknown may do better
 LOGISTIC = math.sqrt(3.0) / math.pi  # scale of a logistic distribution, over its standard deviation
 
@@ -81,7 +82,7 @@ class Prospect:
 
     def __init__(self, way: Way, estimate: Estimate, rise: float, luck: float) -> None:
         self.way, self.estimate, self.steps = way, estimate, way.ladder
-        self.first = int(np.abs(self.steps - math.log(way.first)).argmin())
+        self.first = self.index_of(way.first)
         place, slope = float(self.steps[self.first]), -estimate.saving / estimate.size
         self.sizes = Law(self.steps, place, math.log(estimate.size), estimate.doubt, slope, SLACK)
         self.errors = Law(self.steps, place, 0.0, DOUBT, rise, luck)
@@ -90,7 +91,11 @@ class Prospect:
 
     @property
     def is_open(self) -> bool:
-        return bool(self.left.any()) and self.sizes.count <= 3 * TRIES
+        return bool(self.left.any())
+
+    def index_of(self, step: float) -> int:
+        """Return the index of the nearest step that may be tried."""
+        return int(np.abs(self.steps - math.log(step)).argmin())
 
     def close(self, steps: Matrix) -> None:
         """Open none of these steps any more."""
@@ -102,6 +107,8 @@ class Prospect:
         self.sizes.learn(index, size)
         self.left[index] = CODED
         self.coded[index] = trial
+        if self.sizes.count > MOST_CODED:
+            self.left[self.left == UNCODED] = DONE
 
     def judge(self, index: int, error: float) -> Trial:
         """Take in the logarithm of the error of a coded trial, and return the trial."""

@@ -29,7 +29,7 @@ from bsm.codec.static.targets import SLACK, TRIES, WIDEST, Contract, secant
 
 QUICK, PRICE = 2e-3, 9e-4
 """Prices of a stage of a trial, as shares of the bytes, over the fourth root of the number of vertices."""
-MOST_REFUSALS = 6  # of trials in which faces lose their areas: then, such a trial is taken
+MOST_REFUSALS = 6  # of trials in which faces lose their areas or fold: then, such a trial is taken
 USUAL = 2.0  # times the bytes of the default, up and down, within which its own stream may be the best of a size
 
 
@@ -106,7 +106,7 @@ class OneSearch:
     def __init__(self, search: Search, bounds: Bounds) -> None:
         self._search, self._bounds, self._trace = search, bounds, search.trace
         self.best: Trial | None = None
-        self._refusals = 0  # of trials in which faces lose their areas
+        self._refusals = 0  # of trials in which faces lose their areas or fold
         self._least = math.inf  # the logarithm of the bytes of the best trial
         self.prospects: list[Prospect] = []
         self._additions: dict[str, int] = {}  # bytes of attributes and metadata, which depend on the way
@@ -135,11 +135,21 @@ class OneSearch:
             prospect = Prospect(way, estimate, rise, luck)
             if estimate.trial is not None:
                 prospect.add(prospect.first, estimate.trial, self.size_of(way, estimate.trial))
-            if estimate.also:
-                trial = way.at(estimate.also)
-                index = int(np.abs(prospect.steps - math.log(trial.step)).argmin())
-                prospect.add(index, trial, self.size_of(way, trial))
             self.prospects.append(prospect)
+        for prospect in self.prospects:
+            self._code_also(prospect)
+
+    def _code_also(self, prospect: Prospect) -> None:
+        """Code the trials that a way names with its estimate, until their bytes rise."""
+        way, least = prospect.way, float(prospect.sizes.mean[prospect.first])
+        for step in prospect.estimate.also:
+            trial = way.at(step)
+            index, size = prospect.index_of(trial.step), self.size_of(way, trial)
+            prospect.add(index, trial, size)
+            self._trace.note("code", way.name, step=trial.step, size=math.exp(size), reason="finer than the first one")
+            if size > least + DOUBT:
+                return
+            least = min(least, size)
 
     def run(self, price: float, searches: int) -> None:
         """Open stages of trials until none is worth its price."""
@@ -190,13 +200,9 @@ class OneSearch:
 
     def _finer(self, trial: Trial) -> float:
         """Return by how much a step must be finer, as a logarithm, where a trial is refused; 0: it is not."""
-        if self._bounds.metric is not None:
-            folded = self._bounds.folded(trial.positions)
-            if folded > 1.0:
-                return min(math.log(folded) / 2.0, DOUBT)  # folds grow about as squares of steps, or faster
-            if self._refusals < MOST_REFUSALS and self._bounds.loses_faces(trial.positions):
-                self._refusals += 1  # slivers may need steps that are far finer
-                return DOUBT
+        if self._bounds.metric is not None and self._refusals < MOST_REFUSALS and self._bounds.is_faulty(trial):
+            self._refusals += 1  # slivers may need steps that are far finer
+            return DOUBT
         return 0.0 if self._bounds.keeps(trial) else SLACK
 
     def widen(self, ways: list[Way]) -> None:

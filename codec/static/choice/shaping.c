@@ -11,8 +11,10 @@
 
 enum { FAN = 32, LANES = 8 }; /* faces of one vertex that are looked at, and how many of them at once */
 enum { UNFOLDING = 8 };                   /* sweeps over what is turned over */
-#define FOLD 0.1   /* what a fold costs, over turning a face of mean area by a radian */
-#define SQUARE 0.03 /* of the cosine of 100 degrees: rounding turns right angles by less */
+#define OVER 0.1 /* what a face that is turned over costs, over turning a face of mean area by a radian */
+#define FOLD 1.0 /* what an edge costs that is folded farther than it was, for each of `FOLDS` */
+/* Squares of the cosines of 100, 120 and 150 degrees. Rounding turns right angles by less than the first. */
+static const double FOLDS[] = {0.03015, 0.25, 0.75};
 
 /* The faces at a vertex, `padded` with some of no weight: twice the area times the normal, in coordinates along the
  * wanted normal and across it, in some unit of the vertex; and what a step in each direction adds to that, which is the
@@ -250,17 +252,20 @@ INLINE double folded_by(const Fan *fan, const float *by, double over) {
     return sum;
 }
 
-/* Whether an edge between two faces is folded by more than 90 degrees (1), or 100 (2). The vertex `v` lies `there`. */
+/* How far an edge between two faces is folded: 1 by more than 90 degrees, 2 to 4 by more than 100, 120 and 150; 0 by
+ * less. The vertex `v` lies `there`. */
 INLINE int folded_at(const double *positions, const int32_t *flap, int32_t v, const double *there) {
     const double *at[4];
     for (int k = 0; k < 4; k++) at[k] = flap[k] == v ? there : positions + 3 * (int64_t)flap[k];
     double n[3], m[3];
     cross3(at[0], at[1], at[2], n), cross3(at[1], at[0], at[3], m);
     double along = dot3(n, m);
-    return (along < 0.0) + (along < 0.0 && along * along > SQUARE * dot3(n, n) * dot3(m, m));
+    if (along >= 0.0) return 0;
+    double square = along * along / (dot3(n, n) * dot3(m, m));
+    return 1 + (square > FOLDS[0]) + (square > FOLDS[1]) + (square > FOLDS[2]);
 }
 
-/* How many edges between faces are folded by more than 90 degrees, and how far each is: 0, 1 or 2. */
+/* How far each edge between faces is folded, as `folded_at` has it. Returns how many are folded at all. */
 int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps, Bytes folded) {
     int64_t count = 0;
     if (positions.columns != 3 || flaps.columns != 4 || folded.size != flaps.rows) return MISUSED;
@@ -271,46 +276,47 @@ int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps, Bytes folded) {
     return count;
 }
 
-/* How many edges around a vertex that lies `there` are folded, and were not. */
+/* By how much more than it may an edge is folded. */
+INLINE int folded_more(int now, int most) { return now > most ? now - most : 0; }
+
+/* By how much more than they may the edges around a vertex that lies `there` are folded. */
 INLINE int wrong_around(
-    const Flaps *edges, const uint8_t *wrong, const double *positions, int32_t v, const double *there) {
-    int count = 0;
+    const Flaps *edges, const uint8_t *most, const double *positions, int32_t v, const double *there) {
+    int sum = 0;
     for (int32_t i = edges->starts.data[v]; i < edges->starts.data[v + 1]; i++) {
         int64_t f = edges->members.data[i] >> 1;
-        count += !wrong[f] && folded_at(positions, edges->rows.data + 4 * f, v, there) > 1;
+        sum += folded_more(folded_at(positions, edges->rows.data + 4 * f, v, there), most[f]);
     }
-    return count;
+    return sum;
 }
 
-/* Moves levels (n x 3) by up to two along `directions` (n x 9, or one row for all; a level long) where that turns faces
- * back, however small they are, which rounding has turned over, or folded onto another at more than `most` edges more
- * than there were. `moved` is kept in step. No vertex ends up farther from its place than its `reach`, unless it was.
- * `wrong`, an entry for each edge, is scratch. Returns how often one moved. */
+/* Moves levels (n x 3) by up to two along `directions` (n x 9, or one row for all; a level long) where that unfolds
+ * edges that are folded farther than they `were` (at least 1). Where more than `most` edges are, it also turns faces
+ * back, however small they are, which rounding has turned over. `moved` is kept in step. No vertex ends up farther from
+ * its place than its `reach`, unless it was. Returns how often one moved. */
 KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Shaped shaped, ConstDoubles2 directions, Flaps edges,
-    int64_t most, Bytes wrong) {
+    int64_t most, ConstBytes were) {
     Doubles2 moved = shaped.moved;
     Ints2 levels = shaped.levels;
     Bytes open = shaped.open;
     ConstInts2 flaps = edges.rows;
     if (!fits(&wanted, &shaped) || levels.columns != 3 || directions.columns != 9
         || reach.size != levels.rows || (directions.rows != levels.rows && directions.rows != 1) || flaps.columns != 4
-        || edges.starts.size != levels.rows + 1 || wrong.size != flaps.rows)
+        || edges.starts.size != levels.rows + 1 || were.size != flaps.rows)
         return MISUSED;
     ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
-    double over = FOLD / (double)largest(wanted.faces.rows, 1);
+    double face = 1.0 / (double)largest(wanted.faces.rows, 1), over = OVER * face, fold = FOLD * face;
     int64_t more = 0, moves = 0;
     Fan fan;
     for (int64_t v = 0; v < open.size; v++) open.data[v] = 0;
     for (int64_t f = 0; f < flaps.rows; f++) {
         const int32_t *flap = flaps.data + 4 * f;
-        int then = folded_at(wanted.positions.data, flap, -1, moved.data) > 0;
-        int now = folded_at(moved.data, flap, -1, moved.data) > !then;
-        more += now - then;
-        wrong.data[f] = (uint8_t)then;
-        for (int k = 0; k < 4 && now && !then; k++) open.data[flap[k]] = 1;
+        if (!folded_more(folded_at(moved.data, flap, -1, moved.data), were.data[f])) continue;
+        more++;
+        for (int k = 0; k < 4; k++) open.data[flap[k]] = 1;
     }
-    if (more <= most) return 0;
-    for (int64_t f = 0; f < wanted.faces.rows; f++) {
+    if (!more) return 0;
+    for (int64_t f = 0; f < wanted.faces.rows && more > most; f++) {
         const int32_t *face = wanted.faces.data + 3 * f;
         const double *normal = wanted.normals.data + 3 * f, *at[3];
         for (int k = 0; k < 3; k++) at[k] = moved.data + 3 * (int64_t)face[k];
@@ -325,7 +331,7 @@ KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Shaped shaped, C
             open.data[v] = 0;
             double *at = moved.data + 3 * (int64_t)v;
             gather(&wanted, now_at, v, &fan);
-            int folds = wrong_around(&edges, wrong.data, moved.data, v, at);
+            int folds = wrong_around(&edges, were.data, moved.data, v, at);
             bool any = folds > 0;
             for (int k = 0; k < fan.count; k++) any |= is_over(fan.normal[0][k], fan.normal[1][k], fan.normal[2][k]);
             if (!any) continue;
@@ -346,8 +352,8 @@ KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Shaped shaped, C
                     if (wide && away > most_far && away > far) continue;
                     double then = folded_by(&fan, by, over);
                     if (then >= best) continue;
-                    int wrong_then = wrong_around(&edges, wrong.data, moved.data, v, there);
-                    then += over * wrong_then;
+                    int wrong_then = wrong_around(&edges, were.data, moved.data, v, there);
+                    then += fold * wrong_then;
                     if (then >= best) continue;
                     best = then, folds = wrong_then;
                     for (int a = 0; a < 3; a++) pick[a] = move[a];

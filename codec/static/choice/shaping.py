@@ -18,6 +18,7 @@ from bsm.codec.static.choice.settling import PULL
 
 RATES = np.log1p(np.arange(4096.0))
 """Bits, but for a factor, of a place on a grid that is so far from where a parallelogram would have it."""
+FOLDS = 2e-5  # of the edges: so many more may be folded than were
 
 
 class Shaper:
@@ -61,41 +62,47 @@ class Shaper:
         return chosen
 
     def unfold(self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix) -> Levels | None:
-        """Levels, shape (n, 3), that fold fewer edges, along `directions`, shape (n or 1, 9); None: few are folded."""
+        """Levels, shape (n, 3), that fold fewer edges, along `directions`, shape (n or 1, 9); None: none is folded."""
         end_phase(len(levels))  # the choice of these levels has taken many arrays
         chosen, most = np.array(levels, np.int32, order="C"), -(-len(self._original.faces) // 10_000)
-        given = (np.array(positions), chosen, self._open), np.ascontiguousarray(directions), self._flaps, most
-        wrong = np.empty(len(self._flaps[0]), np.uint8)
-        return chosen if _kernels.unfold_levels(self._wanted, reach, *given, wrong) else None
+        shaped = np.array(positions), chosen, self._open
+        moves = _kernels.unfold_levels(
+            self._wanted, reach, shaped, np.ascontiguousarray(directions), self._flaps, most, self._limits
+        )
+        return chosen if moves else None
 
     def over(self, positions: Positions) -> Indices:
-        """The vertices of edges that are folded over and were not; none if few edges are folded."""
-        count, folded = self._over(positions)
-        return np.unique(self._flaps[0][folded & ~self._were & (count > self.most_folded)])
+        """The vertices of edges that are folded farther than they were."""
+        return np.unique(self._flaps[0][self._fold_levels(positions) > self._limits])
+
+    def more_folds(self, positions: Positions) -> int:
+        """Return how many more edges are folded than were: by 100, 120 or 150 degrees, whichever has most."""
+        return int((self._count_folds(positions) - self._folds_before).max())
 
     @cached_property
-    def _were(self) -> npt.NDArray[np.bool_]:
-        return self._far(self._original.positions) > 0
+    def most_folds(self) -> int:
+        """How many more may be, of any of these angles."""
+        return int(FOLDS * len(self._flaps[0]))
 
-    def folded(self, positions: Positions) -> int:
-        """How many edges are folded: by more than 90 degrees, or 100 where they were not, which spares right angles."""
-        return self._over(positions)[0]
+    @cached_property
+    def _folds_before(self) -> npt.NDArray[np.int64]:
+        return self._count_folds(self._original.positions)
 
-    def _over(self, positions: Positions) -> tuple[int, npt.NDArray[np.bool_]]:
-        """How many edges between faces are folded, and which, shape (k,)."""
-        folded = self._far(positions) > ~self._were
-        return int(folded.sum()), folded
+    @cached_property
+    def _limits(self) -> npt.NDArray[np.uint8]:
+        """How far each edge may be folded: as it was, or 100 degrees, which spares right angles."""
+        return np.maximum(self._fold_levels(self._original.positions), 1)
 
-    def _far(self, positions: Positions) -> npt.NDArray[np.uint8]:
-        """How far edges between faces are folded, shape (k,): 1, by more than 90 degrees; 2, by more than 100."""
+    def _count_folds(self, positions: Positions) -> npt.NDArray[np.int64]:
+        """How many edges are folded by more than 100, 120 and 150 degrees."""
+        counts = np.bincount(self._fold_levels(positions), minlength=5)
+        return np.cumsum(counts[:1:-1])[::-1]
+
+    def _fold_levels(self, positions: Positions) -> npt.NDArray[np.uint8]:
+        """How far edges between faces are folded, shape (k,): 1 to 4, by more than 90, 100, 120, 150 degrees."""
         far = np.empty(len(self._flaps[0]), np.uint8)
         _kernels.count_folds(positions, self._flaps[0], far)
         return far
-
-    @cached_property
-    def most_folded(self) -> int:
-        """How many may be: one in 10,000 faces more than were."""
-        return self.folded(self._original.positions) - -len(self._original.faces) // 10_000
 
     @cached_property
     def _flaps(self) -> tuple[Indices, Indices, Indices]:

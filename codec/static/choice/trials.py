@@ -45,7 +45,7 @@ class Estimate:
     doubt: float
     saving: float  # bytes that a step e times as wide saves
     trial: Trial | None = None  # that of the first step, where it is coded
-    also: float = 0.0  # a step whose trial is coded with the first one, if there is one
+    also: tuple[float, ...] = ()  # steps whose trials are coded with the first one, until bytes rise
     kin: str = ""  # ways with the same word err together: the first trial of one corrects the estimates of the others
 
 
