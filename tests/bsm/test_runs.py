@@ -112,7 +112,7 @@ def test_meshes_of_a_glb_take_turns(stream, tmp_path):
     assert run("decode", stream, "-o", tmp_path / "a.glb") == 0
     tree, _ = unpack((tmp_path / "a.glb").read_bytes())
     assert [len(mesh["primitives"][0]["targets"]) for mesh in tree["meshes"]] == [count - 1 for _, count in PIECES]
-    source = open_sequence(str(tmp_path / "a.glb"), wanted=Wanted(animation="frames", rate=24.0))
+    source = open_sequence(str(tmp_path / "a.glb"), request=Wanted(animation="frames", rate=24.0))
     ends = np.cumsum([0, *(len(torus(size, 6).positions) for size, _ in PIECES)])
     frames, meshes = list(source.frames), capture(*PIECES)
     assert source.count == len(frames) == len(meshes)

@@ -161,7 +161,7 @@ def test_arrays_that_change_go_from_npz_to_npz_and_to_forms_that_hold_them(tmp_p
     assert bsm("decode", stream, "-o", tmp_path / "back.glb") == 0
     left_out = capsys.readouterr().err
     assert "how heat changes" in left_out and "how color changes" not in left_out
-    frames = open_sequence(tmp_path / "back.glb", wanted=Wanted()).meshes
+    frames = open_sequence(tmp_path / "back.glb", request=Wanted()).meshes
     for mesh, shades in zip(frames, arrays["color"], strict=True):
         (color,) = (attribute.values for attribute in mesh.attributes if attribute.semantic == "color")
         np.testing.assert_array_equal(np.unique(color[:, :3], axis=0), np.unique(shades, axis=0))

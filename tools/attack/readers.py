@@ -628,7 +628,7 @@ def read_all(path: Path, limits: Limits) -> Taken:
     try:
         if kind in SEQUENCES_READ:
             try:
-                sequence = open_sequence(str(path), "npy" if kind == "npy" else None, wanted=Wanted(), limits=limits)
+                sequence = open_sequence(str(path), "npy" if kind == "npy" else None, request=Wanted(), limits=limits)
                 if sequence is not None:
                     for frame in sequence.frames:
                         vertices = len(frame)

@@ -349,7 +349,7 @@ def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -
                 return None
             stream = SequenceStream(chunks, limits=as_limits(args.limits))
             return [(frame, stream.faces, stream.attributes) for _, frame in stream.changing_frames()]
-        source = open_sequence(path, wanted=wanted)
+        source = open_sequence(path, request=wanted)
         if source is None:
             return None
         if source.meshes is None:

@@ -64,14 +64,14 @@ _MISSING = "a package that reads such files is missing: pip install 'bsm-codec[f
 
 
 def leave(
-    memory: int, found: MeshFile | Frames | BsmError | None, ask: Callable[[int], None] = lambda size: None
+    memory: int, result: MeshFile | Frames | BsmError | None, ask: Callable[[int], None] = lambda size: None
 ) -> None:
     """Leave a mesh, frames, an error or nothing in shared memory, after asking for the bytes that this takes."""
     rows, parts, total = list[bytes](), list[Any](), 0
-    form = type(found) if type(found) in _ANSWERS else FormatError
+    form = type(result) if type(result) in _ANSWERS else FormatError
     kind: Any
     data: Any
-    for value in (_ANSWERS.index(form), *_flat(form, found)):
+    for value in (_ANSWERS.index(form), *_flat(form, result)):
         if isinstance(value, np.ndarray):
             kind, shape, data = str(value.dtype), value.shape, np.ascontiguousarray(value).reshape(-1).view(np.uint8)
         else:
@@ -90,20 +90,20 @@ def leave(
         file.writelines((table, *parts))
 
 
-def _flat(form: Any, found: Any) -> Iterator[Any]:
-    if isinstance(form, list) and found is not None:
-        items = list(found.items() if isinstance(found, Mapping) else found)
+def _flat(form: Any, value: Any) -> Iterator[Any]:
+    if isinstance(form, list) and value is not None:
+        items = list(value.items() if isinstance(value, Mapping) else value)
         yield len(items)
         for item in items:
             yield from _flat(form[0], item)
     elif isinstance(form, tuple):
-        yield from found
-    elif found is not None and form in _PARTS:
+        yield from value
+    elif value is not None and form in _PARTS:
         for name, part in _PARTS[form].items():
-            moving = form is Frames and name == "frames" and found.meshes is not None  # they are in the meshes
-            yield from _flat(part, () if moving else getattr(found, name))
+            moving = form is Frames and name == "frames" and value.meshes is not None  # they are in the meshes
+            yield from _flat(part, () if moving else getattr(value, name))
     else:
-        yield found.item() if isinstance(found, np.generic) else found
+        yield value.item() if isinstance(value, np.generic) else value
 
 
 def found_in(memory: int, most: int, limits: Limits, accepted: tuple[type, ...]) -> Any:
@@ -113,34 +113,34 @@ def found_in(memory: int, most: int, limits: Limits, accepted: tuple[type, ...])
         form = _ANSWERS[_made(int, values, limits)]
         if form not in accepted:
             raise TypeError("an answer of another kind")
-        found: MeshFile | Frames | BsmError | None = _made(form, values, limits)
+        result: MeshFile | Frames | BsmError | None = _made(form, values, limits)
     except LimitError:
         raise
     except MemoryError as error:
         raise LimitError("the system has too little memory for the answer of the reading process") from error
     except Exception as error:
         raise FormatError("the process that read this file left no mesh") from error
-    if isinstance(found, BsmError):
+    if isinstance(result, BsmError):
         # Not the words of the child: they may tell to install anything.
-        words = _MISSING if isinstance(found, errors.DependencyError) else found.message[:_MOST_WORDS]
-        found.message = " ".join(words.splitlines())
-        raise found
-    return found
+        words = _MISSING if isinstance(result, errors.DependencyError) else result.message[:_MOST_WORDS]
+        result.message = " ".join(words.splitlines())
+        raise result
+    return result
 
 
 def _read(memory: int, most: int) -> Iterator[Any]:
     size = os.fstat(memory).st_size
     # Of what the answer may take, the shared memory itself is already gone.
-    left = most - size
+    remaining = most - size
     (count,) = _COUNT.unpack(os.pread(memory, _COUNT.size, 0))
-    left -= count * _COST
+    remaining -= count * _COST
     for place in range(_COUNT.size, _COUNT.size + count * _ROW.size, _ROW.size):
         number, columns, rows, begin = _ROW.unpack(os.pread(memory, _ROW.size, place))
         kind, begin = _KINDS[number], begin + _COUNT.size + count * _ROW.size
         plain = np.dtype("uint8" if kind in _PLAIN else kind)
         taken = rows * columns * plain.itemsize
-        left -= taken * (_LETTER if kind is str else 1)
-        if left < 0 or begin + taken > size:
+        remaining -= taken * (_LETTER if kind is str else 1)
+        if remaining < 0 or begin + taken > size:
             raise ValueError("more than there can be")
         data = os.pread(memory, taken, begin)
         yield _PLAIN[kind][1](data) if kind in _PLAIN else np.ndarray((rows, columns), plain, data)
@@ -153,26 +153,28 @@ def _made(form: Any, values: Iterator[Any], limits: Limits) -> Any:
     if isinstance(form, tuple):
         return [_made(part, values, limits) for part in form]
     if form not in _PARTS:
-        if not isinstance(found := next(values), form):
+        if not isinstance(value := next(values), form):
             raise TypeError("a value of another kind")
-        return found
-    given = {name: _made(part, values, limits) for name, part in _PARTS[form].items()}
-    given |= {name: tuple(given[name]) for name in ("attributes", "notes", "dropped") if name in given}
+        return value
+    values_by_name = {name: _made(part, values, limits) for name, part in _PARTS[form].items()}
+    values_by_name |= {
+        name: tuple(values_by_name[name]) for name in ("attributes", "notes", "dropped") if name in values_by_name
+    }
     if form in (TriangleMesh, Frames):
-        _check(given, limits)
-    return form(**given)
+        _check(values_by_name, limits)
+    return form(**values_by_name)
 
 
-def _check(given: dict[str, Any], limits: Limits) -> None:
+def _check(fields: dict[str, Any], limits: Limits) -> None:
     """Check a mesh or frames before they are made, and bring their parts into the right kinds."""
-    given["metadata"], meshes = dict(given["metadata"]), given.get("meshes")
-    frames = given.get("frames", [given.get("positions")]) if meshes is None else [mesh.positions for mesh in meshes]
-    counts = {"vertices": max(given.get("rigged", 0), *map(len, frames)), "faces": len(given["faces"])}
+    fields["metadata"], meshes = dict(fields["metadata"]), fields.get("meshes")
+    frames = fields.get("frames", [fields.get("positions")]) if meshes is None else [mesh.positions for mesh in meshes]
+    counts = {"vertices": max(fields.get("rigged", 0), *map(len, frames)), "faces": len(fields["faces"])}
     require_counts(limits, **counts, frames=len(frames))
-    kinds = {given["faces"].dtype.name, *(f"{frame.dtype} of {frame.shape[1]}" for frame in frames)}
+    kinds = {fields["faces"].dtype.name, *(f"{frame.dtype} of {frame.shape[1]}" for frame in frames)}
     # Checked here since the classes convert what they get: a million objects in place of numbers would be copied first.
-    if kinds != {"int32", "float64 of 3"} or given.get("count", 0) not in (0, len(frames)):  # 0: it is not known
+    if kinds != {"int32", "float64 of 3"} or fields.get("count", 0) not in (0, len(frames)):  # 0: it is not known
         raise ValueError("arrays of another kind")
-    if "meshes" in given:
-        given["faces"] = TriangleMesh(frames[0], given["faces"]).faces
-        given |= {"frames": iter(frames), "meshes": None if meshes is None else iter(meshes)}
+    if "meshes" in fields:
+        fields["faces"] = TriangleMesh(frames[0], fields["faces"]).faces
+        fields |= {"frames": iter(frames), "meshes": None if meshes is None else iter(meshes)}

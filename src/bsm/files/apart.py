@@ -34,16 +34,16 @@ def surface_of(
     path: str, kind: str, limits: Limits, step: int | None = None, with_sets: bool = True, *, here: bool = False
 ) -> Surface:
     """The surfaces in a file of VTK as a frame, or at rest without a step, and its times; `here`: in this process."""
-    asked = os.path.abspath(path), kind, limits, step
+    request = os.path.abspath(path), kind, limits, step
     if here:
         module = imported("bsm.files.formats.with_vtk", f".{kind} files are read with VTK", "simulation")
         refuse_outside(path, kind, limits, closed=landlock.lack() is None)
-        found: Surface = module.read_vtk(*asked, with_sets=with_sets)
-        return found
+        surface: Surface = module.read_vtk(*request, with_sets=with_sets)
+        return surface
     with _TURN:
-        answer = _answer(*asked)
+        answer = _answer(*request)
         if answer is None:  # in a fresh process, and without the sets of Exodus, at which VTK may crash
-            answer = _answer(*asked, False)
+            answer = _answer(*request, False)
     if answer is None:
         raise FormatError("reading this file crashed VTK")
     if isinstance(answer, BsmError):
@@ -51,11 +51,11 @@ def surface_of(
     return answer
 
 
-def _answer(*asked: Any) -> Surface | BsmError | None:
+def _answer(*request: Any) -> Surface | BsmError | None:
     """Ask the process for a file; None if that crashes it."""
     process = _process()
     try:
-        pickle.dump(asked, process.stdin)
+        pickle.dump(request, process.stdin)
         process.stdin.flush()
         answer: Surface | BsmError = pickle.load(process.stdout)
     # A crash shows as the end of the pipe. The next file gets a new process.
@@ -66,19 +66,19 @@ def _answer(*asked: Any) -> Surface | BsmError | None:
     return answer
 
 
-def frames_of(path: str, kind: str, wanted: Wanted, limits: Limits, *, here: bool = False) -> Frames | None:
+def frames_of(path: str, kind: str, request: Wanted, limits: Limits, *, here: bool = False) -> Frames | None:
     """The steps in a file of VTK as frames; None if it has fewer than two."""
     _, times = surface_of(path, kind, limits, here=here)
     size = os.path.getsize(path)
-    return read_steps(lambda step: surface_of(path, kind, limits, step, here=here)[0], times, size, wanted, limits)
+    return read_steps(lambda step: surface_of(path, kind, limits, step, here=here)[0], times, size, request, limits)
 
 
 @cache
 def _process() -> Any:
     if not Path(sys.executable or "").name.lower().startswith(("python", "pypy")):
         raise UnsupportedError("files of VTK are read in a process of their own, and sys.executable is not Python")
-    own = str(Path(sys.modules["bsm"].__file__ or "").parents[1])
-    paths = os.pathsep.join(filter(None, (own, os.environ.get("PYTHONPATH", ""))))
+    package_folder = str(Path(sys.modules["bsm"].__file__ or "").parents[1])
+    paths = os.pathsep.join(filter(None, (package_folder, os.environ.get("PYTHONPATH", ""))))
     pipes: Any = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
     # A program and not multiprocessing: its spawn would run the user's main module again, and fork copies held locks.
     begun = subprocess.Popen([sys.executable, "-P", "-c", _COMMAND], env={**os.environ, "PYTHONPATH": paths}, **pipes)
@@ -103,17 +103,17 @@ def serve() -> None:
     os.dup2(2, 1)  # libraries print
     while True:
         try:
-            asked = pickle.load(sys.stdin.buffer)
+            request = pickle.load(sys.stdin.buffer)
         except EOFError:
             return
         if landlock.lack() is not None:
-            _write_answer(asked, answers)
+            _write_answer(request, answers)
             continue
-        load_modules(asked[1])
+        load_modules(request[1])
         child = os.fork()
         if not child:
-            landlock.close_files(landlock.folders_of([asked[0]]))
-            _write_answer(asked, answers)
+            landlock.close_files(landlock.folders_of([request[0]]))
+            _write_answer(request, answers)
             os._exit(0)
         # A crash of the child is told as one of this process.
         _, status = os.waitpid(child, 0)
@@ -121,10 +121,10 @@ def serve() -> None:
             os._exit(abs(code))
 
 
-def _write_answer(asked: Any, answers: Any) -> None:
+def _write_answer(request: Any, answers: Any) -> None:
     """Read the file that is asked for, and write its surfaces or the error."""
     try:
-        answer: Surface | BsmError = surface_of(*asked, here=True)
+        answer: Surface | BsmError = surface_of(*request, here=True)
     except BsmError as error:
         answer = error
     except MemoryError:

@@ -38,13 +38,15 @@ class Placement:
 
 def placement(metadata: Metadata, kind: str) -> Placement:
     """Return the placement for a format; a mesh without a known unit or axis is taken to have those of the format."""
-    given, target = str(metadata.get("up", "")).lower(), FORMATS[kind].up
-    known = given in ("x", "y", "z")
-    turn = np.array(_TO_Y[given] if known else _TO_Y[target], np.float64)
+    axis, target = str(metadata.get("up", "")).lower(), FORMATS[kind].up
+    has_axis = axis in ("x", "y", "z")
+    turn = np.array(_TO_Y[axis] if has_axis else _TO_Y[target], np.float64)
     turn = np.array(_TO_Y[target], np.float64).T @ turn
-    own, wanted = metres(str(metadata.get("unit", ""))), metres(FORMATS[kind].unit)
-    held = {name for name, holds in (("up", known), ("unit", own is not None and wanted is not None)) if holds}
-    return Placement(own / wanted if own and wanted else 1.0, turn, frozenset(held))
+    mesh_unit, format_unit = metres(str(metadata.get("unit", ""))), metres(FORMATS[kind].unit)
+    expressed = {
+        name for name, holds in (("up", has_axis), ("unit", mesh_unit is not None and format_unit is not None)) if holds
+    }
+    return Placement(mesh_unit / format_unit if mesh_unit and format_unit else 1.0, turn, frozenset(expressed))
 
 
 # -------------------------------------------------------------------------------------------------------------- colors
@@ -54,19 +56,19 @@ _WORD = 65535.0
 
 def to_linear(shares: Array) -> Doubles:
     """Return the linear values of colors in sRGB; a fourth column is an opacity, which stays."""
-    found = np.array(shares, np.float64)
-    c = found[..., :3]
+    linear = np.array(shares, np.float64)
+    c = linear[..., :3]
     # The curve of IEC 61966-2-1. A plain power of 2.2 would be off by some levels in the dark.
-    found[..., :3] = np.where(c <= 0.04045, c / 12.92, ((np.maximum(c, 0.0) + 0.055) / 1.055) ** 2.4)
-    return found
+    linear[..., :3] = np.where(c <= 0.04045, c / 12.92, ((np.maximum(c, 0.0) + 0.055) / 1.055) ** 2.4)
+    return linear
 
 
 def to_srgb(shares: Array) -> Doubles:
     """Return linear colors in sRGB; a fourth column is an opacity, which stays."""
-    found = np.array(shares, np.float64)
-    c = found[..., :3]
-    found[..., :3] = np.where(c <= 0.0031308, c * 12.92, 1.055 * np.maximum(c, 1e-9) ** (1 / 2.4) - 0.055)
-    return found
+    colors = np.array(shares, np.float64)
+    c = colors[..., :3]
+    colors[..., :3] = np.where(c <= 0.0031308, c * 12.92, 1.055 * np.maximum(c, 1e-9) ** (1 / 2.4) - 0.055)
+    return colors
 
 
 def linear_colors(colors: Array) -> Array:
@@ -86,12 +88,12 @@ def srgb_colors(colors: Array) -> Array:
     bytes_ = np.rint(shares.clip(0.0, 1.0) * 255)
     # Half a step of the words in which bytes are written: such values were bytes, and become the same bytes again.
     if colors.size and np.abs(to_linear(bytes_ / 255) - linear).max() <= 0.51 / _WORD:
-        found: Array = bytes_.astype(np.uint8)
+        result: Array = bytes_.astype(np.uint8)
     elif colors.dtype == np.uint8:
-        found = np.rint(shares * _WORD).astype(np.uint16)
+        result = np.rint(shares * _WORD).astype(np.uint16)
     else:
-        found = shares.astype(np.float32)
-    return found
+        result = shares.astype(np.float32)
+    return result
 
 
 def shares_of(colors: Array) -> Doubles:

@@ -38,10 +38,10 @@ class ImageRule:
 
 def smaller(data: bytes, rule: ImageRule) -> bytes | None:
     """An image by a rule; None if that would not save a tenth of it, or Pillow cannot read it."""
-    image, found = opened(data), None
+    image, smallest = opened(data), None
     with suppress(OSError, ValueError):  # what Pillow does not write
-        found = _written(image, rule) if image else None
-    return found if found and len(found) <= WORTH * len(data) else None
+        smallest = _written(image, rule) if image else None
+    return smallest if smallest and len(smallest) <= WORTH * len(data) else None
 
 
 def opened(data: bytes) -> Any | None:
@@ -76,16 +76,16 @@ def _written(image: Any, rule: ImageRule) -> bytes | None:
 
 def with_smaller_images(metadata: Metadata, rule: ImageRule) -> Metadata:
     """Metadata with its images by a rule; their names get the suffix of their format."""
-    found, images = dict(metadata), images_in(metadata)
+    entries, images = dict(metadata), images_in(metadata)
     names = {name for name, _ in images.values()}
     for number, (name, data) in images.items():
         if not data or (written := smaller(data, rule)) is None:
             continue
-        found[f"image.{number}.data"] = written
+        entries[f"image.{number}.data"] = written
         if name:
-            other = str(PurePath(name).with_suffix(f".{rule.kind}"))
-            found[f"image.{number}.name"] = other if other not in names - {name} else f"{name}.{rule.kind}"
-    return found
+            new_name = str(PurePath(name).with_suffix(f".{rule.kind}"))
+            entries[f"image.{number}.name"] = new_name if new_name not in names - {name} else f"{name}.{rule.kind}"
+    return entries
 
 
 def side_of_image(data: bytes) -> int:
@@ -101,10 +101,10 @@ def size_of_image(data: bytes) -> tuple[int, int]:
             return plain[0] & 0x3FFF, plain[1] & 0x3FFF
         return (wide + 1, high + 1) if match[1] else (1 + (packed & 0x3FFF), 1 + (packed >> 14 & 0x3FFF))
     signed = data.startswith((b"\x89PNG", b"\xff\xd8"))  # a JPEG may contain a smaller one
-    found = _PNG_OR_JPEG.findall(data) if signed else ()
+    segments = _PNG_OR_JPEG.findall(data) if signed else ()
     sizes = (
         (int.from_bytes(a, "big"), int.from_bytes(b, "big"))
-        for wide, high, y, x in found
+        for wide, high, y, x in segments
         for a, b in ((wide, high), (x, y))
     )
     return max(sizes, default=(0, 0))
@@ -132,13 +132,13 @@ def digests_in(metadata: Metadata) -> set[str]:
 
 def with_links(metadata: Metadata, way: str, chosen: tuple[str, ...]) -> tuple[Metadata, dict[str, bytes]]:
     """Return metadata that links to the chosen images, or to all, in a folder a way off, and these files by name."""
-    found, files = dict(metadata), dict[str, bytes]()
+    entries, files = dict(metadata), dict[str, bytes]()
     for number, (_, data) in images_in(metadata).items():
         if data and (not chosen or _digest(data) in chosen):
             name = f"images/{_digest(data)}.{kind_of_image(data) or 'img'}"
-            del found[f"image.{number}.data"]
-            found[f"image.{number}.link"], files[name] = way + name, data
-    return found, files
+            del entries[f"image.{number}.data"]
+            entries[f"image.{number}.link"], files[name] = way + name, data
+    return entries, files
 
 
 @dataclass(frozen=True)

@@ -84,8 +84,8 @@ class StreamInfo:
         # Overlaps have no mark in a header. They make the blocks' sizes sum up to more than the vertices, by 15 % or
         # more with the paper's overlap.
         grown = self.sizes["partition"] and header.blocks * (header.block_size + 0.5) >= 1.15 * header.vertices
-        own = how.bits, how.exact, how.power, how.iterations, how.shift, how.springs, header.onorm
-        return plain and own == (12, 1, 2, 1, 2.0**-7, 0, 2) and (header.blocks == 1 or bool(grown))
+        settings = how.bits, how.exact, how.power, how.iterations, how.shift, how.springs, header.onorm
+        return plain and settings == (12, 1, 2, 1, 2.0**-7, 0, 2) and (header.blocks == 1 or bool(grown))
 
     def bpv(self, carried: str = "total") -> float:
         return 8 * self.sizes[carried] / self.header.vertices
@@ -128,8 +128,8 @@ class Skimmer:
             self.engine.finish()
         elif len(chunk):
             self.engine.push(np.frombuffer(chunk, np.uint8))
-        while (found := self.engine.skim()) is not None:
-            yield found
+        while (section := self.engine.skim()) is not None:
+            yield section
 
     @property
     def header(self) -> Header:
@@ -184,16 +184,16 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     attributes = tuple(_attribute_info(packet, lengths[packet.index]) for packet in declared)
     sizes["attributes"] = sum(attribute.bytes for attribute in attributes)
     sizes |= {"framing": total - sum(sizes.values()), "total": total}
-    numbers, known = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
+    numbers, run_table = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
     return StreamInfo(
-        headers[0], metadata, numbers, tuple(gops), attributes, sizes, positions, known, checksum, version, brief
+        headers[0], metadata, numbers, tuple(gops), attributes, sizes, positions, run_table, checksum, version, brief
     )
 
 
 def _attribute_info(packet: SkimmedPacket, size: int) -> AttributeInfo:
     coding = "moving levels" if packet.moves else ("levels", "octahedral", "bits", "recomputed")[packet.coding]
-    meant = DOMAINS[packet.domain], SEMANTICS[packet.semantic], KINDS[packet.kind]
-    return AttributeInfo(packet.name, *meant, packet.components, packet.rows, coding, packet.data, size)
+    meanings = DOMAINS[packet.domain], SEMANTICS[packet.semantic], KINDS[packet.kind]
+    return AttributeInfo(packet.name, *meanings, packet.components, packet.rows, coding, packet.data, size)
 
 
 def summarize_stream(info: StreamInfo) -> dict[str, Any]:

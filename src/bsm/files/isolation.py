@@ -55,32 +55,37 @@ _QUIET = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "PXR_WORK_THR
 _QUIET |= {"HDF5_USE_FILE_LOCKING": "FALSE"}
 
 
-def read_isolated(given: Input, file_format: str | None, limits: Limits, kind: str) -> Any:
+def read_isolated(source: Input, file_format: str | None, limits: Limits, kind: str) -> Any:
     """The `MeshFile` that a process of its own reads; errors as of `read_mesh`."""
-    return _read_there(given, file_format, limits, kind, MESH)
+    return _read_there(source, file_format, limits, kind, MESH)
 
 
 def frames_isolated(
-    given: Input | Sequence[str], file_format: str | None, limits: Limits, kind: str, wanted: Wanted | None
+    source: Input | Sequence[str], file_format: str | None, limits: Limits, kind: str, request: Wanted | None
 ) -> Any:
     """The `Frames` that a process of its own reads, or None; errors as of `open_sequence`."""
-    beside = os.path.abspath(wanted.mesh) if wanted and wanted.mesh else None
-    asked = {"sequence": True, "wanted": wanted and {**asdict(wanted), "mesh": beside}, "beside": beside}
-    return _read_there(given, file_format, limits, kind, FRAMES, **asked)
+    beside = os.path.abspath(request.mesh) if request and request.mesh else None
+    extra_fields = {"sequence": True, "wanted": request and {**asdict(request), "mesh": beside}, "beside": beside}
+    return _read_there(source, file_format, limits, kind, FRAMES, **extra_fields)
 
 
 def _read_there(
-    given: Input | Sequence[str], file_format: str | None, limits: Limits, kind: str, accepted: Any, **asked: Any
+    source: Input | Sequence[str],
+    file_format: str | None,
+    limits: Limits,
+    kind: str,
+    accepted: Any,
+    **extra_fields: Any,
 ) -> Any:
-    data, names = b"", [] if isinstance(given, Input) else list(given)
-    if isinstance(given, Input):
+    data, names = b"", [] if isinstance(source, Input) else list(source)
+    if isinstance(source, Input):
         # A path of this process (/dev/fd/3, ...) means another file in the child, so its bytes are sent instead.
-        path = os.path.abspath(given.name) if given.is_file and not _OF_THIS_PROCESS.match(given.name) else None
-        data, names, asked["name"] = (b"", [path], given.name) if path else (given.read_all(), [], given.name)
+        path = os.path.abspath(source.name) if source.is_file and not _OF_THIS_PROCESS.match(source.name) else None
+        data, names, extra_fields["name"] = (b"", [path], source.name) if path else (source.read_all(), [], source.name)
         file_format = file_format if landlock.lack() is None else file_format or kind or None  # others never come here
     size = len(data) + sum(map(os.path.getsize, names))
     seconds = math.ceil(min(limits.work_for(limits.vertices, size) / 1e9, 1e6))
-    asked |= {
+    extra_fields |= {
         "format": file_format,
         "kind": kind if kind in FORMATS else "",
         "names": names,
@@ -88,27 +93,27 @@ def _read_there(
         "memory": int(min(limits.memory_for(limits.vertices, size), 1 << 40)),
         "seconds": max(1, _least(seconds, max(resource.getrlimit(resource.RLIMIT_CPU)[0] - 1, -1))),
     }
-    asked["patience"] = _PATIENCE * asked["seconds"]
-    with shared(json.dumps(asked).encode() + b"\n" + data) as memory:
+    extra_fields["patience"] = _PATIENCE * extra_fields["seconds"]
+    with shared(json.dumps(extra_fields).encode() + b"\n" + data) as memory:
         status, _, _, words = end_of_child(memory)
         if os.WIFSIGNALED(status):
-            raise _end_of(os.WTERMSIG(status), words, asked)
-        return found_in(memory, asked["memory"] + _ROOM, limits, accepted)
+            raise _end_of(os.WTERMSIG(status), words, extra_fields)
+        return found_in(memory, extra_fields["memory"] + _ROOM, limits, accepted)
 
 
-def _too_little(asked: dict[str, Any]) -> LimitError:
-    return LimitError(f"reading takes more than {asked['memory']:,} bytes of memory (Limits.memory, ulimit -v)")
+def _too_little(request: dict[str, Any]) -> LimitError:
+    return LimitError(f"reading takes more than {request['memory']:,} bytes of memory (Limits.memory, ulimit -v)")
 
 
-def _end_of(number: int, words: bytes, asked: dict[str, Any]) -> BsmError:
+def _end_of(number: int, words: bytes, request: dict[str, Any]) -> BsmError:
     """The error of a child that a signal has ended, by its last words."""
     # C++ libraries end so where memory is refused; their last words are all that tells this from a fault of theirs.
     if number == signal.SIGABRT and b"bad_alloc" in words:
-        return _too_little(asked)
+        return _too_little(request)
     if number == signal.SIGXCPU:
-        return LimitError(f"reading takes more than {asked['seconds']} s of processor time (Limits.work, ulimit -t)")
+        return LimitError(f"reading takes more than {request['seconds']} s of processor time (Limits.work, ulimit -t)")
     if number == signal.SIGALRM:
-        return LimitError(f"reading this file takes more than {_PATIENCE * asked['seconds']} s")
+        return LimitError(f"reading this file takes more than {_PATIENCE * request['seconds']} s")
     if number == signal.SIGKILL:
         return LimitError("the process that read this file was ended: the system has too little memory")
     return FormatError(f"reading this file crashed the library that reads it ({signal.strsignal(number)})")
@@ -192,40 +197,43 @@ def serve(number: int) -> None:
     landlock.lack()  # landlockpy looks for the C library when it is first used
     mesh.read_mesh(_SMALLEST, isolated=False)
     gc.freeze()
-    with socket.socket(fileno=number) as asked:
+    with socket.socket(fileno=number) as connection:
         while True:
             signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # watchers end alone
-            request, files, _, _ = socket.recv_fds(asked, 1, 2)
+            request, files, _, _ = socket.recv_fds(connection, 1, 2)
             if not request:
                 return
             answer, memory = files
-            with open(memory, "rb", closefd=False) as sent:
-                sent.seek(0)
-                question, begin = json.loads(sent.readline()), sent.tell()  # the bytes of a file follow
+            with open(memory, "rb", closefd=False) as shared_memory:
+                shared_memory.seek(0)
+                question, begin = (
+                    json.loads(shared_memory.readline()),
+                    shared_memory.tell(),
+                )  # the bytes of a file follow
             load_modules(question["kind"])
             if not os.fork():
-                asked.close()
+                connection.close()
                 _watch(answer, memory, question, begin)
             os.close(answer)
             os.close(memory)
 
 
-def _watch(answer: int, memory: int, asked: dict[str, Any], begin: int) -> None:
+def _watch(answer: int, memory: int, request: dict[str, Any], begin: int) -> None:
     """Let a child read, and tell how it ended, with its last words."""
     try:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-        words, said = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
+        words, written = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
         here, there = socket.socketpair()
         child = os.fork()
         if not child:
             os.setsid()
-            os.dup2(said, 2)
-            for file in (answer, words, said, here.detach()):
+            os.dup2(written, 2)
+            for file in (answer, words, written, here.detach()):
                 os.close(file)
-            _read(memory, there.detach(), asked, begin)
+            _read(memory, there.detach(), request, begin)
         there.close()
         signal.signal(signal.SIGALRM, lambda *_: os.kill(child, signal.SIGKILL))
-        signal.alarm(asked["patience"])
+        signal.alarm(request["patience"])
         with here:
             _grant(child, here)
         _, status, used = os.wait4(child, 0)
@@ -261,15 +269,15 @@ def _held(process: int | str) -> int:
 # ------------------------------------------------------------------------------------------------ the child
 
 
-def _read(memory: int, room: int, asked: dict[str, Any], begin: int) -> None:
+def _read(memory: int, room: int, request: dict[str, Any], begin: int) -> None:
     """Read the file that is asked for, and leave the mesh or the error in shared memory."""
     try:
-        asked["data"] = os.pread(memory, os.fstat(memory).st_size - begin, begin)
+        request["data"] = os.pread(memory, os.fstat(memory).st_size - begin, begin)
         try:
-            _confine(asked)
-            leave(memory, _called(asked), partial(_ask, room))
+            _confine(request)
+            leave(memory, _called(request), partial(_ask, room))
         except MemoryError:
-            leave(memory, _too_little(asked))
+            leave(memory, _too_little(request))
         except BsmError as error:
             error.message = _named(error.message)
             leave(memory, error)
@@ -288,41 +296,41 @@ def _ask(room: int, size: int) -> None:
             raise MemoryError
 
 
-def _called(asked: dict[str, Any]) -> MeshFile | Frames | None:
+def _called(request: dict[str, Any]) -> MeshFile | Frames | None:
     """Read as without isolation, in here."""
-    given, names = (asked["format"], Limits(**asked["limits"])), asked["names"]
-    wanted = Wanted(**asked["wanted"]) if asked.get("wanted") else None
-    if "name" not in asked:
-        return sequence.open_frames(names, *given, wanted or Wanted(), isolated=False)
-    source: Any = names[0] if names else io.BytesIO(asked["data"])
+    arguments, names = (request["format"], Limits(**request["limits"])), request["names"]
+    sequence_request = Wanted(**request["wanted"]) if request.get("wanted") else None
+    if "name" not in request:
+        return sequence.open_frames(names, *arguments, sequence_request or Wanted(), isolated=False)
+    source: Any = names[0] if names else io.BytesIO(request["data"])
     if not names:
-        source.name = asked["name"]
-    if asked.get("sequence"):
-        return sequence.open_sequence(source, given[0], wanted, given[1], isolated=False)
-    return mesh.read_mesh(source, *given, isolated=False)
+        source.name = request["name"]
+    if request.get("sequence"):
+        return sequence.open_sequence(source, arguments[0], sequence_request, arguments[1], isolated=False)
+    return mesh.read_mesh(source, *arguments, isolated=False)
 
 
-def _confine(asked: dict[str, Any]) -> None:
+def _confine(request: dict[str, Any]) -> None:
     """Take from this process what reading needs not: files of others, network, writing, memory and time beyond."""
     try:
-        held = _held("self")
+        open_numbers = _held("self")
     except OSError as error:
         raise UnsupportedError(f"files from strangers are read where /proc is: {error}") from error
     for limit, most, longest in (
         (resource.RLIMIT_CORE, 0, 0),
-        (_WRITTEN, _ROOM, _ROOM + asked["memory"] // 2),
-        (_MEMORY, held + asked["memory"], held + asked["memory"]),
-        (resource.RLIMIT_CPU, asked["seconds"], asked["seconds"] + 1),
+        (_WRITTEN, _ROOM, _ROOM + request["memory"] // 2),
+        (_MEMORY, open_numbers + request["memory"], open_numbers + request["memory"]),
+        (resource.RLIMIT_CPU, request["seconds"], request["seconds"] + 1),
     ):
         soft, hard = resource.getrlimit(limit)  # of where this runs, which may be less
         resource.setrlimit(limit, (_least(most, soft), _least(longest, hard)))
     if landlock.lack() is None:
-        landlock.close_files(landlock.folders_of(filter(None, [*asked["names"], asked.get("beside")])))
+        landlock.close_files(landlock.folders_of(filter(None, [*request["names"], request.get("beside")])))
     _close_calls()
 
 
-def _least(most: int, given: int) -> int:
-    return most if given == resource.RLIM_INFINITY else min(most, given)
+def _least(most: int, current: int) -> int:
+    return most if current == resource.RLIM_INFINITY else min(most, current)
 
 
 # First the parent's death ends this process (1), then no program gets new rights (38), without which the kernel takes
@@ -332,15 +340,15 @@ def _close_calls() -> None:
     if platform.machine() not in landlock.PROCESSORS:
         return  # `lack` says so
     code = ctypes.create_string_buffer(b"".join(struct.pack("<HBBI", *step) for step in _filter(os.getpid())))
-    known = ctypes.create_string_buffer(struct.pack("@HP", len(code) // 8, ctypes.addressof(code)))
+    program = ctypes.create_string_buffer(struct.pack("@HP", len(code) // 8, ctypes.addressof(code)))
     control = ctypes.CDLL(None, use_errno=True).prctl
     control.argtypes = (ctypes.c_int, *4 * (ctypes.c_ulong,))
-    for call in ((1, signal.SIGKILL, 0, 0, 0), (38, 1, 0, 0, 0), (22, 2, ctypes.addressof(known), 0, 0)):
+    for call in ((1, signal.SIGKILL, 0, 0, 0), (38, 1, 0, 0, 0), (22, 2, ctypes.addressof(program), 0, 0)):
         if control(*call):
             raise UnsupportedError(f"the kernel does not filter calls: {os.strerror(ctypes.get_errno())}")
 
 
-def _filter(own: int) -> Iterator[tuple[int, int, int, int]]:
+def _filter(process: int) -> Iterator[tuple[int, int, int, int]]:
     """The steps of a filter: an operation, how many steps to skip if true and if false, and a number."""
     load, equal, any_bit, at_least, add, end, end_so = 0x20, 0x15, 0x45, 0x35, 0x04, 0x06, 0x16
     allowed, killed, failed = (end, 0, 0, 0x7FFF0000), (end, 0, 0, 0x80000000), 0x50000 + _REFUSED
@@ -362,10 +370,10 @@ def _filter(own: int) -> Iterator[tuple[int, int, int, int]]:
         if name in ("open", "openat"):
             steps = [arguments[1 + (name == "openat")], (any_bit, 1, 0, _WRITING), allowed, call]
         elif name in ("kill", "tgkill"):
-            steps = [arguments[0], (equal, 0, 1, own), allowed, call]
+            steps = [arguments[0], (equal, 0, 1, process), allowed, call]
         elif name in _QUESTIONS:
-            asked = ((equal, 0, 1, one) for one in _QUESTIONS[name])
-            steps = [arguments[1], *itertools.chain.from_iterable((one, allowed) for one in asked), call]
+            conditions = ((equal, 0, 1, one) for one in _QUESTIONS[name])
+            steps = [arguments[1], *itertools.chain.from_iterable((one, allowed) for one in conditions), call]
         yield from ((equal, 0, len(steps), number), *steps)
     # A refused call returns an error that names its number, above all errors of the kernel, and does not kill:
     # libraries try calls that they can do without.
@@ -383,8 +391,8 @@ def _calls() -> dict[int, tuple[str, bool]]:
 def _named(words: str) -> str:
     """A message with the names of refused calls in place of the numbers of their errors."""
 
-    def named(found: re.Match[str]) -> str:
-        name, _ = _calls().get(int(found[1]) - _REFUSED, (f"number {int(found[1]) - _REFUSED}", False))
+    def named(match: re.Match[str]) -> str:
+        name, _ = _calls().get(int(match[1]) - _REFUSED, (f"number {int(match[1]) - _REFUSED}", False))
         return f"reading may not call {name} of the kernel"
 
     return re.sub(r"Unknown error (3\d\d\d)", named, words)

@@ -41,12 +41,12 @@ def folders_of(paths: Iterable[str]) -> set[str]:
 def close_files(folders: set[str]) -> None:
     """Let this process read nothing but the files in these folders, and those of Python and its packages."""
     landlock: Any = importlib.import_module("landlockpy")
-    known = landlock.AccessFS.READ_FILE | landlock.AccessFS.READ_DIR
+    read_rights = landlock.AccessFS.READ_FILE | landlock.AccessFS.READ_DIR
     scope = landlock.Scope.SIGNAL | landlock.Scope.ABSTRACT_UNIX_SOCKET
     with landlock.Ruleset(scoped=scope) as rules:
         for path in itertools.chain(libraries(), folders):
             with suppress(OSError):  # the folder may have been removed meanwhile
-                rules.allow_path(path, known if os.path.isdir(path) else landlock.AccessFS.READ_FILE)
+                rules.allow_path(path, read_rights if os.path.isdir(path) else landlock.AccessFS.READ_FILE)
         rules.restrict()
 
 

@@ -50,15 +50,15 @@ def as_mesh(mesh: Any) -> TriangleMesh:
         return mesh.mesh
     if file := as_file(mesh):
         return read_any(file)
-    found = _of_library(mesh)
-    warn(found.notes)
-    return found.mesh
+    converted = _of_library(mesh)
+    warn(converted.notes)
+    return converted.mesh
 
 
 def as_file(mesh: Any) -> Input | None:
     """The input that a path, bytes or a file is; None: an object of a library, some of which have a `read`, too."""
-    named = isinstance(mesh, (str, bytes, bytearray, memoryview, os.PathLike, Input))
-    return as_input(mesh) if named or (hasattr(mesh, "read") and _attribute(mesh, _POINTS) is None) else None
+    is_source = isinstance(mesh, (str, bytes, bytearray, memoryview, os.PathLike, Input))
+    return as_input(mesh) if is_source or (hasattr(mesh, "read") and _attribute(mesh, _POINTS) is None) else None
 
 
 def _of_library(mesh: Any) -> MeshFile:
@@ -96,9 +96,9 @@ def read_any(source: Input, **reading: Any) -> TriangleMesh:
             return mesh
         warn(f"{source.name}: {image.note}" for image in linked_images(mesh.metadata, source.name) if image.fault)
         return with_linked_images(mesh, source.name)
-    found = read_mesh(source, **reading)
-    warn(f"{source.name}: {note}" if source.name else note for note in found.notes)
-    return found.mesh
+    contents = read_mesh(source, **reading)
+    warn(f"{source.name}: {note}" if source.name else note for note in contents.notes)
+    return contents.mesh
 
 
 def _attribute(mesh: Any, names: tuple[str, ...]) -> Any:
@@ -147,15 +147,15 @@ def _split(flat: Ints) -> tuple[Ints, Ints]:
 def _of_pyvista(mesh: Any) -> Polygons:
     from bsm.files.formats.cells import columns_of
 
-    left = {name: None for name in ("verts", "lines", "strips") if getattr(mesh, f"n_{name}")}
+    losses = {name: None for name in ("verts", "lines", "strips") if getattr(mesh, f"n_{name}")}
     first, last = mesh.n_verts + mesh.n_lines, mesh.n_cells - mesh.n_strips  # cells are points and lines, too
     cells = {name: values[first:last] for name, values in mesh.cell_data.items()}
     normals, texcoords = mesh.point_data.active_normals_name, mesh.point_data.active_texture_coordinates_name
     active: dict[str, Semantic] = {normals: "normal", texcoords: "texcoord"}
-    columns = [*columns_of(mesh.point_data, "vertex", left, active), *columns_of(cells, "face", left)]
+    columns = [*columns_of(mesh.point_data, "vertex", losses, active), *columns_of(cells, "face", losses)]
     metadata, others = plain_fields(mesh.field_data)
-    found = _of_polygons(mesh.points, *_split(np.array(mesh.faces, np.int64)), columns)
-    return replace(found, dropped=(*left, *(f"field data {name}" for name in others)), metadata=metadata)
+    polygons = _of_polygons(mesh.points, *_split(np.array(mesh.faces, np.int64)), columns)
+    return replace(polygons, dropped=(*losses, *(f"field data {name}" for name in others)), metadata=metadata)
 
 
 def _of_open3d(mesh: Any) -> Polygons:
@@ -166,9 +166,9 @@ def _of_open3d(mesh: Any) -> Polygons:
     )
     if (materials := np.asarray(mesh.triangle_material_ids)).size:
         columns.append(Column("material", materials.reshape(-1, 1), "face"))
-    left, faces = ("textures",) if len(getattr(mesh, "textures", ())) else (), np.asarray(mesh.triangles)
-    found = _of_polygons(mesh.vertices, np.full(len(faces), 3), faces.reshape(-1), columns)
-    return replace(found, dropped=left)
+    losses, faces = ("textures",) if len(getattr(mesh, "textures", ())) else (), np.asarray(mesh.triangles)
+    polygons = _of_polygons(mesh.vertices, np.full(len(faces), 3), faces.reshape(-1), columns)
+    return replace(polygons, dropped=losses)
 
 
 def _of_openmesh(mesh: Any) -> Polygons:

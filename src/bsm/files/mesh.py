@@ -109,22 +109,24 @@ def read_cut(
     source: Source, file_format: str | None, limits: Limits, cut: Cut | None, *, isolated: bool | None = None
 ) -> MeshFile:
     """Read a mesh file as `read_mesh` does, with a function that cuts its polygons."""
-    given, limits = as_input(source), as_limits(limits)
-    kind = kind_of(given, file_format)
+    input_source, limits = as_input(source), as_limits(limits)
+    kind = kind_of(input_source, file_format)
     if is_apart((kind,), limits, isolated):
-        found: MeshFile = by_name("bsm.files.isolation", "read_isolated")(given, file_format, limits, kind)
-        return found
-    path, name = (given.name if given.is_file else None), given.name
+        isolated_mesh: MeshFile = by_name("bsm.files.isolation", "read_isolated")(
+            input_source, file_format, limits, kind
+        )
+        return isolated_mesh
+    path, name = (input_source.name if input_source.is_file else None), input_source.name
     folder = Path(path).parent if path else None
     if kind in FORMATS and FORMATS[kind].apart:
         # These libraries open a file by its name themselves, often several times; they know no gzip.
-        if path is None or given.peek(2) == b"\x1f\x8b":
+        if path is None or input_source.peek(2) == b"\x1f\x8b":
             raise FormatError(f".{kind} files are read from an uncompressed file with a name")
         surface, times = by_name("bsm.files.apart", "surface_of")(path, kind, limits, here=isolated is False)
         later = (f"later steps ({len(times) - 1})",) * bool(times[1:])
         still: Polygons = replace(surface, dropped=(*surface.dropped, *later))
         return still.checked(limits, os.path.getsize(path), cut)
-    data = given.read_all()
+    data = input_source.read_all()
     if data.startswith(b"\x1f\x8b"):
         path, name, data = None, name.removesuffix(".gz"), gunzipped(data, limits)
     data = plain_text(data)
@@ -135,9 +137,9 @@ def read_cut(
     kind = _kind(name, data, file_format)
     row = FORMATS.get(kind)
     # A reader's error about line 1 would say less.
-    other = other_kind(data, kind) if row is not None and row.namesakes else ""
-    if other and (kind, other) != ("glb", "JSON"):
-        raise FormatError(f"this is {other}, not .{kind}; give it the right name, or name its format")
+    other_format = other_kind(data, kind) if row is not None and row.namesakes else ""
+    if other_format and (kind, other_format) != ("glb", "JSON"):
+        raise FormatError(f"this is {other_format}, not .{kind}; give it the right name, or name its format")
     if row is None or not row.reader or (kind in USD_FORMATS and not path):
         way = next((way for kinds, way in _FOREIGN.items() if kind in kinds), _WAY)
         raise FormatError(f"{f'.{kind}' if kind else 'this'} is not a mesh format that is known here: {way}")
@@ -155,10 +157,10 @@ def read_cut(
     return polygons.checked(limits, len(data), cut)
 
 
-def kind_of(given: Input, file_format: str | None) -> str:
+def kind_of(source: Input, file_format: str | None) -> str:
     """The format of a file, by its name, or else by its first bytes; "" if they do not tell."""
-    head = given.peek(_HEAD if given.is_file else _ALL)
-    name = given.name.removesuffix(".gz") if head.startswith(b"\x1f\x8b") else given.name
+    head = source.peek(_HEAD if source.is_file else _ALL)
+    name = source.name.removesuffix(".gz") if head.startswith(b"\x1f\x8b") else source.name
     return _kind(name, plain_text(head), file_format)
 
 
@@ -194,9 +196,9 @@ def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[s
 def unheard(metadata: Metadata, file_format: str) -> str:
     """Return the unit and the axis of a mesh that other programs do not learn from a format, in words."""
     unit, up = str(metadata.get("unit", "")), str(metadata.get("up", "")).lower()
-    said = [f"the unit ({unit})"] if FORMATS[file_format].own_unit and metres(unit) not in (None, 1.0) else []
-    said += [f"the upward axis ({up})"] if file_format == "obj" and up in ("x", "z") else []
-    return " and ".join(said)
+    statements = [f"the unit ({unit})"] if FORMATS[file_format].own_unit and metres(unit) not in (None, 1.0) else []
+    statements += [f"the upward axis ({up})"] if file_format == "obj" and up in ("x", "z") else []
+    return " and ".join(statements)
 
 
 def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: bool = True) -> tuple[str, ...]:
@@ -225,8 +227,8 @@ def parts_of(path: str, metadata: Metadata) -> dict[str, Path | None]:
     beside = Beside(Path(path).resolve().parent, Limits())
     # Images may lie beside the library of materials that names them, and not beside the mesh.
     folders = ["", *(f"{folder}/" for line in libraries if (folder := line.replace("\\", "/").rpartition("/")[0]))]
-    found = {name: [beside.find(folder + name) for folder in folders] for name in filter(None, names)}
-    return {name: next((part for part in parts if isinstance(part, Path)), None) for name, parts in found.items()}
+    paths = {name: [beside.find(folder + name) for folder in folders] for name in filter(None, names)}
+    return {name: next((part for part in parts if isinstance(part, Path)), None) for name, parts in paths.items()}
 
 
 def size_with_parts(path: str, metadata: Metadata) -> tuple[int | None, dict[str, int]]:

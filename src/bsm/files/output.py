@@ -104,14 +104,17 @@ def _in_its_folder(target: Path, follow: bool | str) -> Iterator[Path]:
         yield target
         return
     way = os.path.relpath(target.parent, follow).split("/")
-    held = os.open(follow, os.O_RDONLY | os.O_DIRECTORY)
+    folder_number = os.open(follow, os.O_RDONLY | os.O_DIRECTORY)
     try:
         for name in way:
-            outer, held = held, os.open(name, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW, dir_fd=held)
+            outer, folder_number = (
+                folder_number,
+                os.open(name, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW, dir_fd=folder_number),
+            )
             os.close(outer)
-        yield Path(_HELD, str(held), target.name)
+        yield Path(_HELD, str(folder_number), target.name)
     finally:
-        os.close(held)
+        os.close(folder_number)
 
 
 def write_output(path: str | os.PathLike[str], data: bytes, *, overwrite: bool, follow: bool | str = True) -> None:
@@ -161,16 +164,16 @@ def own_name(path: str) -> str:
 def refuse_collisions(inputs: Iterable[str], outputs: Iterable[str]) -> None:
     """Raise `OptionError` if an output would replace an input or another output, under whatever name or link."""
     names = [own_name(output) for output in outputs if output]
-    taken = {_identity(file) for name in map(own_name, inputs) for file in pipes.files_behind(name)} - {None}
-    found: set[object] = set()
+    input_identities = {_identity(file) for name in map(own_name, inputs) for file in pipes.files_behind(name)} - {None}
+    output_identities: set[object] = set()
     for output in names:
         identity = _identity(output)
-        if identity in taken:
+        if identity in input_identities:
             raise OptionError(f"the output would replace the input {output}; name another with -o")
         for key in {identity, _place(output)} - {None}:
-            if key in found:
+            if key in output_identities:
                 raise OptionError(f"two outputs would have the name {output}; give each a name of its own")
-            found.add(key)
+            output_identities.add(key)
 
 
 def _identity(path: str) -> tuple[int, int] | str | None:
@@ -178,8 +181,8 @@ def _identity(path: str) -> tuple[int, int] | str | None:
     if pipes.is_url(path):
         return path
     with suppress(OSError):
-        found = os.stat(path)
-        return (found.st_dev, found.st_ino) if stat.S_ISREG(found.st_mode) else None
+        status = os.stat(path)
+        return (status.st_dev, status.st_ino) if stat.S_ISREG(status.st_mode) else None
     return None
 
 
@@ -301,10 +304,10 @@ def default_output(path: str, suffix: str) -> str:
     if path == "-":
         return "-"
     output = _with_suffix(path, suffix)
-    found = pipes.beside(path, output.name) if pipes.is_url(path) else str(output)
-    if found == path or (not pipes.is_url(path) and output == Path(path)):
+    output_path = pipes.beside(path, output.name) if pipes.is_url(path) else str(output)
+    if output_path == path or (not pipes.is_url(path) and output == Path(path)):
         raise OptionError(f"the output would replace the input {path}; name another with -o")
-    return no_link(found)
+    return no_link(output_path)
 
 
 def output_inside(folder: str, path: str, suffix: str) -> str:

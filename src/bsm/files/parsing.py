@@ -94,11 +94,11 @@ def ranges(starts: Ints, sizes: Ints) -> Ints:
 
 def as_integers(values: npt.NDArray[Any], what: str) -> Ints:
     # Up to here every whole number is a double; beyond, neighbours fall on one, and the index would be a guess.
-    whole = np.abs(values) < 2**53
+    in_range = np.abs(values) < 2**53
     if values.dtype.kind == "f":
-        whole &= values == np.rint(values)
-    if not whole.all():
-        raise MeshError(f"{what} is {values[np.argmin(whole)]}, not a whole number")
+        in_range &= values == np.rint(values)
+    if not in_range.all():
+        raise MeshError(f"{what} is {values[np.argmin(in_range)]}, not a whole number")
     return values.astype(np.int64)
 
 
@@ -114,7 +114,7 @@ def continued(data: bytes) -> bytes:
     """Text whose lines that end with a backslash are joined to the next; comments are not continued."""
     if b"\\" not in data:
         return data
-    return re.sub(rb"^([ \t]*#[^\r\n]*)|\\[ \t]*\r?\n", lambda found: found[1] or b" ", data, flags=re.M)
+    return re.sub(rb"^([ \t]*#[^\r\n]*)|\\[ \t]*\r?\n", lambda match: match[1] or b" ", data, flags=re.M)
 
 
 def require_lines(present: int, claimed: int) -> None:
@@ -192,8 +192,8 @@ def in_words(error: Exception) -> str:
     ours = isinstance(error, LookupError | TypeError | AttributeError | ArithmeticError | AssertionError) or not words
     # Such a text describes our program, not the file. The line that failed helps in a bug report.
     if ours or _OF_PYTHON.search(words):
-        own = [at for at in walk_tb(error.__traceback__) if at[0].f_code.co_filename.startswith(_PACKAGE)]
-        place = "".join(f" ({Path(frame.f_code.co_filename).name}, line {line})" for frame, line in own[-1:])
+        own_frames = [at for at in walk_tb(error.__traceback__) if at[0].f_code.co_filename.startswith(_PACKAGE)]
+        place = "".join(f" ({Path(frame.f_code.co_filename).name}, line {line})" for frame, line in own_frames[-1:])
         return f"a value does not fit the others, or is of another kind than it must be{place}"
     return words
 
@@ -223,15 +223,15 @@ def as_library_error(library: str, what: str = "this file") -> Iterator[None]:
 
 def gunzipped(data: bytes, limits: Limits) -> bytes:
     """What gzip has compressed, in one member or several."""
-    found = bytearray()
+    unpacked = bytearray()
     try:
         # gzip.decompress would inflate all before its size can be judged; a few kilobytes may become gigabytes.
         with gzip.open(io.BytesIO(data[: len(data.rstrip(b"\0")) + _ENDING])) as file:
             while piece := file.read(_PIECE):
-                found += piece
-                require_inflated(2 * len(found), len(data), limits)  # these, and a copy of them
+                unpacked += piece
+                require_inflated(2 * len(unpacked), len(data), limits)  # these, and a copy of them
     except EOFError as error:
         raise TruncatedError("the file is cut short: what gzip has compressed does not end") from error
     except (OSError, zlib.error) as error:
         raise CorruptError(f"what gzip has compressed is damaged: {error}") from error
-    return bytes(found)
+    return bytes(unpacked)

@@ -24,16 +24,16 @@ def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress, limit
     """Decode the first `count` blocks, read no further, and return the faces whose vertices have all arrived."""
     if count < 1:
         raise OptionError("at least one block must be decoded")
-    wanted, done = count, 0
+    most_blocks, blocks_done = count, 0
 
     def enough(event: Any) -> bool:
-        nonlocal wanted, done
+        nonlocal most_blocks, blocks_done
         if isinstance(event, HeaderEvent):
-            wanted = count if event.header.grid else min(count, event.header.blocks)
+            most_blocks = count if event.header.grid else min(count, event.header.blocks)
         elif isinstance(event, BlockEvent):
-            done += 1
-            progress(done, wanted)
-        return done == wanted or isinstance(event, EndEvent)
+            blocks_done += 1
+            progress(blocks_done, most_blocks)
+        return blocks_done == most_blocks or isinstance(event, EndEvent)
 
     return _decode_until(Decoder(limits), chunks, enough)
 
@@ -128,20 +128,24 @@ def _lost_kinds(section: Section, mesh: TriangleMesh) -> set[str]:
 def _decode_until(decoder: Decoder, chunks: Iterator[bytes], enough: Callable[[Any], bool]) -> TriangleMesh:
     """Decode until an event is enough, or to the end; the faces whose vertices have all arrived."""
     faces: Faces = np.empty((0, 3), np.int32)
-    positions, known = np.empty((0, 3)), np.empty(0, np.bool_)
+    positions, is_known = np.empty((0, 3)), np.empty(0, np.bool_)
     with decoder:
         for event in decoder.events(chunks):
             match event:
                 case ConnectivityEvent(faces, vertices):
-                    positions, known = np.zeros((vertices, 3)), np.zeros(vertices, np.bool_)
+                    positions, is_known = np.zeros((vertices, 3)), np.zeros(vertices, np.bool_)
                 case BlockEvent() | RefinementEvent():
                     positions[event.vertices] = event.positions
-                    known[event.vertices] = True
+                    is_known[event.vertices] = True
             if enough(event):
                 break
         # Faces at the edge of what has come would reach to the origin, where vertices lie that have not.
-        complete = np.flatnonzero(known[faces].all(axis=1))
+        complete = np.flatnonzero(is_known[faces].all(axis=1))
         if len(complete) == 0:
             raise MeshError("no face is complete in the blocks that are there")
-        taken = tuple(attribute.taken(np.arange(len(known)), complete) for attribute in decoder.attributes)
-        return TriangleMesh(positions, faces[complete], taken, decoder.metadata).without_isolated_vertices()[0]
+        known_attributes = tuple(
+            attribute.taken(np.arange(len(is_known)), complete) for attribute in decoder.attributes
+        )
+        return TriangleMesh(positions, faces[complete], known_attributes, decoder.metadata).without_isolated_vertices()[
+            0
+        ]

@@ -91,10 +91,10 @@ def expanded(url: str) -> list[str]:
         return [url]
     with _errors_of(url):
         files, path = _system(url)
-        found = sorted(files.unstrip_protocol(name) for name in files.glob(path))
-    if not found:
+        names = sorted(files.unstrip_protocol(name) for name in files.glob(path))
+    if not names:
         raise FileNotFoundError(errno.ENOENT, "no such file", url)
-    return found
+    return names
 
 
 @contextmanager
@@ -138,28 +138,28 @@ def open_remote_output(url: str, *, overwrite: bool) -> Iterator[BinaryIO]:
     """Open a file for writing that appears only when the `with` block has ended well."""
     refuse_to_replace(url, overwrite)
     # Not straight to the server: encoding may still fail, and few servers can take back what has come.
-    with tempfile.SpooledTemporaryFile(_IN_MEMORY) as whole:
-        yield cast(BinaryIO, whole)
-        whole.seek(0)
+    with tempfile.SpooledTemporaryFile(_IN_MEMORY) as spool:
+        yield cast(BinaryIO, spool)
+        spool.seek(0)
         with _errors_of(url):
-            _send(cast(BinaryIO, whole), url)
+            _send(cast(BinaryIO, spool), url)
 
 
-def _send(whole: BinaryIO, url: str) -> None:
+def _send(contents: BinaryIO, url: str) -> None:
     """Write a file; where file systems can, nothing of it is seen before all of it is there."""
     files, path = _system(url)
     there = files.exists(path)
     file = files.open(path, "wb", autocommit=False)
     # Some file systems show a file as soon as it is opened: then it is ours, and none before.
-    shown = not there and files.exists(path)
+    is_new = not there and files.exists(path)
     try:
-        shutil.copyfileobj(whole, file, _PIECE)
+        shutil.copyfileobj(contents, file, _PIECE)
         file.close()
         file.commit()
     except BaseException:
         with suppress(Exception):
             file.discard()
-        if shown:
+        if is_new:
             with suppress(Exception):
                 files.rm_file(path)
         raise
@@ -282,8 +282,8 @@ class Input:
 
     def read(self, size: int = _MAX_BYTES) -> bytes:
         self._hold(size)
-        taken, self._held = self._held[:size], self._held[size:]
-        return taken
+        data, self._held = self._held[:size], self._held[size:]
+        return data
 
     def read_all(self) -> bytes:
         with closing(self):
@@ -293,11 +293,11 @@ class Input:
         return data
 
     def _hold(self, size: int) -> None:
-        pieces, held = [self._held], len(self._held)
+        pieces, size_held = [self._held], len(self._held)
         most = min(size, _MAX_BYTES + 1)  # `read_all` refuses more
-        while held < most and (piece := self._receive()):
+        while size_held < most and (piece := self._receive()):
             pieces.append(piece)
-            held += len(piece)
+            size_held += len(piece)
         self._held = b"".join(pieces)
 
     def _receive(self) -> bytes:
@@ -403,32 +403,32 @@ def files_behind(path: str) -> Iterator[str]:
 
 def state_of(path: str) -> State | None:
     """Return sizes and times of the files of an input or output; None if unknown."""
-    found: State = []
+    state: State = []
     for file in files_behind(path):
         if is_url(file):
             size, version = state_of_remote(file) or (None, "")
             if not version:
                 return None
-            found.append([file, size, version])
+            state.append([file, size, version])
         elif os.path.isfile(file):
             about = os.stat(file)
             # As a text, like the versions of URLs: readers of JSON that hold numbers as doubles lose the last digits of
             # nanoseconds.
-            found.append([file, about.st_size, str(about.st_mtime_ns)])
-    return found or None
+            state.append([file, about.st_size, str(about.st_mtime_ns)])
+    return state or None
 
 
 def digest_of(path: str) -> str | None:
     from hashlib import sha256
 
-    found = sha256()
+    digest = sha256()
     try:
         for file in files_behind(path):
             for chunk in read_chunks(file):
-                found.update(chunk)
+                digest.update(chunk)
     except OSError:
         return None
-    return found.hexdigest()
+    return digest.hexdigest()
 
 
 def size_of(path: str) -> int | None:

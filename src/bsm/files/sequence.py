@@ -48,7 +48,7 @@ ZIP = b"PK\x03\x04"
 def open_sequence(
     source: Source,
     file_format: str | None = None,
-    wanted: Wanted | None = None,
+    request: Wanted | None = None,
     limits: Limits = DEFAULT_LIMITS,
     *,
     isolated: bool | None = None,
@@ -57,51 +57,53 @@ def open_sequence(
     # A look at a pipe must not consume bytes: the reader of the mesh needs all of them.
     if is_pipe(source) and file_format != "npy":
         return None
-    given, asked = as_input(source), wanted or Wanted()
-    if not is_url(given.name) and folder.names_many(given.name):
-        names = folder.frame_files(given.name, follow=not is_apart((), limits, isolated))
-        return open_frames(names, file_format, limits, asked, isolated=isolated)
-    kind = file_format or Path(given.name).suffix[1:].lower()
+    input_source, wishes = as_input(source), request or Wanted()
+    if not is_url(input_source.name) and folder.names_many(input_source.name):
+        names = folder.frame_files(input_source.name, follow=not is_apart((), limits, isolated))
+        return open_frames(names, file_format, limits, wishes, isolated=isolated)
+    kind = file_format or Path(input_source.name).suffix[1:].lower()
     if kind == "abc":
         raise UnsupportedError("Alembic is not read here: export it from Blender as USD, or with the extension for BSM")
-    if kind in folder.LISTS and given.is_file:
+    if kind in folder.LISTS and input_source.is_file:
         if is_apart((), limits, isolated) and landlock.lack() is None:
-            listed: Frames = by_name(*_ISOLATED)(given, file_format, limits, kind, wanted)
+            listed: Frames = by_name(*_ISOLATED)(input_source, file_format, limits, kind, request)
             return listed
-        names, times, parts = folder.listed(given.name, kind, limits)
-        return open_frames(names, None, limits, replace(asked, times=times, parts=parts), isolated=isolated)
-    moves = kind in SEQUENCES_READ and kind not in ("npz", "npy") and (kind not in GLTF or wanted is not None)
-    head = b"" if moves else given.peek(len(NPY))
+        names, times, parts = folder.listed(input_source.name, kind, limits)
+        return open_frames(names, None, limits, replace(wishes, times=times, parts=parts), isolated=isolated)
+    moves = kind in SEQUENCES_READ and kind not in ("npz", "npy") and (kind not in GLTF or request is not None)
+    head = b"" if moves else input_source.peek(len(NPY))
     piped = head == NPY or file_format == "npy"
     packed = head.startswith(ZIP) and (file_format is not None or kind in ("", "npz"))  # a 3MF is a ZIP, too
-    if not (given.is_file if moves else file_format in (None, "npz", "npy") and (piped or packed)):
+    if not (input_source.is_file if moves else file_format in (None, "npz", "npy") and (piped or packed)):
         return None
     if is_apart((kind if moves else "npz",), limits, isolated):
-        found: Frames | None = by_name(*_ISOLATED)(given, file_format, limits, kind, wanted)
+        isolated_frames: Frames | None = by_name(*_ISOLATED)(input_source, file_format, limits, kind, request)
     elif kind in CACHES:
-        found = read_cache(given.name, kind, asked, limits)
+        isolated_frames = read_cache(input_source.name, kind, wishes, limits)
     elif moves and FORMATS[kind].apart:
-        found = by_name("bsm.files.apart", "frames_of")(given.name, kind, asked, limits, here=isolated is False)
+        isolated_frames = by_name("bsm.files.apart", "frames_of")(
+            input_source.name, kind, wishes, limits, here=isolated is False
+        )
     elif moves:
         row = FORMATS[kind]
-        found = by_name(row.modules[0], row.reader.removesuffix("_mesh"))(given.name, asked, limits)
+        isolated_frames = by_name(row.modules[0], row.reader.removesuffix("_mesh"))(input_source.name, wishes, limits)
     else:
-        found = read_pipe(given, limits) if piped else read_archive(given, limits)
-    return found
+        isolated_frames = read_pipe(input_source, limits) if piped else read_archive(input_source, limits)
+    return isolated_frames
 
 
 def open_frames(
-    names: Sequence[str], file_format: str | None, limits: Limits, wanted: Wanted, *, isolated: bool | None
+    names: Sequence[str], file_format: str | None, limits: Limits, request: Wanted, *, isolated: bool | None
 ) -> Frames:
     """The sequence of these mesh files by their times or numbers; errors as of `open_sequence`."""
-    ordered = list(names) if wanted.times else folder.in_order(names)
+    ordered = list(names) if request.times else folder.in_order(names)
     kinds = [kind_of(Input(name), file_format) for name in ordered]
     if is_apart(kinds, limits, isolated):
         paths = [os.path.abspath(name) for name in ordered]
-        frames: Frames = by_name(*_ISOLATED)(paths, file_format, limits, kinds[0], wanted)
+        frames: Frames = by_name(*_ISOLATED)(paths, file_format, limits, kinds[0], request)
         return frames
     # Lists of ParaView may name several files for one time, the parts of one mesh.
-    ends = np.cumsum(wanted.parts or [1] * len(ordered)).tolist()
+    ends = np.cumsum(request.parts or [1] * len(ordered)).tolist()
     groups = [ordered[begin:end] for begin, end in zip([0, *ends], ends, strict=False)]
     by_label = {", ".join(group): group for group in groups}
     # One for each place in a group: polygons of later frames must be cut along the diagonals of the first, or faces
@@ -113,7 +115,7 @@ def open_frames(
         files = [read_cut(name, file_format, limits, cut, isolated=isolated) for name, cut in zip(group, cuts)]
         return joined_files(files, group, limits)
 
-    return folder.read_files([", ".join(group) for group in groups], read, wanted)
+    return folder.read_files([", ".join(group) for group in groups], read, request)
 
 
 def _files_of_frames(path: str) -> Iterable[str]:
@@ -128,13 +130,13 @@ def size_of_sequence(paths: Sequence[str], metadata: Metadata, mesh: str | None 
         return size_of(paths[0])
     if any(size_of(path) is None for path in paths if not folder.names_many(path)):
         return None
-    found: list[str] = []
+    file_names: list[str] = []
     for path in (file for name in paths for file in _files_of_frames(name)):
         kind = Path(path).suffix[1:].lower()
-        found += [path, *(folder.listed(path, kind, DEFAULT_LIMITS)[0] if kind in folder.LISTS else ())]
-        found += [mesh or mesh_beside(path)] if kind in CACHES else []
-    named = parts_of(found[-1] if len(found) > 1 else found[0], metadata) if found else {}
-    files = {os.path.realpath(str(file)) for file in (*found, *filter(None, named.values()))}
+        file_names += [path, *(folder.listed(path, kind, DEFAULT_LIMITS)[0] if kind in folder.LISTS else ())]
+        file_names += [mesh or mesh_beside(path)] if kind in CACHES else []
+    parts_named = parts_of(file_names[-1] if len(file_names) > 1 else file_names[0], metadata) if file_names else {}
+    files = {os.path.realpath(str(file)) for file in (*file_names, *filter(None, parts_named.values()))}
     return sum(os.path.getsize(file) for file in files if os.path.isfile(file)) or None
 
 
@@ -183,8 +185,8 @@ def _of_files(
 ) -> FrameWriter:
     """A writer of a file for each frame; materials and images lie beside the first one alone."""
     numbered, numbers, fresh = shared.numbered, count_from(0), True
-    held = FORMATS[kind].times if kind == "vtp" or (numbered and kind != "glb") else frozenset()
-    frames = replace(shared, held=held)
+    times_held = FORMATS[kind].times if kind == "vtp" or (numbered and kind != "glb") else frozenset()
+    frames = replace(shared, held=times_held)
 
     def take(frame: Positions, faces: Faces | None = None) -> None:
         nonlocal present, fresh
@@ -242,7 +244,7 @@ def _cache_writer(
     """A cache, and beside it the mesh of its first frame; where faces change, both for each run, by its first frame."""
     refuse_to_overwrite(path, overwrite)
     refuse_to_overwrite(mesh_of(path), overwrite or _plays(mesh_of(path), first))
-    meshes, begun, taken = list[TriangleMesh](), 0, 0
+    meshes, begun, frames_taken = list[TriangleMesh](), 0, 0
     # A cache begins with the number of its frames, which is known at the end of a run only, so frames wait on the disk.
     with tempfile.TemporaryFile() as spool:
 
@@ -252,7 +254,7 @@ def _cache_writer(
             fits = _plays(beside, mesh.faces)
             refuse_to_overwrite(beside, overwrite or fits)
             spool.seek(0)
-            codes = [shared.code(number) for number in range(begun, taken)]
+            codes = [shared.code(number) for number in range(begun, frames_taken)]
             frames = (np.frombuffer(spool.read(mesh.positions.nbytes)).reshape(-1, 3) for _ in codes)
             with open_output(name, overwrite=overwrite, follow=follow and name == path) as file:
                 write_cache(file, kind, codes, frames, shared.frame_rate)
@@ -263,32 +265,32 @@ def _cache_writer(
             spool.truncate()
 
         def take(frame: Positions, faces: Faces | None = None) -> None:
-            nonlocal begun, taken
+            nonlocal begun, frames_taken
             if meshes and faces is not None:
                 end()
-                begun = taken
-            if taken == begun:
+                begun = frames_taken
+            if frames_taken == begun:
                 meshes.append(shared.mesh(np.array(frame), first if faces is None else faces))
             spool.write(np.ascontiguousarray(frame, np.float64).tobytes())
-            taken += 1
+            frames_taken += 1
             shared.loses(f"how {attribute.name} changes" for attribute in shared.moved(anew=faces is not None))
 
         yield take
-        if count and taken != count:
-            raise CorruptError(f"{taken} of {count} frames came")
+        if count and frames_taken != count:
+            raise CorruptError(f"{frames_taken} of {count} frames came")
         end(last=True)
 
 
 def _plays(path: str, faces: Faces) -> bool:
     """Whether a mesh file is there that has these faces, in any order: it is the animator's, and stays."""
     try:
-        known = read_mesh(path).mesh.faces if os.path.isfile(path) else faces[:0]
+        mesh_faces = read_mesh(path).mesh.faces if os.path.isfile(path) else faces[:0]
     except (BsmError, OSError):
         return False
     # Faces without area were added for loose vertices, and OBJ files of animators do not have them.
-    pairs = (some[some[:, 0] != some[:, 1]] for some in (known, faces))
-    own, other = (np.unique(np.sort(some, axis=1), axis=0) for some in pairs)
-    return np.array_equal(own, other)
+    pairs = (triangles[triangles[:, 0] != triangles[:, 1]] for triangles in (mesh_faces, faces))
+    distinct_faces, other_faces = (np.unique(np.sort(triangles, axis=1), axis=0) for triangles in pairs)
+    return np.array_equal(distinct_faces, other_faces)
 
 
 def _is_folder(path: str) -> bool:

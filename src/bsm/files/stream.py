@@ -71,17 +71,17 @@ def peek_header(chunks: Iterator[bytes]) -> tuple[Header | None, Iterator[bytes]
     """The header of a stream, and all of its bytes again; None where the stream is too short or no stream at all."""
     from bsm.files.inspection import Skimmer
 
-    taken: list[bytes] = []
+    chunks_taken: list[bytes] = []
     # Wide limits, as only the header is wanted here; those of the caller hold when the bytes are decoded.
     skimmer = Skimmer(Limits.wide())
     for chunk in chunks:
-        taken.append(chunk)
+        chunks_taken.append(chunk)
         try:
             if next(skimmer.receive(chunk), None) is not None:  # the first packet of a sound stream
-                return skimmer.header, chain(taken, chunks)
+                return skimmer.header, chain(chunks_taken, chunks)
         except BsmError:  # the decoder will report it
             break
-    return None, chain(taken, chunks)
+    return None, chain(chunks_taken, chunks)
 
 
 class SequenceStream:
@@ -134,7 +134,7 @@ class SequenceStream:
         """Frames and their indices, where `faces` may change from frame to frame."""
         from bsm.codec.events import FrameEvent, LossEvent
 
-        given = False
+        yielded = False
         for event in self._events:
             match event:
                 case FrameEvent(index, positions, faces, attributes):
@@ -142,10 +142,10 @@ class SequenceStream:
                     # Identity first: faces of one run are one array, and comparing millions of them for each frame
                     # would take as long as decoding.
                     if faces is not self.faces and not np.array_equal(faces, self.faces):
-                        if given:
+                        if yielded:
                             self.run_starts.append(index)
                         self.faces = faces
-                    given = True
+                    yielded = True
                     yield index, positions
                 case LossEvent(_, error, frames):
                     assert self._note is not None

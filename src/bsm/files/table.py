@@ -155,8 +155,8 @@ def format_of_bytes(data: bytes) -> str | None:
 def other_kind(head: bytes, suffix: str) -> str:
     """Return the kind of a file whose first bytes are those of another format than its suffix; "" if they are not."""
     kinds = _FOREIGN | {row.begins: row.called for row in FORMATS.values() if row.begins and row.called}
-    found = next((called for begins, called in kinds.items() if re.match(begins, head[:1024])), "")
-    return "" if found == FORMATS[suffix].called else found
+    name = next((kind_name for begins, kind_name in kinds.items() if re.match(begins, head[:1024])), "")
+    return "" if name == FORMATS[suffix].called else name
 
 
 def by_name(module: str, function: str) -> Any:

@@ -30,31 +30,31 @@ class Taken:
         row = self._rows.get(owner, self._rows[""])
         if name in row:
             return True
-        shown = f"{value:g}" if isinstance(value, int | float) else "".join(str(value).split())
-        return f"{name}={shown}" in row or any(name[: found.end()] in row for found in re.finditer("[:_]", name))
+        text = f"{value:g}" if isinstance(value, int | float) else "".join(str(value).split())
+        return f"{name}={text}" in row or any(name[: match.end()] in row for match in re.finditer("[:_]", name))
 
-    def left(self, said: Iterable[Said]) -> list[str]:
+    def unread_names(self, names_said: Iterable[Said]) -> list[str]:
         """Return the names that are not taken, as "name of owner", of many only the first."""
-        found = dict.fromkeys(one[:2] for one in said if not self.takes(*one))
-        names = [name if owner in ("", "glTF", "extensions") else f"{name} of {owner}" for owner, name in found]
+        unread = dict.fromkeys(one[:2] for one in names_said if not self.takes(*one))
+        names = [name if owner in ("", "glTF", "extensions") else f"{name} of {owner}" for owner, name in unread]
         return names[:_MOST_NAMED] + [f"{len(names) - _MOST_NAMED} other names"] * (len(names) > _MOST_NAMED)
 
     def in_xml(self, data: bytes) -> Iterator[Said]:
         """The elements and attributes of a document, but not those below an element that is not taken."""
-        found, above = dict[tuple[str, ...], None](), [""]
+        elements, above = dict[tuple[str, ...], None](), [""]
 
         def begin(tag: str, attributes: Mapping[str, str]) -> None:
             one = (above[-1], tag.rpartition(":")[2], *attributes)
-            if one not in found and len(found) < _MOST_SHAPES:
-                found[one] = None
+            if one not in elements and len(elements) < _MOST_SHAPES:
+                elements[one] = None
             above.append(one[1])
 
         parser = expat.ParserCreate()
         parser.StartElementHandler, parser.EndElementHandler = begin, lambda _: above.pop()
         with suppress(expat.ExpatError):  # a library has read it
             parser.Parse(data, True)
-        for owner, tag, *names in found:
+        for owner, tag, *names in elements:
             if not owner or self.takes("", owner):
                 yield owner, tag, ""
-                own = (name.rpartition(":")[2] for name in names if not name.startswith("xmlns"))
-                yield from ((tag, name, "") for name in own if self.takes("", tag))
+                attribute_names = (name.rpartition(":")[2] for name in names if not name.startswith("xmlns"))
+                yield from ((tag, name, "") for name in attribute_names if self.takes("", tag))

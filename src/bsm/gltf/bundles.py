@@ -107,11 +107,11 @@ def _joined(
     DEFAULT_LIMITS.check_memory(gltf.PER_NUMBER * sum(map(document.claimed, indexes)), 0, document.received)
     begins, parts, faces, count = dict[str, int](), list[dict[str, Array]](), list[npt.NDArray[np.int64]](), 0
     for key, arrays in combined.items():  # each combination of accessors is made once
-        if isinstance(found := _vertices(document, arrays), str):
-            return found
-        parts.append(found)
+        if isinstance(arrays_or_reason := _vertices(document, arrays), str):
+            return arrays_or_reason
+        parts.append(arrays_or_reason)
         begins[key] = count
-        count += len(found["POSITION"])
+        count += len(arrays_or_reason["POSITION"])
     for primitive in primitives:
         triangles = gltf.triangles_of(document, primitive, document.count(primitive["attributes"]["POSITION"]))
         if not len(triangles):
@@ -119,8 +119,8 @@ def _joined(
         faces.append(triangles + begins[str(sorted(arrays_of(primitive).items()))])
     # Vertices that no face uses are not drawn, and not sent.
     used, corners = np.unique(np.concatenate(faces), return_inverse=True)
-    whole = {name: np.concatenate([part[name] for part in parts])[used] for name in parts[0]}
-    return whole, corners.reshape(-1, 3), list(map(len, faces))
+    combined_arrays = {name: np.concatenate([part[name] for part in parts])[used] for name in parts[0]}
+    return combined_arrays, corners.reshape(-1, 3), list(map(len, faces))
 
 
 def _vertices(document: gltf.Document, indexes: Mapping[str, int]) -> dict[str, Array] | str:
@@ -207,8 +207,12 @@ def _carried(name: str, array: Array, normalized: bool) -> tuple[Attribute, int,
         return f"{name} has numbers that are not finite"
     if name in _SEMANTICS and is_float:
         semantic, width = _SEMANTICS[name]
-        found = Attribute(name, array, "vertex", semantic) if array.shape[1] == width else None
-        return (found, FLOAT, False) if found else f"{name} has {array.shape[1]} numbers for each vertex, not {width}"
+        attribute = Attribute(name, array, "vertex", semantic) if array.shape[1] == width else None
+        return (
+            (attribute, FLOAT, False)
+            if attribute
+            else f"{name} has {array.shape[1]} numbers for each vertex, not {width}"
+        )
     if name == "COLOR_0":
         if (is_float and (array.min() < 0 or array.max() > 1)) or not (is_float or array.dtype.kind == "u"):
             return "COLOR_0 has numbers that are not between 0 and 1"
@@ -236,16 +240,16 @@ class BundleStream:
     notes: tuple[str, ...]
 
 
-def code_bundle(found: Carried | str, pieces: int, options: Mapping[str, Any]) -> BundleStream | str:
-    if isinstance(found, str):
-        return found
-    names = {"*", *(attribute.name for attribute in found.mesh.attributes)}
-    asked = {name: quality for name, quality in options.get("attributes", {}).items() if name in names}
-    qualities = {} if "*" in asked else found.qualities
-    order = {"keep_order": True} if found.opens else {}
+def code_bundle(mesh_or_reason: Carried | str, pieces: int, options: Mapping[str, Any]) -> BundleStream | str:
+    if isinstance(mesh_or_reason, str):
+        return mesh_or_reason
+    names = {"*", *(attribute.name for attribute in mesh_or_reason.mesh.attributes)}
+    qualities_asked = {name: quality for name, quality in options.get("attributes", {}).items() if name in names}
+    qualities = {} if "*" in qualities_asked else mesh_or_reason.qualities
+    order = {"keep_order": True} if mesh_or_reason.opens else {}
     try:
-        given = {"threads": 1, **options, **order, "attributes": {**qualities, **asked}}
-        coded = given_part(found.mesh, **given).encode(Progress(""))
+        part_options = {"threads": 1, **options, **order, "attributes": {**qualities, **qualities_asked}}
+        coded = given_part(mesh_or_reason.mesh, **part_options).encode(Progress(""))
         encoder, stream = coded.encoder, b"".join(coded.attempt.frames)
         decoded = decode(stream)
     # One primitive that cannot be coded stays as it is; the scene does not fail for it.
@@ -255,8 +259,8 @@ def code_bundle(found: Carried | str, pieces: int, options: Mapping[str, Any]) -
     if len(shape.pieces) != pieces:
         return "no face has an area"
     # Measured on what decoders give, so that the figure of the command is that of `bsm compare`.
-    off = error_of(found.mesh.positions[encoder.vertex_order], decoded)
-    accessors = {name: found.accessors[name] for name in shape.arrays}
+    off = error_of(mesh_or_reason.mesh.positions[encoder.vertex_order], decoded)
+    accessors = {name: mesh_or_reason.accessors[name] for name in shape.arrays}
     if len(shape.index) >= _SHORT and shape.index.max() < 65535:
         accessors["indices"] = (COMPONENTS["uint16"], False)
     return BundleStream(stream, shape, accessors, off, encoder.losses)
@@ -266,22 +270,22 @@ def accessors_of(primitive: Tree) -> dict[str, int]:
     return arrays_of(primitive) | ({"": primitive["indices"]} if "indices" in primitive else {})
 
 
-def bundles_of(document: gltf.Document, tree: Tree, left: Counter[str]) -> list[Bundle]:
+def bundles_of(document: gltf.Document, tree: Tree, reasons: Counter[str]) -> list[Bundle]:
     """The primitives of a tree that can be coded, each in one bundle; `left` counts why others are not."""
-    known: dict[str, list[Tree]] = {}
+    primitives_by_key: dict[str, list[Tree]] = {}
     bundles: list[Bundle] = []
     for mesh in tree.get("meshes", []):
         alike: dict[str, Bundle] = {}
         for primitive in mesh["primitives"]:
             if why := _why_left(document, mesh, primitive):
-                left[why] += 1
+                reasons[why] += 1
                 continue
             key = str((sorted(accessors_of(primitive).items()), primitive.get("mode")))
             # Two primitives of the same accessors are one set of triangles with two materials, and are coded once.
-            if key not in known:
-                known[key] = []
-                alike.setdefault(like(document, primitive), []).append(known[key])
-            known[key].append(primitive)
+            if key not in primitives_by_key:
+                primitives_by_key[key] = []
+                alike.setdefault(like(document, primitive), []).append(primitives_by_key[key])
+            primitives_by_key[key].append(primitive)
         bundles += alike.values()
     return bundles
 
@@ -299,14 +303,14 @@ def _why_left(document: gltf.Document, mesh: Tree, primitive: Tree) -> str | Non
     if primitive.get("mode", TRIANGLES) not in TRIANGULAR:
         return "points or lines"
     accessors = [document.item("accessors", index) for index in accessors_of(primitive).values()]
-    named = [name for name in mesh.get("extensions", {}) if not OF_LOOKS.fullmatch(name)]
-    named += [name for entry in accessors for name in entry.get("extensions", {})]
-    named += [name for name in primitive.get("extensions", {}) if name not in _KNOWN]
+    unknown_names = [name for name in mesh.get("extensions", {}) if not OF_LOOKS.fullmatch(name)]
+    unknown_names += [name for entry in accessors for name in entry.get("extensions", {})]
+    unknown_names += [name for name in primitive.get("extensions", {}) if name not in _KNOWN]
     features = primitive.get("extensions", {}).get("EXT_mesh_features", {}).get("featureIds", [])
-    named += ["EXT_mesh_features" for entry in features if not {"attribute", "texture"} & entry.keys()]
-    if named:
+    unknown_names += ["EXT_mesh_features" for entry in features if not {"attribute", "texture"} & entry.keys()]
+    if unknown_names:
         # A stream orders vertices anew. An extension that counts on their old numbers would point to others.
-        return f"{named[0]} may name vertices"
+        return f"{unknown_names[0]} may name vertices"
     views = (document.item("bufferViews", entry["bufferView"]) for entry in accessors if "bufferView" in entry)
     packed = [name for view in views for name in sorted(document.unread_in(view))]
     return f"{packed[0]} may hold other bytes" if packed else None

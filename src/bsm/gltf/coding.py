@@ -48,12 +48,12 @@ class Drawn:
 
 def drawn(mesh: TriangleMesh) -> Drawn:
     """Draw as the extension defines: a vertex for each vertex and values of attributes that meet at a corner."""
-    named = {a.name: a.values[:, 0] for a in mesh.attributes if a.name == PIECE and a.domain == "face"}
-    labels = named.get(PIECE, np.zeros(len(mesh.faces), np.int64))
+    labels_by_name = {a.name: a.values[:, 0] for a in mesh.attributes if a.name == PIECE and a.domain == "face"}
+    labels = labels_by_name.get(PIECE, np.zeros(len(mesh.faces), np.int64))
     # Primitives are parts of the index list, so faces of one material must follow each other.
     order = np.argsort(labels, kind="stable")
     corners = mesh.faces[order].ravel()
-    attributes = [a for a in mesh.attributes if a.name not in named]
+    attributes = [a for a in mesh.attributes if a.name not in labels_by_name]
     parting = {a.name: a.indices[order].ravel() for a in attributes if a.indices is not None}
     vertices: npt.NDArray[np.integer[Any]] = np.arange(len(mesh.positions))
     rows: npt.NDArray[np.integer[Any]] = corners
@@ -75,19 +75,19 @@ def stored(name: str, values: Array, component: int) -> Array:
     return (shares_of(values) if of_color else values).astype(KINDS[component])
 
 
-def array_of(found: tuple[TriangleMesh, Drawn], name: str, component: int | None) -> Array:
+def array_of(decoded: tuple[TriangleMesh, Drawn], name: str, component: int | None) -> Array:
     """The array of a stream that the extension calls so."""
-    mesh, shape = found
+    mesh, shape = decoded
     semantic, place = _SEMANTICS.get(name, ("", 0))
     alike = [a.name for a in mesh.attributes if a.semantic == semantic]
-    held = name if name in shape.arrays or place >= len(alike) else alike[place]
+    array_name = name if name in shape.arrays or place >= len(alike) else alike[place]
     if name == "indices":
         return stored(name, shape.index, component or UINT)
-    if held not in shape.arrays:
+    if array_name not in shape.arrays:
         raise FormatError(f"a stream of this glTF has no {name[:80]}")
-    values = shape.arrays[held]
+    values = shape.arrays[array_name]
     # In glTF, colors of vertices are linear; meshes have them in sRGB, as all other formats do.
-    if name == "COLOR_0" != held:  # a stream of a mesh has colors in sRGB
+    if name == "COLOR_0" != array_name:  # a stream of a mesh has colors in sRGB
         values = to_linear(shares_of(values))
     return stored(name, values, component or FLOAT)
 
@@ -109,11 +109,11 @@ def unpack_meshopt(data: bytes, how: Tree) -> bytes:
     if reader is None or filtered not in ("NONE", *filters):
         raise UnsupportedError(f"meshopt of mode {str(mode)[:20]} with filter {str(filtered)[:20]} is not read here")
     with as_library_error("meshoptimizer", "a bufferView of this glTF"):
-        found: Array = reader()
+        unpacked: Array = reader()
     if filtered != "NONE":
-        found = getattr(library, f"decode_filter_{filters[filtered]}")(found, count, stride)
+        unpacked = getattr(library, f"decode_filter_{filters[filtered]}")(unpacked, count, stride)
     # The library gives four bytes for each index, and the bufferView may want two.
-    return found.astype(f"<u{stride}").tobytes() if mode != "ATTRIBUTES" else found.tobytes()
+    return unpacked.astype(f"<u{stride}").tobytes() if mode != "ATTRIBUTES" else unpacked.tobytes()
 
 
 def unpack_draco(data: bytes) -> dict[int, Array]:
@@ -122,8 +122,8 @@ def unpack_draco(data: bytes) -> dict[int, Array]:
     with as_library_error("DracoPy", "a primitive of this glTF"):
         mesh = draco.decode(data)
     # glTF refers to attributes of Draco by these numbers, and not by their order.
-    found = {int(attribute["unique_id"]): np.atleast_2d(attribute["data"]) for attribute in mesh.attributes}
-    return found | {-1: np.asarray(mesh.faces).reshape(-1, 1)}
+    tables = {int(attribute["unique_id"]): np.atleast_2d(attribute["data"]) for attribute in mesh.attributes}
+    return tables | {-1: np.asarray(mesh.faces).reshape(-1, 1)}
 
 
 def texture_of(info: Tree, sampler: Tree, image: int) -> Texture:
@@ -145,5 +145,5 @@ def words_of(texture: Texture) -> tuple[Tree, Tree]:
         offset = [right - up * math.sin(turn), 1 - up * math.cos(turn) - above]
         moved = {"scale": [across, up], "offset": offset, **({"rotation": turn} if turn else {})}
         info["extensions"] = {TRANSFORM: moved}
-    codes = [next(code for code, way in _WRAPS.items() if way == own) for own in texture.wrap]
+    codes = [next(code for code, way in _WRAPS.items() if way == side) for side in texture.wrap]
     return info, dict(zip(("wrapS", "wrapT"), codes)) if {*texture.wrap} != {"repeat"} else {}

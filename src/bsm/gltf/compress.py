@@ -53,44 +53,54 @@ def compress(
     if EXTENSION in document.compressed:
         raise FormatError(f"its geometry is compressed already, by {EXTENSION}; start from the scene before that")
     scene = Rewritten(document, fallback)
-    left, notes = Counter[str](), Counter[str]()
-    bundles = bundles_of(document, scene.tree, left)
-    users = users_of(bundles, scene.tree, scene.named)
+    reasons, notes = Counter[str](), Counter[str]()
+    bundles = bundles_of(document, scene.tree, reasons)
+    users = users_of(bundles, scene.tree, scene.foreign_numbers)
     exact = options.get("preset") == "lossless"
-    asked = {**({"*": "exact"} if exact else {}), **options.get("attributes", {})}
+    quality_options = {**({"*": "exact"} if exact else {}), **options.get("attributes", {})}
     # Meshes that touch share borders. With grids of their own, rounding would open cracks between them.
     each = _one_grid(document, scene.tree, bundles, options) if one_grid else [options] * len(bundles)
-    each = [{**own, "attributes": asked} for own in each]
+    each = [{**grid_options, "attributes": quality_options} for grid_options in each]
     sizes, coded = [sum(map(len, bundle)) for bundle in bundles], list[BundleStream | str]()
     meshes = (as_mesh(document, bundle, exact=exact) for bundle in bundles)
-    given = zip(meshes, map(len, bundles), each, strict=True)
+    bundle_jobs = zip(meshes, map(len, bundles), each, strict=True)
     # Threads suffice: the work is in C, which gives the interpreter's lock away.
-    for found in ordered_map(lambda mesh: code_bundle(*mesh), given, jobs or None):
+    for stream_or_reason in ordered_map(lambda mesh: code_bundle(*mesh), bundle_jobs, jobs or None):
         if progress:
             progress(sum(sizes[: len(coded)]), sum(sizes))
-        coded.append(found)
-    done, errors = 0, [(0.0, 0.0)]
+        coded.append(stream_or_reason)
+    coded_primitives, errors = 0, [(0.0, 0.0)]
     for together in that_share(bundles, users):
-        streams = {number: found for number in together if isinstance(found := coded[number], BundleStream)}
+        streams = {
+            number: stream_or_reason
+            for number in together
+            if isinstance(stream_or_reason := coded[number], BundleStream)
+        }
         for number in together:
             if isinstance(why := coded[number], str):
-                left[why] += sizes[number]
+                reasons[why] += sizes[number]
         freed = [index for index, theirs in users.items() if theirs <= streams.keys()]
         primitives = sum(sizes[number] for number in streams)
         # Bundles that share accessors are put in together or not at all: half of them would leave the accessors in the
         # file.
         if scene.would_shrink(list(streams.values()), freed):
-            done += primitives
-            for number, found in streams.items():
-                scene.put(bundles[number], found)
-                notes.update(found.notes)
-                errors.append(found.error)
+            coded_primitives += primitives
+            for number, stream_or_reason in streams.items():
+                scene.put(bundles[number], stream_or_reason)
+                notes.update(stream_or_reason.notes)
+                errors.append(stream_or_reason.error)
         elif streams:
-            left["a stream would not be smaller"] += primitives
+            reasons["a stream would not be smaller"] += primitives
     data = scene.finished(images)
     worst = (max(error for error, _ in errors), max(share for _, share in errors))
     return Compressed(
-        data, done, dict(left), b"".join(scene.plain) if fallback else b"", notes, worst, (*scene.images,)
+        data,
+        coded_primitives,
+        dict(reasons),
+        b"".join(scene.plain) if fallback else b"",
+        notes,
+        worst,
+        (*scene.images,),
     )
 
 
@@ -124,11 +134,11 @@ def _one_grid(
         tables = [document.numbers(same[0]["attributes"]["POSITION"]) for same in bundle]
         extent = max(float(np.ptp(table, axis=0).max(initial=0.0)) for table in tables)
         cells[key] = max(cells.get(key, 0.0), extent / (1 << 14))
-    found = []
+    bundle_options = []
     for matrix, cell in zip(placed, map(cells.__getitem__, keys), strict=True):
         # Not solve, since a node may scale an axis to zero.
         moved = np.linalg.lstsq(matrix[:3, :3], matrix[:3, 3], rcond=None)[0]
         origin = tuple((-moved % cell).tolist()) if cell else (0.0, 0.0, 0.0)
         grid = {"grid_cell": cell, "grid_origin": origin} if cell else {"grid": 14}
-        found.append({name: value for name, value in options.items() if name not in ("preset", "grid")} | grid)
-    return found
+        bundle_options.append({name: value for name, value in options.items() if name not in ("preset", "grid")} | grid)
+    return bundle_options

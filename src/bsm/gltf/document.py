@@ -68,7 +68,7 @@ class Document:
         if not str(version := tree["asset"].get("version", "2.0")).startswith("2"):
             raise FormatError(f"this is glTF {str(version)[:20]}, and only glTF 2.0 is read; convert it first")
         # Types are checked here, once and by a table, so that no reader below meets a list where it expects a number.
-        self.unread = _TAKEN.left(_said(tree, "{}", "", "glTF"))
+        self.unread = _TAKEN.unread_names(_said(tree, "{}", "", "glTF"))
         self.tree: Tree = tree
         self._resources: dict[str, bytes] = {}
         self._sides: dict[object, int] = {}
@@ -92,25 +92,25 @@ class Document:
     def streams(self) -> list[int]:
         """The bufferViews that are streams."""
         holders = (*self.items("bufferViews"), *self.items("meshes"))
-        held = (holder.get("extensions", {}).get(EXTENSION) for holder in holders)
-        return sorted({int(how["stream"]) for how in held if how})
+        extensions = (holder.get("extensions", {}).get(EXTENSION) for holder in holders)
+        return sorted({int(how["stream"]) for how in extensions if how})
 
     @property
     def moving(self) -> bytes | None:
         """The stream whose frames a mesh of the scene shows, None if there is none."""
-        held = (mesh.get("extensions", {}).get(EXTENSION) for mesh in self.items("meshes"))
-        return next((self.view(int(how["stream"])) for how in held if how), None)
+        extensions = (mesh.get("extensions", {}).get(EXTENSION) for mesh in self.items("meshes"))
+        return next((self.view(int(how["stream"])) for how in extensions if how), None)
 
     def items(self, name: str) -> list[Tree]:
-        found: list[Tree] = self.tree.get(name, [])
-        return found
+        entries: list[Tree] = self.tree.get(name, [])
+        return entries
 
     def item(self, name: str, index: object) -> Tree:
-        found = self.items(name)
+        entries = self.items(name)
         # Python takes -1 as the last item, which no glTF means.
-        if not isinstance(index, int) or not 0 <= index < len(found):
-            raise FormatError(f"this glTF refers to number {json.dumps(index)} of {len(found)} {name}")
-        return found[index]
+        if not isinstance(index, int) or not 0 <= index < len(entries):
+            raise FormatError(f"this glTF refers to number {json.dumps(index)} of {len(entries)} {name}")
+        return entries[index]
 
     def primitives(self) -> Iterator[Tree]:
         for mesh in self.items("meshes"):
@@ -155,8 +155,8 @@ class Document:
                 self._charge(0, len(mesh.positions))
                 self._unpacked[stream] = mesh, coding.drawn(mesh)
             if key not in self._unpacked:
-                self._unpacked[key] = found = coding.array_of(self._unpacked[stream], name, component).tobytes()
-                self._charge(len(found))
+                self._unpacked[key] = array = coding.array_of(self._unpacked[stream], name, component).tobytes()
+                self._charge(len(array))
             return bytes(self._unpacked[key])
         # The two names are one format: Khronos adopted it from the other.
         how = next(extensions[name] for name in MESHOPT if name in extensions)
@@ -176,13 +176,13 @@ class Document:
     @cached_property
     def of_draco(self) -> dict[int, tuple[Tree, int]]:
         """Accessors that Draco holds: the extension of their primitive, and their number there; -1: the indices."""
-        found: dict[int, tuple[Tree, int]] = {}
+        accessors: dict[int, tuple[Tree, int]] = {}
         for primitive in self.primitives():
             if how := primitive.get("extensions", {}).get(DRACO):
                 attributes = primitive["attributes"]
-                found |= {attributes[name]: (how, int(number)) for name, number in how["attributes"].items()}
-                found |= {primitive["indices"]: (how, -1)} if "indices" in primitive else {}
-        return found
+                accessors |= {attributes[name]: (how, int(number)) for name, number in how["attributes"].items()}
+                accessors |= {primitive["indices"]: (how, -1)} if "indices" in primitive else {}
+        return accessors
 
     def _from_draco(self, index: int, kind: str, count: int, width: int) -> Array:
         how, number = self.of_draco[index]
@@ -190,11 +190,11 @@ class Document:
         if key not in self._unpacked:
             self._unpacked[key] = unpacked = coding.unpack_draco(self.view(how["bufferView"]))
             self._charge(sum(table.nbytes for table in unpacked.values()), max(map(len, unpacked.values())))
-        found: Array = self._unpacked[key].get(number, np.zeros((0, 0)))
+        values: Array = self._unpacked[key].get(number, np.zeros((0, 0)))
         # Accessors repeat what Draco holds. Where they disagree, one of them is damaged.
-        if found.shape != (count, width) and not (number < 0 and found.shape[1] == width):
-            raise FormatError(f"Draco holds {found.shape} numbers for accessor {index} of {count} values")
-        return found.astype(kind)
+        if values.shape != (count, width) and not (number < 0 and values.shape[1] == width):
+            raise FormatError(f"Draco holds {values.shape} numbers for accessor {index} of {count} values")
+        return values.astype(kind)
 
     def _plain(self, view: Tree, index: object) -> memoryview:
         data = self.buffer(view.get("buffer"))
@@ -203,7 +203,7 @@ class Document:
             raise TruncatedError(f"bufferView {index} of this glTF ends after the {len(data)} bytes of its buffer")
         return memoryview(data)[start : start + size]
 
-    def numbers(self, index: object, *, whole: bool = False) -> Array:
+    def numbers(self, index: object, *, unscaled: bool = False) -> Array:
         accessor = self.item("accessors", index)
         kind, width = KINDS.get(accessor.get("componentType", 0)), _WIDTHS.get(accessor.get("type", ""))
         if kind is None or width is None:
@@ -219,24 +219,24 @@ class Document:
         if rows and rows * size % 4:
             raise UnsupportedError(f"accessor {index} of this glTF holds small matrices of small numbers")
         if "bufferView" in accessor:
-            found = self._strided(accessor, kind, count, width)
+            values = self._strided(accessor, kind, count, width)
         elif isinstance(index, int) and index in self.of_draco:
-            found = self._from_draco(index, kind, count, width)
+            values = self._from_draco(index, kind, count, width)
         else:
-            found = np.zeros((count, width), kind)
+            values = np.zeros((count, width), kind)
         if sparse := accessor.get("sparse"):
-            self._replace(found, sparse, kind, width)
-        if accessor.get("normalized") and not whole and found.dtype.kind in "iu":
+            self._replace(values, sparse, kind, width)
+        if accessor.get("normalized") and not unscaled and values.dtype.kind in "iu":
             # Signed integers have one more value below zero, which glTF clamps.
-            return np.maximum(found / np.iinfo(found.dtype).max, -1.0)
-        return found
+            return np.maximum(values / np.iinfo(values.dtype).max, -1.0)
+        return values
 
     def array(self, index: object) -> Array:
         """The values of an accessor, shape (n, c), as they are stored."""
         if not self.count(index):
             raise FormatError(f"accessor {index} of this glTF is empty")
-        found = self.numbers(index, whole=True)
-        return found.astype(found.dtype.newbyteorder("="))
+        values = self.numbers(index, unscaled=True)
+        return values.astype(values.dtype.newbyteorder("="))
 
     def count(self, index: object) -> int:
         return _count(self.item("accessors", index), "count")
@@ -287,13 +287,13 @@ class Document:
         # Copied, so that a few rows of a large buffer do not keep all of it.
         return np.array(np.ndarray((count, width), kind, data, offset, (stride, np.dtype(kind).itemsize)))
 
-    def _replace(self, found: Array, sparse: Tree, kind: str, width: int) -> None:
+    def _replace(self, values: Array, sparse: Tree, kind: str, width: int) -> None:
         count, where = _count(sparse, "count"), sparse["indices"]
         places = self._strided(where, KINDS[where["componentType"]], count, 1)[:, 0]
         # The law wants them ascending; nothing here depends on that.
-        if len(places) and places.max() >= len(found):
-            raise FormatError(f"a sparse accessor replaces value {places.max()} of {len(found)}")
-        found[places] = self._strided(sparse["values"], kind, count, width)
+        if len(places) and places.max() >= len(values):
+            raise FormatError(f"a sparse accessor replaces value {places.max()} of {len(values)}")
+        values[places] = self._strided(sparse["values"], kind, count, width)
 
     def _behind(self, uri: str) -> bytes:
         """The bytes of a data URI, or of a file beside the document."""
@@ -318,11 +318,11 @@ class Document:
     def files(self) -> list[str]:
         """The files that the document refers to."""
         uris = [str(part.get("uri", "data:")) for kind in ("buffers", "images") for part in self.items(kind)]
-        found = []
+        paths = []
         for uri in (uri for uri in uris if not uri.startswith("data:")):
             with suppress(FormatError):
-                found.append(str(self.file(uri)))
-        return found
+                paths.append(str(self.file(uri)))
+        return paths
 
     def file(self, uri: str) -> Path:
         """The regular file in the folder of the document, or below, that is meant."""
@@ -334,9 +334,9 @@ class Document:
 
 def _said(value: Any, kind: str, at: str, owner: str) -> Iterator[Said]:
     """The names in a value that must be of a kind, and in those of its objects that readers take."""
-    (python, called), inside = _KINDS[kind[0]], kind[1:-1]
+    (python, kind_name), inside = _KINDS[kind[0]], kind[1:-1]
     if not isinstance(value, python) or isinstance(value, bool):
-        raise FormatError(f"in this glTF, {at[1:]} must be {called}, not {json.dumps(value)[:40]}")
+        raise FormatError(f"in this glTF, {at[1:]} must be {kind_name}, not {json.dumps(value)[:40]}")
     if inside.isdecimal() and len(value) != int(inside):
         raise FormatError(f"in this glTF, {at[1:]} must have {inside} values, not {len(value)}")
     if kind[0] == "[":
@@ -424,7 +424,7 @@ class Growing:
         self._file.seek(0)
         shutil.copyfileobj(self._file, file)
 
-    def whole(self) -> bytes:
+    def glb(self) -> bytes:
         written = io.BytesIO()
         self.write(written)
         return written.getvalue()
@@ -465,5 +465,5 @@ def triangles_of(document: Document, primitive: Tree, count: int) -> npt.NDArray
         corners = corners[~degenerate(corners)]  # not those that only lead to the next piece of a strip
     if corners.size and not (corners.min() >= 0 and corners.max() < count):
         raise FormatError(f"a face of this glTF refers to vertex {corners.max()} of {count}")
-    found: npt.NDArray[np.int64] = corners
-    return found
+    triangles: npt.NDArray[np.int64] = corners
+    return triangles

@@ -20,9 +20,9 @@ _WORDS = 90  # bytes of JSON of an accessor or a bufferView
 _MOST = float(np.finfo(np.float32).max)
 
 
-def users_of(bundles: list[Bundle], tree: Tree, named: set[int]) -> dict[int, set[int]]:
+def users_of(bundles: list[Bundle], tree: Tree, numbers_by_others: set[int]) -> dict[int, set[int]]:
     """Which bundles use each accessor; -1: something else."""
-    users: dict[int, set[int]] = {index: {-1} for index in named}
+    users: dict[int, set[int]] = {index: {-1} for index in numbers_by_others}
     coded: dict[int, int] = {}
     for number, bundle in enumerate(bundles):
         for primitive in (primitive for same in bundle for primitive in same):
@@ -66,19 +66,23 @@ def references(tree: Tree, kind: str) -> Iterator[tuple[Tree, str]]:
 
 # An unknown extension may name accessors by any key, so every whole number in it counts as one. Keeping too much is
 # safe.
-def named_by_others(node: Any, *, inside: bool = False) -> set[int]:
+def numbers_by_others(node: Any, *, inside: bool = False) -> set[int]:
     """Numbers in extensions that are not known: they may be those of accessors or bufferViews."""
     if isinstance(node, dict):
-        found = set[int]()
+        numbers = set[int]()
         for key, value in node.items():
             if key == "extensions" and isinstance(value, dict):
-                known = {name for name in value if OF_LOOKS.fullmatch(name) or name in (EXTENSION, DRACO, *MESHOPT)}
-                found |= set().union(*(named_by_others(value[name], inside=name not in known) for name in value))
+                safe_names = {
+                    name for name in value if OF_LOOKS.fullmatch(name) or name in (EXTENSION, DRACO, *MESHOPT)
+                }
+                numbers |= set().union(
+                    *(numbers_by_others(value[name], inside=name not in safe_names) for name in value)
+                )
             elif key != "extras":
-                found |= named_by_others(value, inside=inside)
-        return found
+                numbers |= numbers_by_others(value, inside=inside)
+        return numbers
     if isinstance(node, list):
-        return set().union(*(named_by_others(item, inside=inside) for item in node))
+        return set().union(*(numbers_by_others(item, inside=inside) for item in node))
     if isinstance(node, str):
         return {int(number) for number in re.findall(r"/(\d{1,9})", node)} if inside else set()
     return {int(node)} if inside and isinstance(node, int | float) and abs(node) < WHOLE else set()
@@ -99,7 +103,7 @@ class Rewritten(gltf.Growing):
         self._whole = bool(packed)  # then all bytes stay where they are
         if self._whole:
             self.append(document.buffer(0))
-        self.named = named_by_others(document.tree)
+        self.foreign_numbers = numbers_by_others(document.tree)
         self._before = {
             kind: {holder[key] for holder, key in references(document.tree, kind)}
             for kind in ("accessors", "bufferViews")
@@ -117,27 +121,31 @@ class Rewritten(gltf.Growing):
         self._moved.add(view)
         return view
 
-    def would_shrink(self, found: list[BundleStream], freed: list[int]) -> bool:
+    def would_shrink(self, streams: list[BundleStream], freed: list[int]) -> bool:
         """Return whether streams and their words are smaller than the accessors that they replace."""
         entries = {index: self._document.item("accessors", index) for index in freed}
-        views = {entry["bufferView"] for entry in entries.values() if "bufferView" in entry} - self.named
-        held = [n for n, e in entries.items() if e.get("bufferView") in views or n in self._document.of_draco]
+        views = {entry["bufferView"] for entry in entries.values() if "bufferView" in entry} - self.foreign_numbers
+        accessors_with_bytes = [
+            n for n, e in entries.items() if e.get("bufferView") in views or n in self._document.of_draco
+        ]
         # JSON counts as well: a small mesh may save fewer bytes than its stream needs words.
-        before = _WORDS * (len(freed) + len(views)) + sum(self._document.array(index).nbytes for index in held)
-        words = sum(3 + 2 * len(coded.shape.arrays) + len(coded.shape.pieces) for coded in found)
-        return bool(found) and sum(len(coded.stream) for coded in found) + _WORDS * words < before
+        before = _WORDS * (len(freed) + len(views)) + sum(
+            self._document.array(index).nbytes for index in accessors_with_bytes
+        )
+        words = sum(3 + 2 * len(coded.shape.arrays) + len(coded.shape.pieces) for coded in streams)
+        return bool(streams) and sum(len(coded.stream) for coded in streams) + _WORDS * words < before
 
     def put(self, bundle: Bundle, coded: BundleStream) -> None:
         """Put a stream in the place of the accessors of a bundle."""
         stream = self.view(coded.stream)
         entries: list[Tree] = self.tree["accessors"]
-        given, places = arrays_of(bundle[0][0]), dict[str, int]()
+        accessors, places = arrays_of(bundle[0][0]), dict[str, int]()
         for name, array in coded.shape.arrays.items():
             component, normalized = coded.accessors[name]
             view = self._view(stream, name, stored(name, array, component), component)
             more: Tree = {"normalized": True} if normalized else {}
             more |= gltf.bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {}
-            more |= _words(entries[given[name]])
+            more |= _words(entries[accessors[name]])
             places[name] = self.accessor(component, len(array), array.shape[1], view, **more)
         component, _ = coded.accessors.get("indices", (UINT, False))
         corners = stored("indices", coded.shape.index, component)
@@ -150,8 +158,8 @@ class Rewritten(gltf.Growing):
                 primitive["indices"] = indices
                 # Strips and fans were made triangles, which is the default.
                 primitive.pop("mode", None)
-                named = {name: places[name] for name in primitive["attributes"] if name in places}
-                primitive["attributes"] = named
+                attributes = {name: places[name] for name in primitive["attributes"] if name in places}
+                primitive["attributes"] = attributes
                 for number, target in enumerate(primitive.get("targets", [])):
                     target |= {name: places[f"{number}/{name}"] for name in target}
 
@@ -173,14 +181,18 @@ class Rewritten(gltf.Growing):
         for number, image in enumerate(self.tree.get("images", [])):
             data = self._document.image(number)[1] if rule or "uri" in image else None
             # An image that its rule makes larger stays as it is.
-            found = smaller(data, rule) if data and rule else None
+            smaller_data = smaller(data, rule) if data and rule else None
             name = self._document.image(number)[0] or f"image {number}"
-            self.images += [compare_image(name, data, found or data)] if data and rule else []
-            kind = f"image/{rule.kind}" if rule and found else image.get("mimeType") or (data and gltf.mime_of(data))
-            if data and kind and (found or "uri" in image):
+            self.images += [compare_image(name, data, smaller_data or data)] if data and rule else []
+            kind = (
+                f"image/{rule.kind}"
+                if rule and smaller_data
+                else image.get("mimeType") or (data and gltf.mime_of(data))
+            )
+            if data and kind and (smaller_data or "uri" in image):
                 image.pop("uri", None)
-                image |= {"mimeType": kind, "bufferView": self.view(found or data)}
-            for texture in self.tree.get("textures", []) if found and kind == "image/webp" else ():
+                image |= {"mimeType": kind, "bufferView": self.view(smaller_data or data)}
+            for texture in self.tree.get("textures", []) if smaller_data and kind == "image/webp" else ():
                 if texture.get("source") == number:
                     del texture["source"]
                     texture.setdefault("extensions", {})[gltf.WEBP] = {"source": number}
@@ -206,7 +218,7 @@ class Rewritten(gltf.Growing):
             if not tree.get(key):
                 tree.pop(key, None)
         self.tree = _short(tree)
-        return self.whole()
+        return self.glb()
 
     def _drop_accessors(self) -> None:
         """Drop those that were replaced; others take their bytes out of bufferViews that they shared with these."""
@@ -214,10 +226,12 @@ class Rewritten(gltf.Growing):
         numbers = {id(entry): number for number, entry in enumerate(entries)}
         blank: Tree = {"componentType": COMPONENTS["uint8"], "count": 1, "type": "SCALAR"}
         self._renumber("accessors", blank)
-        kept = self.tree["accessors"]
-        gone = numbers.keys() - {id(entry) for entry in kept}
-        shared = {entry["bufferView"] for entry in entries if id(entry) in gone and "bufferView" in entry} - self.named
-        for entry in kept:
+        kept_entries = self.tree["accessors"]
+        gone = numbers.keys() - {id(entry) for entry in kept_entries}
+        shared = {
+            entry["bufferView"] for entry in entries if id(entry) in gone and "bufferView" in entry
+        } - self.foreign_numbers
+        for entry in kept_entries:
             # Only the bytes that somebody still uses move to the new buffer.
             if entry.get("bufferView") in shared and "sparse" not in entry:
                 strided = "byteStride" in self._document.item("bufferViews", entry["bufferView"])
@@ -247,7 +261,7 @@ class Rewritten(gltf.Growing):
             packed = [name for name in (EXTENSION, *MESHOPT) if view.get("extensions", {}).pop(name, None)]
             if "extensions" in view and not view["extensions"]:
                 del view["extensions"]
-            unread = number in self._before["bufferViews"] and not {number} & (used | self.named)
+            unread = number in self._before["bufferViews"] and not {number} & (used | self.foreign_numbers)
             if number in self._moved or unread or (self._whole and not packed):
                 continue
             # Unpacked where it was compressed, since readers of the result need not know that extension.
@@ -259,11 +273,11 @@ class Rewritten(gltf.Growing):
         """Drop the entries of a kind that were referenced and no longer are; those that others may name stay there."""
         entries, places = self.tree.get(kind, []), list(references(self.tree, kind))
         every = set(range(len(entries)))
-        stay = self.named & every
-        kept = {holder[key] for holder, key in places} | (every - self._before[kind]) | stay
+        stay = self.foreign_numbers & every
+        kept_numbers = {holder[key] for holder, key in places} | (every - self._before[kind]) | stay
         # Numbers that unknown extensions may name stay. All others close ranks, as validators want no unused entries.
         free = iter(sorted(every - stay))
-        numbers = {old: old if old in stay else next(free) for old in sorted(kept)}
+        numbers = {old: old if old in stay else next(free) for old in sorted(kept_numbers)}
         for holder, key in places:
             holder[key] = numbers[holder[key]]
         origin = {new: old for old, new in numbers.items()}

@@ -585,7 +585,7 @@ class Scene:
             if not name.startswith(("TEXCOORD_", "COLOR_", "_")):
                 continue
             kind, _, number = name.partition("_")  # sets are counted by their order
-            values: Any = self._document.numbers(accessors[name], whole=kind == "COLOR")
+            values: Any = self._document.numbers(accessors[name], unscaled=kind == "COLOR")
             if len(values) != count or values.shape[1] > 4:
                 raise FormatError(f"{name} has {values.shape} numbers for {count} vertices")
             suffix = "" if number == "0" else number
@@ -662,9 +662,9 @@ def _unread(document: Document, *, at_rest: bool) -> tuple[str, ...]:
 
 @as_format_error("glTF")
 @np.errstate(over="ignore", invalid="ignore")  # a later check refuses infinite values
-def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
+def read_gltf(path: str, request: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
     document = read_document(path, limits)
-    number, animation = _choose_animation(document, wanted.animation)
+    number, animation = _choose_animation(document, request.animation)
     scene = Scene(document, animation, limits)
     if not scene.moves:
         scene_notes = "".join(f" ({note})" for note in dict.fromkeys(scene.notes))
@@ -674,7 +674,7 @@ def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fra
         )
     # The first key is the first frame: animations often begin late on the time line.
     keys = scene.keys
-    rate = wanted.rate or _rate(keys)
+    rate = request.rate or _rate(keys)
     # The little more keeps the last frame, whose time may be rounded down.
     count = int(np.floor((keys[-1] - keys[0]) * rate + 1e-3)) + 1
     require_counts(limits, frames=count)
@@ -832,7 +832,7 @@ class _Materials:
             words[place] = self._words(tree, transparent)
             # The default of glTF is metal, which most other formats do not have. Said here, it survives: others take a
             # material that says nothing for matte.
-            if index >= 0 and not appearance(words[place]).said:
+            if index >= 0 and not appearance(words[place]).stated:
                 words[place]["metallicFactor"] = 1.0
         return words, self._images
 

@@ -77,21 +77,21 @@ class _Scene(Growing):
         if not single_suffices(mesh.positions):
             raise MeshError(NO_DOUBLES.format("GLB"))
         # glTF has one index for all attributes of a vertex.
-        split, own = split_with_origin(mesh)
+        split, vertex_origins = split_with_origin(mesh)
         material, part = formats.face_numbers(split, "material"), formats.face_numbers(split, "part")
         sorting = [np.zeros(len(split.faces), np.int64) if a is None else a.values for a in (part, material)]
         # A primitive has one material and a node one name, so faces are sorted by both.
         kinds, of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
-        arrays, held = _at_vertices(split)
+        arrays, vertex_attributes = _at_vertices(split)
         placed, expressed = placed_node(mesh.metadata, origin)
-        names, taken, written = formats.names_in(mesh.metadata, "part"), set[str](), {*expressed, "part.names"}
-        images, known = formats.images_in(mesh.metadata), formats.materials_in(mesh.metadata)
+        names, names_taken, written = formats.names_in(mesh.metadata, "part"), set[str](), {*expressed, "part.names"}
+        images, material_words = formats.images_in(mesh.metadata), formats.materials_in(mesh.metadata)
         self._sets = sum(name.startswith("TEXCOORD_") for name in arrays)
-        materials = {n: self._material(n, words, images, written) for n, words in known.items()}
+        materials = {n: self._material(n, words, images, written) for n, words in material_words.items()}
         # The default material of glTF is white metal, which reflects a black room.
         bare = [n for n in kinds[:, 1].tolist() if materials.get(n) is None]  # which viewers draw as black metal
         materials |= dict.fromkeys(bare, self.add("materials", dict(MATTE))) if bare else {}
-        opacity = next((a.values[:, 3:] for a in held if a.semantic == "color"), np.zeros((0, 1)))
+        opacity = next((a.values[:, 3:] for a in vertex_attributes if a.semantic == "color"), np.zeros((0, 1)))
         if opacity.size and conventions.shares_of(opacity).min() < 1:
             for which in {materials[n] for n in kinds[:, 1].tolist()}:  # shows the opacity of vertices
                 # Without it, viewers ignore the opacity of vertices.
@@ -99,35 +99,40 @@ class _Scene(Growing):
         self.primitives: list[tuple[Tree, Ints]] = []
         for place, (number, its_material) in enumerate(kinds.tolist()):
             used, corners = np.unique(split.faces[of_face.reshape(-1) == place], return_inverse=True)
-            called = str(names.get(number) or (mesh.metadata.get("name") if len(kinds) == 1 else None) or stem)
+            node_name = str(names.get(number) or (mesh.metadata.get("name") if len(kinds) == 1 else None) or stem)
             # Blender and others rename nodes of equal names, each in its own way.
-            called = next(n for n in (called, *(f"{called}_{i}" for i in range(1, len(kinds) + 1))) if n not in taken)
-            taken.add(called)
-            given = {
+            node_name = next(
+                n for n in (node_name, *(f"{node_name}_{i}" for i in range(1, len(kinds) + 1))) if n not in names_taken
+            )
+            names_taken.add(node_name)
+            accessors = {
                 name: self.numbers(values[used], bounds=name == "POSITION", shares=name.startswith("COLOR_"))
                 for name, values in arrays.items()
             }
-            primitive: Tree = {"attributes": given, "indices": self.numbers(corners.reshape(-1, 1).astype(np.uint32))}
+            primitive: Tree = {
+                "attributes": accessors,
+                "indices": self.numbers(corners.reshape(-1, 1).astype(np.uint32)),
+            }
             primitive["material"] = materials[its_material]
-            self.place({"name": called, "primitives": [primitive]}, name=called, **placed)
-            self.primitives.append((primitive, own[used]))
+            self.place({"name": node_name, "primitives": [primitive]}, name=node_name, **placed)
+            self.primitives.append((primitive, vertex_origins[used]))
         written |= {f"part.{number}.name" for number in names}
         rest = {name: value for name, value in mesh.metadata.items() if name not in written}
         extras = {name: value for name, value in rest.items() if isinstance(value, str) or as_numbers(value)}
         self.tree["scenes"][0] |= {"extras": extras} if extras else {}
         # Extras come back, but no other program looks for a material there.
         unseen = [name for name in rest if name not in extras or name.startswith("material.")]
-        self.left_out += formats.left_out(mesh, [*held, material, part], unseen)
+        self.left_out += formats.left_out(mesh, [*vertex_attributes, material, part], unseen)
 
     def _material(
         self, number: int, words: Material, images: Mapping[int, tuple[str, bytes]], written: set[str]
     ) -> int | None:
         """Add a material; None if glTF can express nothing of it. `written` gets the names of expressed properties."""
         look, _ = within(appearance(words))
-        said, found, surface, absent = in_gltf(look), Tree(), Tree(), list[Texture]()
-        extensions: Tree = {UNLIT: {}} if said.pop("unlit", False) else {}
+        gltf_words, material, surface, absent = in_gltf(look), Tree(), Tree(), list[Texture]()
+        extensions: Tree = {UNLIT: {}} if gltf_words.pop("unlit", False) else {}
         used = set[str]()
-        for name, value in said.items():
+        for name, value in gltf_words.items():
             if isinstance(value, Texture):
                 info, sampler = words_of(value if value.set < self._sets else replace(value, set=0))
                 if (texture := self._texture(*images.get(value.image, ("", b"")), sampler)) is None:
@@ -140,16 +145,16 @@ class _Scene(Growing):
                 # Factors of glTF end at 1; brighter ones need this extension.
                 extensions[STRENGTH] = {"emissiveStrength": most}
                 value = [number / most for number in value]
-            (surface if name.startswith(("baseColor", "metallic", "roughness")) else found)[name] = value
-        found |= {"pbrMetallicRoughness": surface} if surface else {}
-        found |= {"extensions": extensions} if extensions else {}
+            (surface if name.startswith(("baseColor", "metallic", "roughness")) else material)[name] = value
+        material |= {"pbrMetallicRoughness": surface} if surface else {}
+        material |= {"extensions": extensions} if extensions else {}
         for extension in sorted(used | extensions.keys()):
             self.use(extension, required=False)
-        held = {name for name in held_by("glTF") if getattr(look, name.partition(".")[0]) not in absent}
+        fields_held = {name for name in held_by("glTF") if getattr(look, name.partition(".")[0]) not in absent}
         textures = ((name, value) for name, value in vars(look).items() if isinstance(value, Texture))
-        held -= {f"{name}.set" for name, texture in textures if texture.set >= self._sets}
-        written |= {f"material.{number}.{name}" for name in words.keys() - {*lost(words, held)}}
-        return self.add("materials", found) if found else None
+        fields_held -= {f"{name}.set" for name, texture in textures if texture.set >= self._sets}
+        written |= {f"material.{number}.{name}" for name in words.keys() - {*lost(words, fields_held)}}
+        return self.add("materials", material) if material else None
 
     def _texture(self, name: str, data: bytes, sampler: Tree) -> int | None:
         kind = mime_of(data)
@@ -158,8 +163,8 @@ class _Scene(Growing):
             return None
         # Materials often share an image, and it should be in the file once.
         if data not in self._images:
-            named = {"name": name} if name else {}
-            self._images[data] = self.add("images", {"bufferView": self.view(data), "mimeType": kind, **named})
+            name_entry = {"name": name} if name else {}
+            self._images[data] = self.add("images", {"bufferView": self.view(data), "mimeType": kind, **name_entry})
         texture: Tree = {"source": self._images[data]}
         if kind == "image/webp":
             texture = {"extensions": {WEBP: texture}}
@@ -181,13 +186,13 @@ def placed_node(metadata: Metadata, origin: Doubles | None = None) -> tuple[Tree
 def write_glb(mesh: TriangleMesh, stem: str) -> formats.Written:
     scene = _Scene(io.BytesIO())
     scene.show(mesh, stem)
-    return formats.Written(scene.whole(), scene.left_out)
+    return formats.Written(scene.glb(), scene.left_out)
 
 
 def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]:
     """What glTF has of each vertex, by its names, and the attributes that these are."""
     arrays: dict[str, Array] = {"POSITION": mesh.positions.astype(np.float32)}
-    held: list[Attribute] = []
+    vertex_attributes: list[Attribute] = []
     counts: Counter[str] = Counter()
     for attribute in mesh.attributes:
         values, width = attribute.values, attribute.components
@@ -214,8 +219,8 @@ def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]
             if not (values == attribute.values).all():
                 continue
         arrays[name] = values
-        held.append(attribute)
-    return arrays, held
+        vertex_attributes.append(attribute)
+    return arrays, vertex_attributes
 
 
 _UP = (0.0, 0.0, 1.0)  # a normal where there is none
@@ -274,15 +279,15 @@ class _Moving(_Scene):
 
     def begin(self, first: TriangleMesh, stem: str) -> None:
         normals = vertex_normals(first.positions, first.faces)
-        kept = [attribute for attribute in first.attributes if attribute.semantic != "normal"]
+        attributes = [attribute for attribute in first.attributes if attribute.semantic != "normal"]
         normal = Attribute("normal", normals.astype(np.float32), "vertex", "normal")
         begin = len(self.tree.get("nodes", ()))
-        self.show(replace(first, attributes=(*kept, normal)), stem)
+        self.show(replace(first, attributes=(*attributes, normal)), stem)
         for primitive, _ in self.primitives:
             primitive["targets"] = []
         nodes = range(begin, len(self.tree["nodes"]))
-        seen = (first.positions, normals, *self._painted(first))
-        self._runs.append(_Run(self.frames, seen, nodes, self.primitives))
+        first_arrays = (first.positions, normals, *self._painted(first))
+        self._runs.append(_Run(self.frames, first_arrays, nodes, self.primitives))
         self.faces = first.faces
         self.frames += 1
 
@@ -307,16 +312,16 @@ class _Moving(_Scene):
         self.frames += 1
         for primitive, rows in run.primitives:
             moved = zip(("POSITION", "NORMAL", "COLOR_0"), deltas, strict=False)
-            seen = {n: self.numbers(d[rows], bounds=True) for n, d in moved if n != "COLOR_0" or d.any()}
-            primitive["targets"].append(seen)
+            target = {n: self.numbers(d[rows], bounds=True) for n, d in moved if n != "COLOR_0" or d.any()}
+            primitive["targets"].append(target)
 
-    def animate(self, shown: Doubles) -> None:
+    def animate(self, frame_times: Doubles) -> None:
         """Show each frame from its time on, in seconds, shape (T,)."""
         samplers: list[Tree] = []
         channels: list[Tree] = []
 
         def move(nodes: range, path: str, times: Array, values: int, way: str) -> None:
-            keys = self.numbers(shown[times].astype(np.float32)[:, None], bounds=True)
+            keys = self.numbers(frame_times[times].astype(np.float32)[:, None], bounds=True)
             samplers.append({"input": keys, "output": values, "interpolation": way})
             place = len(samplers) - 1
             channels.extend({"sampler": place, "target": {"node": node, "path": path}} for node in nodes)
@@ -339,8 +344,10 @@ class _Moving(_Scene):
             if len(self._runs) > 1:
                 # glTF cannot hide a node. A scale of zero does, and every viewer plays it.
                 times = np.array([0, run.begun, end][run.begun == 0 : 3 - (end == self.frames)])
-                seen = np.array([0, 1, 0][run.begun == 0 : 3 - (end == self.frames)])
-                sizes = np.tile(seen[:, None], 3) * np.array(self.tree["nodes"][run.nodes[0]].get("scale", [1.0] * 3))
+                visibility = np.array([0, 1, 0][run.begun == 0 : 3 - (end == self.frames)])
+                sizes = np.tile(visibility[:, None], 3) * np.array(
+                    self.tree["nodes"][run.nodes[0]].get("scale", [1.0] * 3)
+                )
                 move(run.nodes, "scale", times, self.numbers(sizes.astype(np.float32)), "STEP")
         if channels:
             self.add("animations", {"name": "frames", "samplers": samplers, "channels": channels})
@@ -389,4 +396,4 @@ def moving_scene(stream: bytes) -> bytes:
     mesh = {"primitives": [primitive], "extensions": {EXTENSION: {"stream": source}}}
     scene.place(mesh, **node, **placed_node(metadata)[0])
     scene.use(EXTENSION, required=True)
-    return scene.whole()
+    return scene.glb()

@@ -51,8 +51,8 @@ def checked(picture: bytes, name: str) -> bytes:
 
 def skin_of(texcoords: npt.NDArray[np.float32], materials: npt.NDArray[Any], pictures: Sequence[Path]) -> Skin:
     """The skin of faces by their texture coordinates, shape (faces, 3, 2), and the pictures of their materials."""
-    own = np.repeat(materials, 3).reshape(-1, 3, 1)
-    ids = row_numbers(np.dstack([texcoords, own]).reshape(-1, 3).astype(np.float32))
+    corner_materials = np.repeat(materials, 3).reshape(-1, 3, 1)
+    ids = row_numbers(np.dstack([texcoords, corner_materials]).reshape(-1, 3).astype(np.float32))
     # Corners with equal texture coordinates and material are one node. What is connected there is a chart.
     charts = components(graph_of_faces(ids.reshape(-1, 3), int(ids.max()) + 1))[ids].reshape(-1, 3, 1)
     sizes = np.zeros((len(pictures), 2))
@@ -61,7 +61,7 @@ def skin_of(texcoords: npt.NDArray[np.float32], materials: npt.NDArray[Any], pic
             sizes[number] = picture.size
     # Texture coordinates count from below, pictures from above.
     corners = (texcoords * [1, -1] + [0, 1]) * sizes[materials][:, None]
-    return np.dstack([corners, own, charts]).astype(np.float32)
+    return np.dstack([corners, corner_materials, charts]).astype(np.float32)
 
 
 def joined_skins(skins: Sequence[Skin]) -> Skin:
@@ -96,15 +96,15 @@ def cut_out(skin: Skin, pictures: Sequence[Path], factor: int) -> tuple[Skin, An
         with opened(pictures[int(number)]) as image:
             picture = np.asarray(image.convert("RGB"))
         for k in np.flatnonzero(used[:, 0] == number).tolist():
-            (x, y), (across, down), (left, top) = (low[k] * factor).tolist(), sizes[k].tolist(), places[k].tolist()
+            (x, y), (across, down), (column, top) = (low[k] * factor).tolist(), sizes[k].tolist(), places[k].tolist()
             # Charts may reach beyond the picture, which then repeats. An atlas cannot repeat, so the repetitions are
             # cut out.
-            found = picture.take(range(y, y + down * factor), 0, mode="wrap")
-            found = found.take(range(x, x + across * factor), 1, mode="wrap")
+            pixels = picture.take(range(y, y + down * factor), 0, mode="wrap")
+            pixels = pixels.take(range(x, x + across * factor), 1, mode="wrap")
             # A mean of squares is the exact filter where the factor is a whole number. It needs no library, and does
             # not blur.
-            squares = found.reshape(down, factor, across, factor, 3).mean(axis=(1, 3))
-            atlas[top : top + down, left : left + across] = np.rint(squares)
+            squares = pixels.reshape(down, factor, across, factor, 3).mean(axis=(1, 3))
+            atlas[top : top + down, column : column + across] = np.rint(squares)
     skin = np.dstack([corners, np.zeros(len(skin) * 3).reshape(-1, 3), np.repeat(charts, 3).reshape(-1, 3)])
     return skin.astype(np.float32), imported("PIL.Image", *_NEED).fromarray(_spread(atlas, corners))
 

@@ -138,17 +138,19 @@ def _samples(raw: Raw) -> list[Ints]:
     """The faces around three vertices, in any order of the faces."""
     # Every k-th face is enough to find how far a part with as many faces as wanted reaches.
     firsts = raw.table("faces")[:: max(1, raw.rows["faces"] // _SAMPLE), 0]
-    some = raw.table("positions")[firsts].astype(np.float64)
+    sample_points = raw.table("positions")[firsts].astype(np.float64)
     share = min(1.0, _SAMPLE / max(1, raw.rows["faces"]))
-    middles = some[[len(some) // 4, len(some) // 2, len(some) * 3 // 4] if share < 1 else [0]]
-    reach = [np.quantile(np.abs(some - middle).max(axis=1), share) for middle in middles]
-    near: list[list[npt.NDArray[Any]]] = [[] for _ in middles]
+    middles = sample_points[
+        [len(sample_points) // 4, len(sample_points) // 2, len(sample_points) * 3 // 4] if share < 1 else [0]
+    ]
+    reach = [np.quantile(np.abs(sample_points - middle).max(axis=1), share) for middle in middles]
+    distances: list[list[npt.NDArray[Any]]] = [[] for _ in middles]
     for piece in raw.pieces("faces"):
         # Mapped anew for each piece, so that no more of it is in memory than the piece needs.
         firsts = raw.table("positions")[piece[:, 0]]
-        for middle, far, found in zip(middles, reach, near):
-            found.append(piece[(np.abs(firsts - middle) <= far).all(axis=1), :3])
-    return list(map(np.concatenate, near))
+        for middle, far, distances_there in zip(middles, reach, distances):
+            distances_there.append(piece[(np.abs(firsts - middle) <= far).all(axis=1), :3])
+    return list(map(np.concatenate, distances))
 
 
 # --------------------------------------------------------------------------------------------------------------- octree
@@ -213,9 +215,9 @@ class Plan(Root):
 
 
 def load_plan(path: Path) -> Plan:
-    given = json.loads(path.read_bytes())
-    given["lattice"] = Lattice(given["lattice"]["cell"], tuple(given["lattice"]["origin"]))
-    return Plan(**{**given, "low": tuple(given["low"])})
+    facts = json.loads(path.read_bytes())
+    facts["lattice"] = Lattice(facts["lattice"]["cell"], tuple(facts["lattice"]["origin"]))
+    return Plan(**{**facts, "low": tuple(facts["low"])})
 
 
 def cut(raw: Raw, lattice: Lattice, slides: bool, most: int) -> Plan:
@@ -237,15 +239,15 @@ def cut(raw: Raw, lattice: Lattice, slides: bool, most: int) -> Plan:
     # Faces are counted twice rather than kept: a pass over the file is cheap, and one number for each face might not
     # fit.
     number = np.zeros(1 << (3 * depth - coarse), np.int64)
-    for found in _first_codes(raw, kinds):
-        number += np.bincount(found >> coarse, minlength=len(number))
+    for vertex_codes in _first_codes(raw, kinds):
+        number += np.bincount(vertex_codes >> coarse, minlength=len(number))
     deep = (number > most) & (coarse > 0)
     codes = np.flatnonzero(number * ~deep) << coarse
     counts = number[codes >> coarse]
-    for found in _first_codes(raw, kinds) if deep.any() else ():
-        found, some = np.unique(found[deep[found >> coarse]], return_counts=True)
-        codes, inverse = np.unique(np.concatenate([codes, found]), return_inverse=True)
-        counts = np.bincount(inverse, np.concatenate([counts, some])).astype(np.int64)
+    for vertex_codes in _first_codes(raw, kinds) if deep.any() else ():
+        vertex_codes, cell_counts = np.unique(vertex_codes[deep[vertex_codes >> coarse]], return_counts=True)
+        codes, inverse = np.unique(np.concatenate([codes, vertex_codes]), return_inverse=True)
+        counts = np.bincount(inverse, np.concatenate([counts, cell_counts])).astype(np.int64)
     before = np.concatenate([[0], np.cumsum(counts)])
 
     def leaves(name: str) -> Iterator[tuple[str, tuple[int, int]]]:
@@ -291,8 +293,8 @@ def _sort_faces(plan: Plan, raw: Raw) -> None:
             # crack opens; so the table `outside` tells each tile about them.
             row, corner = np.nonzero((codes < ends[leaf, :1]) | (codes >= ends[leaf, 1:]))
             places = plan.lattice.places(raw.table("positions")[faces[row, corner]])
-            found = np.column_stack([codes[row, corner], places, ends[leaf[row], 0]])
-            outside.append(np.unique(found, axis=0))
+            face_rows = np.column_stack([codes[row, corner], places, ends[leaf[row], 0]])
+            outside.append(np.unique(face_rows, axis=0))
     with table_file(raw.folder / "outside") as file:
         file.write(np.unique(np.concatenate(outside), axis=0).tobytes())
     # These two are as large as the mesh, and all that is needed of them is in `cut` and `outside` now.

@@ -74,18 +74,18 @@ def write_joined(
         tables.seek(0)
         for _ in chosen:
             table, triangles = np.load(tables), np.load(tables)
-            own = _places_in(shared, table)
-            given = numbers[own]
-            fresh = np.flatnonzero(given < 0)
-            given[fresh] = vertices + np.arange(len(fresh))
-            numbers[own[own >= 0]] = given[own >= 0]
+            rows_there = _places_in(shared, table)
+            rows_found = numbers[rows_there]
+            fresh = np.flatnonzero(rows_found < 0)
+            rows_found[fresh] = vertices + np.arange(len(fresh))
+            numbers[rows_there[rows_there >= 0]] = rows_found[rows_there >= 0]
             vertices, total = vertices + len(fresh), total + len(triangles)
             columns = [*zip("xyz", tiles.lattice.positions(table[fresh, :3]).astype(kind).T)]
             for what, values in tiles.values(table[fresh]).items():
                 columns += zip(CARRIED[what], values.T)
             of_points, rows = table_of(columns)
             points.write(rows.tobytes())
-            of_faces, rows = table_of([("vertex_indices", given[triangles].astype(np.uint32))])
+            of_faces, rows = table_of([("vertex_indices", rows_found[triangles].astype(np.uint32))])
             corners.write(rows.tobytes())
         comments = [f"comment {line}" for line in remarks(tiles.about)[0]]
         lines = ["ply", "format binary_little_endian 1.0", *comments, f"element vertex {vertices}", *of_points]
@@ -102,26 +102,26 @@ def _places_in(shared: Table, table: Table) -> Ints:
     """Which of the `shared` vertices each one of a table is; -1: none."""
     low, high = table[:, :3].min(axis=0).astype(np.int64), table[:, :3].max(axis=0)
     # Comparing with the whole table would take quadratic time over all tiles.
-    near = np.flatnonzero(((shared[:, :3] >= low) & (shared[:, :3] <= high)).all(axis=1))
-    which = row_numbers(np.concatenate([shared[near], table]))
-    known = np.full(len(which), -1, np.int64)
-    known[which[: len(near)]] = near
-    return known[which[len(near) :]]
+    rows_near = np.flatnonzero(((shared[:, :3] >= low) & (shared[:, :3] <= high)).all(axis=1))
+    which = row_numbers(np.concatenate([shared[rows_near], table]))
+    places_of_rows = np.full(len(which), -1, np.int64)
+    places_of_rows[which[: len(rows_near)]] = rows_near
+    return places_of_rows[which[len(rows_near) :]]
 
 
 def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str = CONTENTS[0], overwrite: bool) -> int:
     """Write tileset.json of 3D Tiles 1.1, and beside it each tile as a GLB with normals; return their bytes."""
-    known = {tile.name: (shard, tile) for shard, tile in tiles.all()}
-    size, seen = 0, 1.0
-    ends = _ends(tile for _, tile in known.values())
+    tiles_by_name = {tile.name: (shard, tile) for shard, tile in tiles.all()}
+    size, share = 0, 1.0
+    ends = _ends(tile for _, tile in tiles_by_name.values())
     if not is_url(folder):
         os.makedirs(contents := os.path.join(folder, _CONTENT), exist_ok=True)
         if os.path.islink(contents):
             raise OptionError(f"{contents} is a symbolic link; remove it")
-    sent = {} if "normal" in tiles.kinds else {"NORMAL": _NORMALS}
-    options = {"grid_cell": tiles.lattice.cell, "effort": "quick", "attributes": sent}
+    extra_arrays = {} if "normal" in tiles.kinds else {"NORMAL": _NORMALS}
+    options = {"grid_cell": tiles.lattice.cell, "effort": "quick", "attributes": extra_arrays}
     with console.progress("writing") as progress:
-        for number, (name, (shard, tile)) in enumerate(known.items(), 1):
+        for number, (name, (shard, tile)) in enumerate(tiles_by_name.items(), 1):
             mesh = tiles.mesh(shard, tile)
             # glTF holds single precision. Positions from the corner of the tile are small integers times the cell, and
             # keep all bits.
@@ -129,19 +129,24 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
             moved = moved.astype(np.float32).astype(np.float64)
             # Viewers of 3D Tiles draw a mesh without normals flat, or not at all.
             normals = vertex_normals(moved, mesh.faces).astype(np.float32)
-            shown = (*mesh.attributes, *([Attribute("normal", normals, "vertex", "normal")] if sent else []))
-            mesh = replace(mesh, positions=moved, attributes=shown, metadata={**mesh.metadata, "up": "z"})
-            seen = _SEEN if mesh.metadata.get("image.0.data") else seen
+            gltf_attributes = (
+                *mesh.attributes,
+                *([Attribute("normal", normals, "vertex", "normal")] if extra_arrays else []),
+            )
+            mesh = replace(mesh, positions=moved, attributes=gltf_attributes, metadata={**mesh.metadata, "up": "z"})
+            share = _SEEN if mesh.metadata.get("image.0.data") else share
             data = write_glb(mesh, name).data
             if content == "bsm":
                 data = compress(Document(data), options).data
             write_output(posixpath.join(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite, follow=False)
             size += len(data)
-            progress(number, len(known))
-    tree = _tree(tiles, {name: seen * tile.error for name, (_, tile) in known.items()}, ends)
+            progress(number, len(tiles_by_name))
+    tree = _tree(tiles, {name: share * tile.error for name, (_, tile) in tiles_by_name.items()}, ends)
     data = json.dumps(tree).encode() + b"\n"
     write_output(posixpath.join(folder, TILESET), data, overwrite=overwrite, follow=False)
-    console.note(f"{posixpath.join(folder, TILESET)}: {counted(tiles=len(known))} as {content} GLB, {size} bytes")
+    console.note(
+        f"{posixpath.join(folder, TILESET)}: {counted(tiles=len(tiles_by_name))} as {content} GLB, {size} bytes"
+    )
     return size + len(data)
 
 
@@ -149,10 +154,10 @@ def _ends(tiles: Iterable[Tile]) -> dict[str, Ints]:
     """The lowest and the highest place of each node and all below it."""
     ends: dict[str, Ints] = {}
     for tile in tiles:
-        own = np.array([tile.low, tile.high], np.int64)
+        own_box = np.array([tile.low, tile.high], np.int64)
         for name in (tile.name[:end] for end in range(1, len(tile.name) + 1)):
-            low, high = ends.get(name, own)
-            ends[name] = np.array([np.minimum(low, own[0]), np.maximum(high, own[1])])
+            low, high = ends.get(name, own_box)
+            ends[name] = np.array([np.minimum(low, own_box[0]), np.maximum(high, own_box[1])])
     return ends
 
 

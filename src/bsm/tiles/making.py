@@ -50,14 +50,14 @@ def tile_one(job: TileJob, console: Console) -> Facts:
         (mesh, skin, joined), error = _leaf(plan, name, folder), 0.0
     else:
         (mesh, skin, error), joined = _coarser(plan, name, folder, job.most), 0
-    places, sent, counts = np.asarray(mesh.positions, np.int32), mesh, dict[str, Any]()
+    places, mesh_sent, counts = np.asarray(mesh.positions, np.int32), mesh, dict[str, Any]()
     if plan.textures:
         finer = sorted(folder.glob(f"{name}[0-7].atlas"))
         skin, atlas = cut_out(skin, _pictures(plan, folder), 1) if name in plan.leaves else cut_out(skin, finer, 2)
         with open_output(folder / f"{name}.atlas", overwrite=True, follow=False) as file:
             atlas.save(file, "ppm")
-        sent = textured(mesh, skin, atlas, job.images)
-        written = compare_image(name, (folder / f"{name}.atlas").read_bytes(), images_in(sent.metadata)[0][1])
+        mesh_sent = textured(mesh, skin, atlas, job.images)
+        written = compare_image(name, (folder / f"{name}.atlas").read_bytes(), images_in(mesh_sent.metadata)[0][1])
         counts["psnr_db"] = finite(math.inf if written.psnr_db is None else written.psnr_db)
         # A viewer chooses the level by this number. Where a texture is halved with each level, its texels are the
         # larger error.
@@ -66,9 +66,9 @@ def tile_one(job: TileJob, console: Console) -> Facts:
         with open_output(folder / f"{name}.mesh", overwrite=True, follow=False) as file:
             for table in (np.array(error), places, mesh.faces, skin, *(_of_vertices(a, mesh) for a in mesh.attributes)):
                 write_npy(file, table)
-    sent, cells = replace(sent, positions=plan.lattice.positions(places)), plan.lattice
+    mesh_sent, cells = replace(mesh_sent, positions=plan.lattice.positions(places)), plan.lattice
     # One thread: tiles are encoded side by side, in processes, and those have all cores already.
-    part = given_part(sent, grid_cell=cells.cell, grid_origin=tuple(cells.origin), threads=1)
+    part = given_part(mesh_sent, grid_cell=cells.cell, grid_origin=tuple(cells.origin), threads=1)
     data = b"".join(part.encode(Progress("")).attempt.frames)
     write_output(job.output, data, overwrite=True, follow=False)
     ends = {"low": places.min(axis=0).tolist(), "high": places.max(axis=0).tolist()}
@@ -98,19 +98,19 @@ def _leaf(plan: Plan, name: str, folder: Path) -> tuple[TriangleMesh, Skin, int]
     # tiles.
     joined = len(np.unique(row_numbers(points)[inside[numbers]])) - int(inside.sum())
     # Faces that have a place twice cannot be seen, and take more bits than others.
-    seen = (spots[corners] != spots[corners[:, [1, 2, 0]]]).any(axis=2).all(axis=1)
+    has_area = (spots[corners] != spots[corners[:, [1, 2, 0]]]).any(axis=2).all(axis=1)
     # A tile without faces would not be a mesh. One face, though it has no area, keeps the tree whole.
-    faces, corners = (rows[seen] if seen.any() else rows[:1] for rows in (faces, corners))
-    left, corners = np.unique(corners, return_inverse=True)
-    used, corners = used[left], corners.reshape(-1, 3)
-    places, numbers, some = welded(spots[left])
+    faces, corners = (rows[has_area] if has_area.any() else rows[:1] for rows in (faces, corners))
+    used_vertices, corners = np.unique(corners, return_inverse=True)
+    used, corners = used[used_vertices], corners.reshape(-1, 3)
+    places, numbers, distinct_rows = welded(spots[used_vertices])
 
     def carried(what: Any) -> Attribute:
         values = mapped(folder, what, plan.kinds)[used]
         # Vertices that fall together may have different colors. These become values of corners, so that no color is
         # lost.
-        if np.array_equal(values[some][numbers], values):
-            return Attribute(what, values[some], "vertex", what)
+        if np.array_equal(values[distinct_rows][numbers], values):
+            return Attribute(what, values[distinct_rows], "vertex", what)
         different, rows = np.unique(values, axis=0, return_inverse=True)
         return Attribute(what, different, "corner", what, rows.reshape(-1)[corners].astype(np.int32))
 
@@ -126,9 +126,9 @@ def _of_vertices(attribute: Attribute, mesh: TriangleMesh) -> npt.NDArray[Any]:
     """One value for each vertex."""
     if attribute.indices is None:
         return attribute.values
-    found = np.zeros((len(mesh.positions), attribute.components), attribute.values.dtype)
-    found[mesh.faces[::-1]] = attribute.values[attribute.indices[::-1]]
-    return found
+    sums = np.zeros((len(mesh.positions), attribute.components), attribute.values.dtype)
+    sums[mesh.faces[::-1]] = attribute.values[attribute.indices[::-1]]
+    return sums
 
 
 def welded(places: npt.NDArray[np.int32]) -> tuple[Places, Faces, Ints]:
@@ -174,11 +174,11 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
     together, corners, *tables = map(np.concatenate, zip(*children))
     # Coarse tiles of large meshes are made in many processes at a time. Each would otherwise hold its input twice.
     del children, places, faces, values  # as large as all else
-    places, numbers, some = welded(together)
+    places, numbers, distinct_rows = welded(together)
 
-    def carried(near: Ints) -> tuple[Attribute, ...]:
+    def carried(border_rows: Ints) -> tuple[Attribute, ...]:
         return tuple(
-            Attribute(what, table[some[near]], "vertex", what)  # type: ignore[arg-type]
+            Attribute(what, table[distinct_rows[border_rows]], "vertex", what)  # type: ignore[arg-type]
             for what, table in zip(plan.carried, tables)
         )
 
@@ -191,17 +191,17 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
     locked = _held(plan, name, folder, places)
     target = max(len(faces) // _KEPT, min(COARSEST, most) // 4)
     wedges = wedges_of(skin, faces) if plan.textures else None
-    new, smaller, left = simplified(places, faces, locked, target, wedges)
+    new, smaller, remaining = simplified(places, faces, locked, target, wedges)
     corner = None if wedges is None else np.unique(wedges, return_index=True)[1]  # of each wedge
-    skin = skin[: len(smaller)] if corner is None else skin.reshape(-1, 4)[corner[left]]
+    skin = skin[: len(smaller)] if corner is None else skin.reshape(-1, 4)[corner[remaining]]
     apart = farthest_from_surface(places.astype(np.float64), new.astype(np.float64), smaller)
-    near = np.zeros(0, np.int64)
+    border_rows = np.zeros(0, np.int64)
     if tables:
         # Imported here, since a process of leaves never needs it, and there are many such processes.
         from scipy.spatial import KDTree  # a third of what a process loads
 
-        near = KDTree(places).query(new)[1]
-    return TriangleMesh(new.astype(np.float64), smaller, carried(near)), skin, before + apart * plan.lattice.cell
+        border_rows = KDTree(places).query(new)[1]
+    return TriangleMesh(new.astype(np.float64), smaller, carried(border_rows)), skin, before + apart * plan.lattice.cell
 
 
 def simplified(
@@ -209,9 +209,9 @@ def simplified(
 ) -> tuple[Places, Faces, Faces]:
     """Simplify to about `target` triangles; locked and border vertices stay. Also return the wedges of the result."""
     low = places.min(axis=0).astype(np.float64)
-    kept, corners, _, left, _ = collapsed(places - low, faces, locked, target, wedges)
-    new, numbers, _ = welded(np.rint(kept + low).astype(np.int32))
+    kept_vertices, corners, _, remaining, _ = collapsed(places - low, faces, locked, target, wedges)
+    new, numbers, _ = welded(np.rint(kept_vertices + low).astype(np.int32))
     there = ~degenerate(corners := numbers[corners])
     new, smaller, _ = compact(new, corners[there])
     # Simplifying may end with nothing, where all vertices fall together. The input is then the better coarse tile.
-    return (new, smaller, left[there]) if len(smaller) else (places, faces, faces if wedges is None else wedges)
+    return (new, smaller, remaining[there]) if len(smaller) else (places, faces, faces if wedges is None else wedges)

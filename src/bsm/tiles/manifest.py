@@ -70,21 +70,21 @@ def read_manifest(path: str, limits: Limits) -> tuple[Facts, Lattice, Root, Kind
     """Read the manifest of a folder or URL, and the parts of it that are computed with."""
     name = posixpath.join(path, MANIFEST)
     try:
-        given = json_of(place_of(path, MANIFEST), limits)
-        if given["format"] != "bsm tiles":
+        facts = json_of(place_of(path, MANIFEST), limits)
+        if facts["format"] != "bsm tiles":
             raise KeyError("format")
-        if given["version"] != 1:
-            raise FormatError(f"{name}: these tiles are of version {given['version']!r}; this program knows 1")
+        if facts["version"] != 1:
+            raise FormatError(f"{name}: these tiles are of version {facts['version']!r}; this program knows 1")
         # Said here, since each tile would otherwise be refused one by one, by an error that speaks of a stream.
-        if (major := given.get("stream", 0)) != MAJOR:  # version 0 had no such entry
+        if (major := facts.get("stream", 0)) != MAJOR:  # version 0 had no such entry
             older = "encode the source again, or decode it with the release that wrote it"
             message = f"{name}: these tiles are written by version {major} of the format, and this reads {MAJOR}: "
             raise UnsupportedError(message + (older if major < MAJOR else "a later release reads it"))
-        if given.get("complete") is False:
-            resume = shlex.join(("bsm", "tile", str(given["source"]), "-o", path, "--resume"))
+        if facts.get("complete") is False:
+            resume = shlex.join(("bsm", "tile", str(facts["source"]), "-o", path, "--resume"))
             message = f"these tiles are unfinished; with its other options, {resume} goes on"
             raise TruncatedError(f"{name}: {printable(message)}")
-        return _checked(given)
+        return _checked(facts)
     except BsmError:
         raise
     # Whatever is missing or of a wrong type raises one of these. A list of checks for each would be longer, and would
@@ -93,35 +93,35 @@ def read_manifest(path: str, limits: Limits) -> tuple[Facts, Lattice, Root, Kind
         raise FormatError(f"{name}: this is not a manifest of tiles: {error!r:.300}") from error
 
 
-def _checked(given: Facts) -> tuple[Facts, Lattice, Root, Kinds]:
-    cell, origin = real(given["cell"]), tuple(map(real, _listed(given["origin"], 3)))
-    root = Root(places(given["root"]["low"]), whole(given["root"]["bits"], 1, 59))
+def _checked(facts: Facts) -> tuple[Facts, Lattice, Root, Kinds]:
+    cell, origin = real(facts["cell"]), tuple(map(real, _listed(facts["origin"], 3)))
+    root = Root(places(facts["root"]["low"]), whole(facts["root"]["bits"], 1, 59))
     if not cell >= 1.0 / _LARGEST:
         raise ValueError(f"the cell is {cell}")
     # A name of a numpy type comes from the file. Others than these three could take any amount of memory.
-    kinds = {what: (str(kind), whole(size, 3, 4)) for what, (kind, size) in given.get("attributes", {}).items()}
+    kinds = {what: (str(kind), whole(size, 3, 4)) for what, (kind, size) in facts.get("attributes", {}).items()}
     if any(what not in CARRIED or kind not in _KINDS for what, (kind, _) in kinds.items()):
         raise ValueError("attributes")
-    if not all(isinstance(given[key], str) for key in ("source", *ABOUT) if key in given or key == "source"):
+    if not all(isinstance(facts[key], str) for key in ("source", *ABOUT) if key in facts or key == "source"):
         raise ValueError("source, unit or up")
     for key in ("vertices", "faces"):
-        whole(given[key], 1)
-    for number, level in enumerate(_listed(given["levels"])):
+        whole(facts[key], 1)
+    for number, level in enumerate(_listed(facts["levels"])):
         [whole(level[key], 1) for key in ("tiles", "faces", "bytes")]
         # A cube has at most 2^59 places along a side, so there are no deeper levels.
-        if whole(level["level"]) > 60 or (number and level["level"] <= given["levels"][number - 1]["level"]):
+        if whole(level["level"]) > 60 or (number and level["level"] <= facts["levels"][number - 1]["level"]):
             raise ValueError("the order of levels")
         real(level["error"], 0.0)
-    for shard in _listed(given["shards"]):
+    for shard in _listed(facts["shards"]):
         # The name becomes a part of a path or URL. A name like ../x would lead out of the folder.
         if not re.fullmatch(r"\d{5,9}\.tiles", shard["file"]) or not _SUM.fullmatch(shard["sha256"]):
             raise ValueError(shard["file"])
         whole(shard["index"], 2, whole(shard["size"]) - FOOT)
         whole(shard["tiles"], 1)
         ends(shard)
-    if len({shard["file"] for shard in given["shards"]}) < len(given["shards"]):
+    if len({shard["file"] for shard in facts["shards"]}) < len(facts["shards"]):
         raise ValueError("a shard is named twice")
-    return given, Lattice(cell, origin), root, kinds
+    return facts, Lattice(cell, origin), root, kinds
 
 
 def parse_index(name: str, data: bytes, shard: Mapping[str, Any], root: Root) -> list[Tile]:
@@ -156,21 +156,21 @@ def real(value: Any, least: float = -_LARGEST) -> float:
     return float(value)
 
 
-def places(given: Any) -> tuple[int, ...]:
+def places(value: Any) -> tuple[int, ...]:
     """Return a place on the lattice."""
-    return tuple(whole(number, -_FARTHEST_PLACE, _FARTHEST_PLACE) for number in _listed(given, 3))
+    return tuple(whole(number, -_FARTHEST_PLACE, _FARTHEST_PLACE) for number in _listed(value, 3))
 
 
-def ends(given: Mapping[str, Any]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+def ends(box: Mapping[str, Any]) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """Return the lowest and the highest place of a tile or a shard."""
-    low, high = places(given["low"]), places(given["high"])
+    low, high = places(box["low"]), places(box["high"])
     if any(a > b for a, b in zip(low, high)):
         raise ValueError("bounds")
     return low, high
 
 
-def _listed(given: Any, size: int | None = None) -> Sequence[Any]:
+def _listed(value: Any, size: int | None = None) -> Sequence[Any]:
     """Return a list of a size, or of anything at all."""
-    if not isinstance(given, list) or len(given) != (size or len(given) or 1):
+    if not isinstance(value, list) or len(value) != (size or len(value) or 1):
         raise ValueError(f"a list of {size or 'one or more'} is expected")
-    return given
+    return value

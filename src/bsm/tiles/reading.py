@@ -93,9 +93,9 @@ def mapped(folder: Path, what: str, kinds: Kinds) -> Array:
 
 def read_big(name: str, file_format: str | None, folder: Path, console: Console) -> Raw:
     """Read a mesh of any size once; the memory is that of a piece."""
-    given = Input(name)
-    head = given.peek(_HEAD)
-    kind = kind_of(given, file_format)
+    source_input = Input(name)
+    head = source_input.peek(_HEAD)
+    kind = kind_of(source_input, file_format)
     if not head:
         raise FormatError("the file is empty")
     # Text, and polygons in binary files, have rows of unknown sizes. Such files are read as a whole, which needs
@@ -103,8 +103,8 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     raw, read = Raw(folder), _READERS.get(kind, partial(_read_whole, kind or None))
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     largest, files = 0, dict[str, BinaryIO]()
-    with closing(given), console.progress("reading", until=0.1), ExitStack() as opened:
-        for what, piece in read(given, raw):
+    with closing(source_input), console.progress("reading", until=0.1), ExitStack() as opened:
+        for what, piece in read(source_input, raw):
             if not len(piece):
                 continue
             piece = _checked(what, piece, raw.rows.get(what, 0))
@@ -143,10 +143,10 @@ def _textures(raw: Raw, beside: Beside) -> int:
     if raw.rows.get("texcoord", 0) <= 1:
         return 0
     about = {f"material.{number}.name": name for name, number in raw.materials.items()}
-    found, notes, lost = fetched({**raw.metadata, **about, "mtllib": "\n".join(raw.libraries)}, beside.read)
-    images, materials = images_in(found), materials_in(found)
-    named = [materials[number] for number in raw.materials.values()]
-    numbers = [material.get("map_Kd", material.get("baseColorTexture")) for material in named]
+    contents, notes, lost = fetched({**raw.metadata, **about, "mtllib": "\n".join(raw.libraries)}, beside.read)
+    images, materials = images_in(contents), materials_in(contents)
+    used_materials = [materials[number] for number in raw.materials.values()]
+    numbers = [material.get("map_Kd", material.get("baseColorTexture")) for material in used_materials]
     used = {number: images[int(number)] for number in numbers if number in images}
     sound: dict[Any, bytes] = {number: checked(data, name) for number, (name, data) in used.items() if data}
     pictures = [sound.get(number, b"") for number in numbers]
@@ -193,15 +193,15 @@ _WORDS = {
 }
 
 
-def _read_ply(given: Input, raw: Raw) -> Pieces:
-    header = parse_header(given.peek(MOST_HEADER))
+def _read_ply(source_input: Input, raw: Raw) -> Pieces:
+    header = parse_header(source_input.peek(MOST_HEADER))
     lists = (c.name for element in header.elements for c in element.properties if c.length is not None)
     if not header.order or {*lists} - {*_CORNERS}:  # text, or rows of different sizes
         # The position in a text file does not tell the number of the row, and lists of two elements could differ in
         # length.
-        yield from _read_whole("ply", given, raw)
+        yield from _read_whole("ply", source_input, raw)
         return
-    given.read(header.size)
+    source_input.read(header.size)
     raw.about.update({name: str(header.metadata[name]) for name in ABOUT if name in header.metadata})
     # Comments of unit, axis and provenance are read as metadata. All other lines are lost, and the user hears of it.
     others = (keyword for keyword, line in header.comments if not parse_remarks([line]).keys() & {*ABOUT})
@@ -216,11 +216,11 @@ def _read_ply(given: Input, raw: Raw) -> Pieces:
             for what, columns in CARRIED.items()
             if element.name == "vertex" and names.issuperset(columns[:3])
         }
-        known = {*_KNOWN, *(column for columns in carried.values() for column in columns)}
-        raw.left_out.update(dict.fromkeys(name for name in kind.names or () if name not in known))
+        column_names = {*_KNOWN, *(column for columns in carried.values() for column in columns)}
+        raw.left_out.update(dict.fromkeys(name for name in kind.names or () if name not in column_names))
         for first in range(0, element.count, ROWS):
             size = min(ROWS, element.count - first) * kind.itemsize
-            data = given.read(size)
+            data = source_input.read(size)
             if len(data) < size:
                 raise TruncatedError(f"the PLY file is cut short: from {element.name} {first} on all are missing")
             rows = np.frombuffer(data, kind)
@@ -250,19 +250,19 @@ def _row_of(element: Element, order: str) -> np.dtype[Any]:
     return np.dtype(fields)
 
 
-def _read_stl(given: Input, raw: Raw) -> Pieces:
-    head = given.peek(_HEAD)
+def _read_stl(source_input: Input, raw: Raw) -> Pieces:
+    head = source_input.peek(_HEAD)
     # The word "solid" at the beginning does not prove that an STL file is text. The size does, where it is known.
-    size = size_of(given.name) if given.is_file else None
+    size = size_of(source_input.name) if source_input.is_file else None
     if is_text(head, size):
-        yield from _read_whole("stl", given, raw)
+        yield from _read_whole("stl", source_input, raw)
         return
     count, note = binary_triangles(head, size)
     raw.left_out.update(dict.fromkeys([note] if note else ()))
-    given.read(HEAD)
+    source_input.read(HEAD)
     for first in range(0, count, ROWS):
         rows = min(ROWS, count - first)
-        data = given.read(RECORD.itemsize * rows)
+        data = source_input.read(RECORD.itemsize * rows)
         if len(data) < RECORD.itemsize * rows:
             raise TruncatedError(f"the STL file is cut short: triangle {first} and those after it are missing")
         records = np.frombuffer(data, RECORD)
@@ -273,11 +273,11 @@ def _read_stl(given: Input, raw: Raw) -> Pieces:
         yield "faces", np.arange(3 * first, 3 * (first + rows)).reshape(-1, 3)
 
 
-def _read_obj(given: Input, raw: Raw) -> Pieces:
-    rest = given.read(len(BOM_UTF8)).removeprefix(BOM_UTF8)
+def _read_obj(source_input: Input, raw: Raw) -> Pieces:
+    rest = source_input.read(len(BOM_UTF8)).removeprefix(BOM_UTF8)
     # Row 0 stands for corners without texture coordinates, so that all rows of faces have the same number of columns.
     yield "texcoord", np.zeros((1, 2), np.float32)  # of corners without
-    while data := given.read(_TEXT):
+    while data := source_input.read(_TEXT):
         text = rest + data
         end = text.rfind(b"\n")
         while end > 0 and text[max(end - _TEXT_END, 0) : end].rstrip().endswith(b"\\"):  # the line goes on
@@ -296,9 +296,9 @@ def _of_obj(text: bytes, raw: Raw) -> Pieces:
     raw.about.update({name: str(piece.metadata[name]) for name in ABOUT if name in piece.metadata})
     raw.libraries.update(dict.fromkeys(str(piece.metadata.get("mtllib", "")).split("\n")))
     columns = {column.name: column for column in piece.columns}
-    named = (key.partition(".")[0] for key in piece.metadata if key not in ABOUT)
-    known = sorted({*columns, *named} - {"color", "texcoord"})
-    raw.left_out.update(dict.fromkeys((*known, *piece.dropped)))
+    attribute_names = (key.partition(".")[0] for key in piece.metadata if key not in ABOUT)
+    sorted_names = sorted({*columns, *attribute_names} - {"color", "texcoord"})
+    raw.left_out.update(dict.fromkeys((*sorted_names, *piece.dropped)))
     if (piece.sizes < 3).any():
         raise MeshError("a face has fewer than three corners")
     yield "positions", piece.positions
@@ -320,21 +320,23 @@ def _of_obj(text: bytes, raw: Raw) -> Pieces:
     raw.left_out.update(dict.fromkeys([CROSSING] if crossing else ()))
     names = names_in(piece.metadata, "material")
     numbers = [raw.materials.setdefault(names.get(n, ""), len(raw.materials)) for n in range(1 + max(names, default=0))]
-    own = columns["material"].values[owner] if "material" in columns else np.zeros(len(places), np.int32)
+    face_materials = columns["material"].values[owner] if "material" in columns else np.zeros(len(places), np.int32)
     rows = np.maximum(np.asarray(columns["texcoord"].indices)[places] + 1, 0)
-    yield "faces", np.column_stack([piece.corners[places], rows, np.array(numbers)[own]])
+    yield "faces", np.column_stack([piece.corners[places], rows, np.array(numbers)[face_materials]])
 
 
-def _read_whole(kind: str | None, given: Input, raw: Raw) -> Pieces:
+def _read_whole(kind: str | None, source_input: Input, raw: Raw) -> Pieces:
     """A file of any other format, in memory as a whole."""
-    mesh = (read := read_mesh(given, kind)).mesh
+    mesh = (read := read_mesh(source_input, kind)).mesh
     raw.metadata.update(mesh.metadata)
     raw.about.update({name: str(mesh.metadata[name]) for name in ABOUT if name in mesh.metadata})
-    named = {attribute.name: attribute for attribute in mesh.attributes}
+    attributes_by_name = {attribute.name: attribute for attribute in mesh.attributes}
     yield "positions", mesh.positions
-    for what in [what for what in CARRIED if what in named and named[what].domain == "vertex"]:
-        yield what, named.pop(what).values
-    texcoord, material = named.pop("texcoord", None), named.get("material")
+    for what in [
+        what for what in CARRIED if what in attributes_by_name and attributes_by_name[what].domain == "vertex"
+    ]:
+        yield what, attributes_by_name.pop(what).values
+    texcoord, material = attributes_by_name.pop("texcoord", None), attributes_by_name.get("material")
     rows = np.zeros_like(mesh.faces)
     if texcoord is not None:
         rows = 1 + (mesh.faces if texcoord.indices is None else texcoord.indices)
@@ -342,7 +344,7 @@ def _read_whole(kind: str | None, given: Input, raw: Raw) -> Pieces:
     numbers = np.zeros(len(rows), np.int32) if material is None else material.values[:, 0].astype(np.int32)
     raw.materials.update({str(number): number for number in range(1 + int(numbers.max(initial=0)))})
     keys = sorted({key.partition(".")[0] for key in mesh.metadata} - {*ABOUT})
-    raw.left_out.update(dict.fromkeys((*named, *keys, *read.dropped)))
+    raw.left_out.update(dict.fromkeys((*attributes_by_name, *keys, *read.dropped)))
     yield "faces", np.column_stack([mesh.faces, rows, numbers])
 
 

@@ -39,8 +39,8 @@ _END = b"BSMTILES"  # behind the length of the index, the last bytes of a shard
 # A killed run leaves this manifest. Readers then say that the tiles are unfinished, and not that they are damaged.
 def write_unfinished(folder: str, source: str) -> None:
     """Write the manifest of a run that has not ended."""
-    given = {"format": "bsm tiles", "version": 1, "stream": MAJOR, "source": source, "complete": False}
-    write_output(posixpath.join(folder, MANIFEST), json.dumps(given).encode(), overwrite=True, follow=False)
+    manifest = {"format": "bsm tiles", "version": 1, "stream": MAJOR, "source": source, "complete": False}
+    write_output(posixpath.join(folder, MANIFEST), json.dumps(manifest).encode(), overwrite=True, follow=False)
 
 
 def is_unfinished(folder: str) -> bool | None:
@@ -49,24 +49,26 @@ def is_unfinished(folder: str) -> bool | None:
     try:
         if is_pipe(name):
             raise KeyError(name)
-        given = json_of(name, DEFAULT_LIMITS)
-        if given["format"] != "bsm tiles":
-            raise KeyError(given["format"])
-        return given.get("complete") is False
+        manifest = json_of(name, DEFAULT_LIMITS)
+        if manifest["format"] != "bsm tiles":
+            raise KeyError(manifest["format"])
+        return manifest.get("complete") is False
     except FileNotFoundError:
         return None
     except NO_JSON as error:
         raise FormatError(f"{name} exists and is not a tile manifest; choose another folder or delete it") from error
 
 
-def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *, overwrite: bool) -> tuple[Facts, int]:
+def write_shards(
+    folder: str, plan: Plan, shards_done: Sequence[Facts], source: str, *, overwrite: bool
+) -> tuple[Facts, int]:
     """Write tiles in their order, and the manifest when all else is there; return it, and all bytes."""
     # Reversed, because `pop` takes from the end.
-    shards, tiles, waiting = list[Facts](), list[Tile](), list(reversed(done))
+    shards, tiles, waiting = list[Facts](), list[Tile](), list(reversed(shards_done))
     while waiting:
-        shard, held = _write_shard(folder, f"{len(shards):05}.tiles", waiting, overwrite)
+        shard, tiles_written = _write_shard(folder, f"{len(shards):05}.tiles", waiting, overwrite)
         shards.append(shard)
-        tiles += held
+        tiles += tiles_written
     levels: list[Facts] = []
     for number in sorted({tile.level for tile in tiles}):
         of_level = [tile for tile in tiles if tile.level == number]
@@ -229,32 +231,32 @@ class Tiles:
 
     def attributes(self, table: Table) -> tuple[Attribute, ...]:
         """Return the attributes of vertices, shape (n, 3 and more), as those of a mesh."""
-        return tuple(Attribute(what, found, "vertex", what) for what, found in self.values(table).items())  # type: ignore[arg-type]
+        return tuple(Attribute(what, values, "vertex", what) for what, values in self.values(table).items())  # type: ignore[arg-type]
 
     def values(self, table: Table) -> dict[str, npt.NDArray[Any]]:
         """Return the attribute values of vertices, shape (n, 3 and more), by name; shape (n, c)."""
-        found, column = {}, 3
+        tables, column = {}, 3
         for what, (kind, size) in self.kinds.items():
-            found[what] = table[:, column : column + size].astype(kind)
+            tables[what] = table[:, column : column + size].astype(kind)
             column += size
-        return found
+        return tables
 
     def chosen(self, error: float = 0.0, box: Any = None, level: int | None = None) -> Iterator[tuple[Facts, Tile]]:
         """Return the coarsest tiles of at most this error, or those of a level, that meet a box."""
-        found = {tile.name: (shard, tile) for shard, tile in self.all(box)}
-        taken: set[str] = set()
+        tiles_by_name = {tile.name: (shard, tile) for shard, tile in self.all(box)}
+        names_taken: set[str] = set()
         # A leaf is known by having no child among the tiles that meet the box. An error of 0 does not tell it.
-        inner = {name[:-1] for name in found}
-        for name in sorted(found, key=lambda name: (len(name), name)):
-            tile = found[name][1]
+        inner = {name[:-1] for name in tiles_by_name}
+        for name in sorted(tiles_by_name, key=lambda name: (len(name), name)):
+            tile = tiles_by_name[name][1]
             leaf = name not in inner  # others may have an error of 0, too, as where all is flat
-            near = tile.error <= error and (leaf or error > 0.0) if level is None else tile.level == level or leaf
-            if name[:-1] in taken:
-                taken.add(name)
-            elif near:
-                taken.add(name)
+            fits = tile.error <= error and (leaf or error > 0.0) if level is None else tile.level == level or leaf
+            if name[:-1] in names_taken:
+                names_taken.add(name)
+            elif fits:
+                names_taken.add(name)
                 if box is None or _meet(box, tile.low, tile.high):
-                    yield found[name]
+                    yield tiles_by_name[name]
 
     def all(self, box: Any = None) -> Iterator[tuple[Facts, Tile]]:
         """Return the tiles of all shards, or of those that meet a box."""
@@ -275,8 +277,10 @@ class Tiles:
             raise CorruptError(f"{name}: the index at the end of this shard differs from the manifest")
         tiles = parse_index(name, index, shard, self.root)
         # Copied, since another thread may add to the dictionary while this one walks over it.
-        others = [held for file, held in [*self._held.items()] if file != shard["file"]]  # a thread may have been here
-        if twice := {tile.name for tile in tiles} & {tile.name for held in others for tile in held}:
+        others = [
+            kept_file for file, kept_file in [*self._held.items()] if file != shard["file"]
+        ]  # a thread may have been here
+        if twice := {tile.name for tile in tiles} & {tile.name for kept_file in others for tile in kept_file}:
             raise CorruptError(f"{name}: tile {min(twice)} is in another shard, too")
         self._held[shard["file"]] = tiles
         return tiles

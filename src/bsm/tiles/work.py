@@ -58,13 +58,13 @@ def held(folder: Path, take_over: bool) -> Iterator[bool]:
                 raise _held_by(path, "works in this folder; wait until it has ended, or name another one") from error
     with file:
         # A process removes its file at the end. One with contents and without a lock was left by a process that died.
-        if (left := file.seek(0, os.SEEK_END) > 0) and not take_over:
+        if (has_work := file.seek(0, os.SEEK_END) > 0) and not take_over:
             raise _held_by(path, "left this folder unfinished; --resume continues, -f starts again")
         file.truncate(0)
         file.write(f"{os.getpid()} {socket.gethostname()}\n")
         file.flush()
         try:
-            yield left
+            yield has_work
         finally:
             with suppress(OSError):
                 path.unlink()

@@ -162,7 +162,7 @@ def test_vertices_that_are_transparent_blend():
 def test_options_of_images_and_words_for_what_is_lost():
     assert appearance({"norm": 1, "norm.options": "-s 2 3"}).normal_texture == Texture(1, (2.0, 3.0), (0.0, 0.0))
     assert appearance({"norm": 1, "norm.options": "-clamp on"}).normal_texture == Texture(1, wrap=("clamp", "clamp"))
-    assert "norm.options" not in appearance({"norm": 1, "norm.options": "-bm 2"}).said
+    assert "norm.options" not in appearance({"norm": 1, "norm.options": "-bm 2"}).stated
     metadata = {"material.0.name": "Glass", "material.0.d": "0.3", "material.1.d": "0.5", "image.0.name": "oak.png"}
     assert in_words([*metadata], metadata) == [
         "the image oak.png",

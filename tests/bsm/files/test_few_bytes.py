@@ -108,7 +108,7 @@ def test_tables_of_few_values_are_refused_before_they_are_made(more, tmp_path):
 def test_times_of_few_values_take_as_much_memory_as_one(tmp_path):
     (tmp_path / "a.msh").write_text(gmsh(5000, "".join(values("a", n, 1, "1 2.5\n") for n in range(1000))))
     tracemalloc.start()
-    frames = open_sequence(str(tmp_path / "a.msh"), wanted=Wanted())
+    frames = open_sequence(str(tmp_path / "a.msh"), request=Wanted())
     _, most = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert frames.count == 1000 and most < 1 << 25

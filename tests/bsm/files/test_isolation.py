@@ -318,7 +318,7 @@ def test_sequences_are_the_same(name, runs, tmp_path):
         for number in range(4):
             write(mesh.positions * (1.0 + number))
     wanted = Wanted(runs=runs)
-    plain, apart = (open_sequence(path, wanted=wanted, isolated=apart) for apart in (None, True))
+    plain, apart = (open_sequence(path, request=wanted, isolated=apart) for apart in (None, True))
     for one, other in zip(*map(frames, (plain, apart))):
         assert (one is None) == (other is None) and len(one or ()) == len(other or ())
         for first, second in zip(one or (), other or ()):
@@ -334,7 +334,7 @@ def test_sequences_are_the_same(name, runs, tmp_path):
         assert main(["encode", path, "--kg", "1", "-o", str(tmp_path / "u.bsm"), "-q", "--untrusted"]) == 0
         assert (tmp_path / "p.bsm").read_bytes() == (tmp_path / "u.bsm").read_bytes()
     with pytest.raises(LimitError):
-        open_sequence(path, wanted=wanted, limits=replace(Limits.service(), vertices=10))
+        open_sequence(path, request=wanted, limits=replace(Limits.service(), vertices=10))
 
 
 def test_what_is_no_sequence_is_told(tmp_path):

@@ -43,7 +43,7 @@ COUNT = 6
 
 
 def frames_of(path, **keywords):
-    source = open_sequence(str(path), wanted=Wanted(**keywords))
+    source = open_sequence(str(path), request=Wanted(**keywords))
     return source, np.array(list(source.frames))
 
 
@@ -797,7 +797,7 @@ def test_bytes_that_are_used_many_times_are_bounded(tmp_path):
     many["scenes"][0]["nodes"] = list(range(len(many["nodes"])))
     (tmp_path / "a.glb").write_bytes(glb(many, binary))
     with pytest.raises(LimitError, match="vertices"):
-        open_sequence(str(tmp_path / "a.glb"), limits=Limits(vertices=100_000), wanted=Wanted())
+        open_sequence(str(tmp_path / "a.glb"), limits=Limits(vertices=100_000), request=Wanted())
     zeros = json.loads(json.dumps(tree))
     zeros["accessors"].append({"componentType": 5126, "type": "VEC3", "count": 1 << 23})
     primitive = zeros["meshes"][0]["primitives"][0]
@@ -903,7 +903,7 @@ def shown_by_three(path, rate, count):
 @pytest.mark.parametrize("name", ["skinned", "morphing"])
 def test_what_blender_wrote(name):
     """Bones that turn and targets that mix, as three.js' own mixer moves them."""
-    frames = np.array(list(open_sequence(str(MOVING / f"{name}.glb"), wanted=Wanted()).frames))
+    frames = np.array(list(open_sequence(str(MOVING / f"{name}.glb"), request=Wanted()).frames))
     shown = shown_by_three(MOVING / f"{name}.glb", 24, len(frames))
     distance, same = cKDTree(frames[0]).query(shown[0])
     assert set(same) == set(range(frames.shape[1])) and distance.max() < 1e-5

@@ -293,7 +293,7 @@ def test_sets_of_exodus_are_marks_and_displacements_are_values(tmp_path):
 
 
 def test_frames_of_exodus_move_and_keep_the_numbers_of_all_steps(tmp_path):
-    frames = open_sequence(str(exodus(tmp_path / "a.exo", 3)), wanted=Wanted())
+    frames = open_sequence(str(exodus(tmp_path / "a.exo", 3)), request=Wanted())
     moved = [mesh.positions[:, 0].min() for mesh in frames.meshes]
     assert moved == [5, 15, 25] and frames.metadata["energy"] == "7.0 8.0 9.0"
 

@@ -43,7 +43,7 @@ def same(text: bytes) -> None:
         assert (one.counts == other.counts).all() and (one.starts == other.starts).all()
         assert one.values.tobytes() == other.values.tobytes(), "to the bit, and with the sign of zero"
     for keyword in (b"mtllib", b"usemtl", b"g", b"o", b"s", b"lines"):
-        assert plain.named(keyword) == slow.named(keyword)
+        assert plain.values_of(keyword) == slow.values_of(keyword)
         assert (plain.before_faces(keyword) == slow.before_faces(keyword)).all()
 
 

@@ -403,7 +403,7 @@ def said_of(path: Path, *, isolated: bool | None) -> tuple[str, bool]:
     """Return all words of notes, metadata and errors for a file, and whether the number is in its stream."""
     try:
         if path.suffix in (".pvd", ".series"):
-            frames = open_sequence(path, wanted=Wanted(), isolated=isolated)
+            frames = open_sequence(path, request=Wanted(), isolated=isolated)
             assert frames is not None
             words, meshes = (
                 f"{frames.notes}{frames.metadata}",

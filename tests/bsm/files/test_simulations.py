@@ -79,7 +79,7 @@ def test_steps_are_frames(data, tmp_path, monkeypatch):
         writer.write_points_cells(POINTS, {"hexahedron": CUBES})
         for step in range(3):
             writer.write_data(step / 4, point_data={"heat": np.full(12, step / 8)})
-    frames = open_sequence("a.xdmf", wanted=Wanted())
+    frames = open_sequence("a.xdmf", request=Wanted())
     assert [mesh.attributes[0].values[0, 0] for mesh in frames.meshes] == [0, 1 / 8, 1 / 4]
     assert frames.frame_rate == 4 and "left out: the inside of volumes" in frames.notes
     assert "later steps (2)" in bsm.read_mesh("a.xdmf").dropped
@@ -264,7 +264,7 @@ def test_steps_of_exodus_are_frames(tmp_path):
     writer.SetFileName(str(tmp_path / "a.exo"))
     writer.WriteAllTimeStepsOn()
     assert writer.Write()
-    frames = open_sequence(str(tmp_path / "a.exo"), wanted=Wanted())
+    frames = open_sequence(str(tmp_path / "a.exo"), request=Wanted())
     assert frames.count == 3 and frames.frame_rate == 2
     assert [next(a for a in mesh.attributes if a.name == "heat").values[0, 0] for mesh in frames.meshes] == [0, 0.5, 1]
     assert "later steps (2)" in bsm.read_mesh(tmp_path / "a.exo").dropped

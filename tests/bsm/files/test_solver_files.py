@@ -232,7 +232,7 @@ def test_partitions_parameters_and_views_of_gmsh(version, binary, tmp_path):
     found = bsm.read_mesh(path)
     assert area_of(found.mesh) == pytest.approx(2)
     assert ("the group plate" in found.dropped) == (version < 3)  # with SaveAll, Gmsh writes none there
-    moving = open_sequence(str(tmp_path / "view.msh"), wanted=Wanted())
+    moving = open_sequence(str(tmp_path / "view.msh"), request=Wanted())
     assert moving.count == 2 and moving.frame_rate == 1
     for step, mesh in enumerate(moving.meshes):
         assert area_of(mesh) == pytest.approx(2)
@@ -277,7 +277,7 @@ def test_files_of_gmsh(version, binary, order, tmp_path, monkeypatch):
     assert [names[number] for number in numbers] == ["plate" if side else "inside" for side in sides]
 
     if not binary:
-        moving = open_sequence(path, wanted=Wanted())
+        moving = open_sequence(path, request=Wanted())
         assert moving.count == 2 and moving.frame_rate == 1 and "later steps" not in " ".join(moving.notes)
         second = [*moving.meshes][1]
         at = next(a.values[:, 0] for a in second.attributes if a.name == "x")

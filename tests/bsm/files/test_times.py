@@ -20,7 +20,7 @@ SHAPE = tetrahedron()
 
 
 def opened(path, **keywords):
-    return open_sequence(str(path), wanted=Wanted(**keywords))
+    return open_sequence(str(path), request=Wanted(**keywords))
 
 
 def written(path, kind, metadata):

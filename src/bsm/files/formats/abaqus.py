@@ -45,7 +45,7 @@ class _Scope:
 @dataclass(frozen=True)
 class _Keyword:
     name: str
-    given: dict[str, str]
+    parameters: dict[str, str]
     line: int
     rows: list[str]
 
@@ -64,8 +64,8 @@ def _keywords(text: str) -> Iterator[_Keyword]:
         head, rows = "".join([head, *rows[:goes_on]]), rows[goes_on:]
         name, *words = (word.strip() for word in head[1:].split(","))
         pairs = (word.partition("=") for word in words if word)
-        given = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
-        yield _Keyword(" ".join(name.upper().split()), given, begin + 1, rows)
+        parameters = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
+        yield _Keyword(" ".join(name.upper().split()), parameters, begin + 1, rows)
 
 
 def read_abaqus(data: bytes, path: str | None, limits: Limits) -> Polygons:
@@ -73,47 +73,49 @@ def read_abaqus(data: bytes, path: str | None, limits: Limits) -> Polygons:
     model, parts, instances = _Scope(""), dict[str, _Scope](), list[_Scope]()
     scope, assembly = model, False
     for keyword in _keywords(included(data.decode("latin-1"), _INCLUDE, path)):
-        name, given, line = keyword.name, keyword.given, keyword.line
+        name, parameters, line = keyword.name, keyword.parameters, keyword.line
         if name == "PART":
-            scope = parts[given.get("NAME", "").upper()] = _Scope(given.get("NAME", ""))
+            scope = parts[parameters.get("NAME", "").upper()] = _Scope(parameters.get("NAME", ""))
         elif name == "INSTANCE":
-            part = parts.get(given.get("PART", "").upper())
-            if part is None or {"LIBRARY", "INSTANCE"} & given.keys():
-                raise table.refusal(f"*INSTANCE of {given.get('PART', 'another model')}", line)
-            scope = _Scope(given.get("NAME", ""), part=part, placed=_placed(keyword))
+            part = parts.get(parameters.get("PART", "").upper())
+            if part is None or {"LIBRARY", "INSTANCE"} & parameters.keys():
+                raise table.refusal(f"*INSTANCE of {parameters.get('PART', 'another model')}", line)
+            scope = _Scope(parameters.get("NAME", ""), part=part, placed=_placed(keyword))
             instances.append(scope)
         elif name in ("END PART", "END INSTANCE", "ASSEMBLY"):
             assembly |= name == "ASSEMBLY"
             scope = _Scope("") if assembly else model  # reference points of an assembly are in no element here
         elif name == "NODE":
-            if {"SYSTEM", "INPUT"} & given.keys() and given.get("SYSTEM", "").upper() != "R":
-                raise table.refusal(f"*NODE with {' and '.join(given)}", line)
+            if {"SYSTEM", "INPUT"} & parameters.keys() and parameters.get("SYSTEM", "").upper() != "R":
+                raise table.refusal(f"*NODE with {' and '.join(parameters)}", line)
             scope.nodes.append((line, keyword.rows))
-            if "NSET" in given:
-                table.leave(f"NSET {given['NSET']}", line)
+            if "NSET" in parameters:
+                table.leave(f"NSET {parameters['NSET']}", line)
         elif name == "ELEMENT":
-            if "INPUT" in given or "OFFSET" in given or (assembly and scope not in instances):
-                raise table.refusal(f"*ELEMENT with {', '.join(given)}", line)
-            scope.elements.append((given.get("TYPE", "").upper(), given.get("ELSET", ""), line, keyword.rows))
-        elif "INPUT" in given:
+            if "INPUT" in parameters or "OFFSET" in parameters or (assembly and scope not in instances):
+                raise table.refusal(f"*ELEMENT with {', '.join(parameters)}", line)
+            scope.elements.append((parameters.get("TYPE", "").upper(), parameters.get("ELSET", ""), line, keyword.rows))
+        elif "INPUT" in parameters:
             raise table.refusal(f"*{name} with INPUT", line)
         else:
-            called = given.get(name, given.get("NAME", "")) if name in ("NSET", "ELSET", "SURFACE") else ""
-            table.leave(f"{name} {called}".strip(), line)
+            set_name = parameters.get(name, parameters.get("NAME", "")) if name in ("NSET", "ELSET", "SURFACE") else ""
+            table.leave(f"{name} {set_name}".strip(), line)
     if model.elements and instances:
         raise table.refusal("*ELEMENT outside of parts", model.elements[0][2])
     names = dict[str, int]()
     surfaces = _Surfaces(names, table, limits)
     # Those of parts are made once, and their counts are known before the first instance is placed.
-    made = [(one, *surfaces.of(one)) for one in instances or [model, *parts.values()]]
-    shown = [(one, part) for one, part, _ in made if len(part.sizes)]
-    counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for _, part in shown]
-    placed = (replace(part, name=one.name).placed(one.placed) for one, part in shown)
-    found = joined_parts(placed, counts, limits, len(data))
-    lost = dict.fromkeys(name for _, _, left in made for name in left)
-    columns = [column for column in found.columns if column.name != "group" or len(names) > 1]
+    surfaces_of_scopes = [(one, *surfaces.of(one)) for one in instances or [model, *parts.values()]]
+    visible = [(one, part) for one, part, _ in surfaces_of_scopes if len(part.sizes)]
+    counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for _, part in visible]
+    placed = (replace(part, name=one.name).placed(one.placed) for one, part in visible)
+    joined = joined_parts(placed, counts, limits, len(data))
+    lost = dict.fromkeys(name for _, _, names_left in surfaces_of_scopes for name in names_left)
+    columns = [column for column in joined.columns if column.name != "group" or len(names) > 1]
     groups = named(list(names), "group") if any(names) else {}
-    return replace(found, dropped=(*lost, *table.named), columns=tuple(columns), metadata={**found.metadata, **groups})
+    return replace(
+        joined, dropped=(*lost, *table.notes), columns=tuple(columns), metadata={**joined.metadata, **groups}
+    )
 
 
 def _placed(keyword: _Keyword) -> Doubles:
@@ -170,20 +172,20 @@ def _surface(scope: _Scope, names: dict[str, int], table: Keywords, limits: Limi
     except ValueError as error:
         raise FormatError(f"line {rows[0][0]}: a node is not made of numbers: {error}") from None
     blocks, sets = list[tuple[str, Ints]](), list[int]()
-    for kind, called, line, those in scope.elements:
+    for kind, set_name, line, those in scope.elements:
         words = ",".join(those).replace(",", " ").split()
-        if (found := _KIND.fullmatch(kind)) is None and kind != "STRI65":
+        if (match := _KIND.fullmatch(kind)) is None and kind != "STRI65":
             if not _LINES.fullmatch(kind):
                 raise table.refusal(f"*ELEMENT of the type {kind or '(none)'}", line)
-            table.left[f"elements of the type {kind}"] += sum(not row.endswith(",") for row in those)
+            table.counts[f"elements of the type {kind}"] += sum(not row.endswith(",") for row in those)
             continue
-        count = int(found["flat"] or found["solid"]) if found else 6
+        count = int(match["flat"] or match["solid"]) if match else 6
         if len(words) % (count + 1):
             raise FormatError(f"line {line}: elements of the type {kind} do not have {count} nodes each")
         nodes = whole(words, "*ELEMENT", line).reshape(-1, count + 1)[:, 1:]
-        flat = found is None or found["flat"]
+        flat = match is None or match["flat"]
         blocks.append(((("triangle" if count % 3 == 0 and count < 9 else "quad") if flat else _SHAPES[count]), nodes))
-        sets += [names.setdefault(called, len(names))] * len(nodes)
+        sets += [names.setdefault(set_name, len(names))] * len(nodes)
     blocks = [(shape, numbers.rows(nodes)) for shape, nodes in blocks]
     of_cells = {"group": np.array(sets, np.int32)}
     skinned = skin(places, blocks, {}, of_cells)

@@ -63,11 +63,11 @@ class Appearance:
     cutoff: float = 0.5
     double_sided: bool = False
     unlit: bool = False
-    said: Mapping[str, tuple[str, ...]] = field(default_factory=dict, compare=False)  # fields by the words for them
+    stated: Mapping[str, tuple[str, ...]] = field(default_factory=dict, compare=False)  # fields by the words for them
 
     def says(self, name: str) -> bool:
         """Whether a word says this field, or it is unusual."""
-        return any(name in fields for fields in self.said.values()) or getattr(self, name) != getattr(USUAL, name)
+        return any(name in fields for fields in self.stated.values()) or getattr(self, name) != getattr(USUAL, name)
 
 
 USUAL = Appearance()
@@ -79,14 +79,17 @@ the entries about each texture; the last row has the words of no field."""
 def fields_of(kind: str) -> dict[str, list[str]]:
     """Return the fields that each word of a format says."""
     rows = [row for row in _ROWS[:-1] if "*" not in row["field"]]
-    said = [(word, row["field"]) for row in rows for word in row[kind].replace("~", "").split()]
-    return {word: [name for other, name in said if other == word] for word, _ in said}
+    words_and_fields = [(word, row["field"]) for row in rows for word in row[kind].replace("~", "").split()]
+    return {
+        word: [name for word_of_field, name in words_and_fields if word_of_field == word]
+        for word, _ in words_and_fields
+    }
 
 
 def held_by(kind: str) -> set[str]:
     """Return the fields that a format holds, and the entries about those that are textures."""
-    held = [row["field"] for row in _ROWS[:-1] if row[kind]]
-    return {entry.replace("*", name) for name in held if "*" not in name for entry in held}
+    fields = [row["field"] for row in _ROWS[:-1] if row[kind]]
+    return {entry.replace("*", name) for name in fields if "*" not in name for entry in fields}
 
 
 _GLTF, _MTL = fields_of("glTF"), fields_of("MTL")
@@ -112,35 +115,35 @@ def refers_to_image(word: str) -> bool:
 
 def as_numbers(value: object) -> list[float]:
     try:
-        found = [float(word) for word in str(value).split()]
+        numbers = [float(word) for word in str(value).split()]
     except ValueError:
         return []
-    return found if all(map(math.isfinite, found)) else []
+    return numbers if all(map(math.isfinite, numbers)) else []
 
 
 def appearance(words: Material) -> Appearance:
     """Read the words of a material; where both say a field, that of glTF counts."""
-    found, said = dict[str, Any](), dict[str, tuple[str, ...]]()
+    fields, fields_by_word = dict[str, Any](), dict[str, tuple[str, ...]]()
     for word, names in (*_GLTF.items(), *_MTL.items()):
         if word in words and (values := _read(word, names, words)):
-            said[word] = tuple(values)
-            found = values | found
-            said |= {f"{word}.{entry}": (f"{names[0]}.{entry}",) for entry in _about(words, word)}
+            fields_by_word[word] = tuple(values)
+            fields = values | fields
+            fields_by_word |= {f"{word}.{entry}": (f"{names[0]}.{entry}",) for entry in _about(words, word)}
     metal, rough = (words.get(f"map_{word}") for word in ("Pm", "Pr"))
     if isinstance(rough, int) and (metal == rough or (metal is None and not any(as_numbers(words.get("Pm", 0))))):
-        found.setdefault("surface_texture", Texture(rough))  # gray: green is the roughness, blue counts as metal
-        said |= dict.fromkeys(("map_Pr", "map_Pm"), ("surface_texture",))
+        fields.setdefault("surface_texture", Texture(rough))  # gray: green is the roughness, blue counts as metal
+        fields_by_word |= dict.fromkeys(("map_Pr", "map_Pm"), ("surface_texture",))
     if any(map(is_mtl, words)):  # what MTL means where it says nothing
-        found.setdefault("metallic", 1.0 if metal is not None and "map_Pr" in said else 0.0)
-        if "map_Ke" in words and not any(found.get("emission", ())):
-            found["emission"] = (1.0, 1.0, 1.0)
+        fields.setdefault("metallic", 1.0 if metal is not None and "map_Pr" in fields_by_word else 0.0)
+        if "map_Ke" in words and not any(fields.get("emission", ())):
+            fields["emission"] = (1.0, 1.0, 1.0)
     if "map_d" in words and words["map_d"] == words.get("map_Kd"):  # the image of the color also holds the opacity
-        said["map_d"] = ("mode",)
-    if found.get("opacity", 1.0) < 1 or "map_d" in said:
-        found.setdefault("mode", "BLEND")
-    if not said:
-        found |= {"metallic": 0.0, "roughness": 0.9}  # matte, as in files without a material
-    return Appearance(**found, said=said)
+        fields_by_word["map_d"] = ("mode",)
+    if fields.get("opacity", 1.0) < 1 or "map_d" in fields_by_word:
+        fields.setdefault("mode", "BLEND")
+    if not fields_by_word:
+        fields |= {"metallic": 0.0, "roughness": 0.9}  # matte, as in files without a material
+    return Appearance(**fields, stated=fields_by_word)
 
 
 def _read(word: str, names: Sequence[str], words: Material) -> dict[str, Any]:
@@ -173,14 +176,17 @@ def _about(words: Material, word: str) -> dict[str, dict[str, Any]]:
     """Return the fields of a texture that the entries about it say, but for entries that make no sense."""
     options, wrap = str(words.get(f"{word}.options", "")), tuple(str(words.get(f"{word}.wrap", "")).split())
     rotation, which = as_numbers(words.get(f"{word}.rotation")), words.get(f"{word}.set")
-    found: dict[str, dict[str, Any]] = {"wrap": {"wrap": wrap}} if len(wrap) == 2 and {*wrap} <= {*WAYS} else {}
-    found |= {"rotation": {"rotation": rotation[0]}} if len(rotation) == 1 else {}
-    found |= {"set": {"set": which}} if isinstance(which, int) and which >= 0 else {}
+    entries: dict[str, dict[str, Any]] = {"wrap": {"wrap": wrap}} if len(wrap) == 2 and {*wrap} <= {*WAYS} else {}
+    entries |= {"rotation": {"rotation": rotation[0]}} if len(rotation) == 1 else {}
+    entries |= {"set": {"set": which}} if isinstance(which, int) and which >= 0 else {}
     if re.fullmatch(f"(?:{_MOVE})+", options):
-        given = {name: tuple(as_numbers(numbers)[:2]) for name, numbers, _ in re.findall(_MOVE, options)}
-        moved = {"scale": (*given.get("s", ()), 1.0, 1.0)[:2], "offset": (*given.get("o", ()), 0.0, 0.0)[:2]}
-        found["options"] = moved | ({"wrap": ("clamp", "clamp")} if "" in given else {})
-    return found
+        options_given = {name: tuple(as_numbers(numbers)[:2]) for name, numbers, _ in re.findall(_MOVE, options)}
+        moved = {
+            "scale": (*options_given.get("s", ()), 1.0, 1.0)[:2],
+            "offset": (*options_given.get("o", ()), 0.0, 0.0)[:2],
+        }
+        entries["options"] = moved | ({"wrap": ("clamp", "clamp")} if "" in options_given else {})
+    return entries
 
 
 def within(look: Appearance) -> tuple[Appearance, list[str]]:
@@ -192,33 +198,33 @@ def within(look: Appearance) -> tuple[Appearance, list[str]]:
 
 
 def in_gltf(look: Appearance) -> dict[str, Any]:
-    """Return the fields of an appearance that are said or unusual, in the words of glTF."""
-    found: dict[str, Any] = {}
+    """Return the fields of an appearance that are stated or unusual, in the words of glTF."""
+    words: dict[str, Any] = {}
     for word, names in _GLTF.items():
         first, *more = (getattr(look, name) for name in names)
         if first is not None and any(map(look.says, names)):
-            found[word] = [*first, *more] if isinstance(first, tuple) else first
-    return found
+            words[word] = [*first, *more] if isinstance(first, tuple) else first
+    return words
 
 
 def in_mtl(words: Material) -> Material:
     """Return a material in the words of MTL: those that it has, and those for fields that the words of glTF say."""
     look, _ = within(appearance(words))
-    found: Material = {word: value for word, value in words.items() if is_mtl(word) or word == "name"}
-    fields = {name for word, names in look.said.items() if not is_mtl(word) for name in names}
-    fields -= {*chain.from_iterable(_MTL.get(word, ()) for word in found)}
+    mtl_words: Material = {word: value for word, value in words.items() if is_mtl(word) or word == "name"}
+    fields = {name for word, names in look.stated.items() if not is_mtl(word) for name in names}
+    fields -= {*chain.from_iterable(_MTL.get(word, ()) for word in mtl_words)}
     for word, (name, *_) in _MTL.items():
         value = getattr(look, name)
         if name not in fields:
             continue
         fields.remove(name)
         if isinstance(value, Texture):
-            found |= {key: entry for key, entry in value.in_words(word).items() if key == word or is_mtl(key)}
+            mtl_words |= {key: entry for key, entry in value.in_words(word).items() if key == word or is_mtl(key)}
         elif name == "mode":
-            found |= {word: found["map_Kd"]} if value != "OPAQUE" and "map_Kd" in found else {}
+            mtl_words |= {word: mtl_words["map_Kd"]} if value != "OPAQUE" and "map_Kd" in mtl_words else {}
         elif name != "opacity" or (value != 1 and look.mode == "BLEND"):
-            found[word] = as_text(to_srgb(np.array(value)) if isinstance(value, tuple) else value)
-    return found
+            mtl_words[word] = as_text(to_srgb(np.array(value)) if isinstance(value, tuple) else value)
+    return mtl_words
 
 
 def parse_mtl(data: bytes, images: dict[str, int]) -> dict[str, Material]:
@@ -268,13 +274,13 @@ def one_line(text: str) -> str:
     return re.sub(r"[\x00-\x1f\x7f\ud800-\udfff]", " ", text)
 
 
-def lost(words: Material, held: Collection[str]) -> list[str]:
+def lost(words: Material, fields_held: Collection[str]) -> list[str]:
     """Return the words that say more than the fields that a format holds, or have numbers beyond its range."""
     look = appearance(words)
     usual = {name for name in vars(USUAL) if getattr(look, name) == getattr(USUAL, name)}
     usual |= {"mode"} if look.mode == "BLEND" and look.opacity < 1 else set()
-    fine = {*held, *usual}.difference(within(look)[1])
-    return [word for word in words if not {*look.said.get(word, ("",))} <= fine]
+    fine = {*fields_held, *usual}.difference(within(look)[1])
+    return [word for word in words if not {*look.stated.get(word, ("",))} <= fine]
 
 
 def as_text(value: Any) -> str:

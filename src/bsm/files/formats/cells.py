@@ -32,16 +32,16 @@ _Side: TypeAlias = tuple[Ints, Ints, list[Ints], bool]
 def columns_of(
     data: Mapping[str, Any],
     domain: Domain,
-    left: dict[str, None],
+    losses: dict[str, None],
     active: Mapping[str, Semantic] | None = None,
     components: Mapping[str, Sequence[str]] | None = None,
 ) -> Iterator[Column]:
     """Arrays of numbers by name, some of which are known to mean something, or name their components."""
-    for name, given in data.items():
-        values = np.array(given)
+    for name, table in data.items():
+        values = np.array(table)
         values = values[:, None] if values.ndim == 1 else values.reshape(len(values), -1)
         if values.dtype.kind not in "biuf":
-            left[f"{name} ({values.dtype.name} values)"] = None
+            losses[f"{name} ({values.dtype.name} values)"] = None
             continue
         yield named_column(name, values, domain, (active or {}).get(name), (components or {}).get(name, ()))
 
@@ -70,7 +70,7 @@ def _sides(kind: str, table: Ints, cells: Ints, points: Doubles) -> list[_Side]:
     if kind == "polygon":
         return [(cells, np.full((len(cells), 4), -2), [table], False)]
     faces, edges, most = _SHAPES.get(kind.rstrip("0123456789"), ("", "", 0))
-    ends, size, found = [{*edge} for edge in edges.split()], len({*faces} - {" "}), list[_Side]()
+    ends, size, sides = [{*edge} for edge in edges.split()], len({*faces} - {" "}), list[_Side]()
     if not size or table.shape[1] not in (size, size + len(ends), most):
         return []
     step, is_solid = 1 + (table.shape[1] > size), " " in faces
@@ -89,8 +89,8 @@ def _sides(kind: str, table: Ints, cells: Ints, points: Doubles) -> list[_Side]:
         pieces = [ring]
         if step == 2:
             pieces = [*(ring[:, [at, at + 1, at - 1]] for at in range(0, ring.shape[1], 2)), ring[:, 1::2]]
-        found.append((cells, key, pieces, is_solid))
-    return found
+        sides.append((cells, key, pieces, is_solid))
+    return sides
 
 
 def skin(
@@ -98,7 +98,7 @@ def skin(
     blocks: Sequence[tuple[str, Any]],
     of_points: Mapping[str, Any],
     of_cells: Mapping[str, Any],
-    left: Iterable[str] = (),
+    losses: Iterable[str] = (),
     metadata: Metadata | None = None,
 ) -> Polygons:
     """The surfaces among cells and the skin of volumes, in the order of cells: blocks have a shape and rows of points.
@@ -120,8 +120,8 @@ def skin(
             alike[kind, table.shape[1]].append((np.arange(count, count + len(table)), table))
             count += len(table)
     sides, lost = list[_Side](), dict[str, None]()
-    for (kind, _), some in alike.items():
-        cells, table = map(np.concatenate, zip(*some, strict=True))
+    for (kind, _), cells_of_kind in alike.items():
+        cells, table = map(np.concatenate, zip(*cells_of_kind, strict=True))
         if table.size and not 0 <= table.min() <= table.max() < len(points):
             raise MeshError(f"a cell of the type {kind} refers to a vertex that is not there")
         of_kind = _sides(kind, table, cells, points)
@@ -130,8 +130,12 @@ def skin(
     numbers = row_numbers(np.concatenate([np.empty((0, 4), np.int64), *(key for _, key, _, _ in sides)]))
     # A side of two cells lies inside.
     once = np.split(np.bincount(numbers)[numbers] == 1, np.cumsum([len(side[0]) for side in sides])[:-1])
-    kept = [(side, alone | (not side[3])) for side, alone in zip(sides, once, strict=False)]
-    pieces = [(cells[taken], table[taken]) for (cells, _, tables, _), taken in kept for table in tables]
+    outer_sides = [(side, alone | (not side[3])) for side, alone in zip(sides, once, strict=False)]
+    pieces = [
+        (cells[columns_of_points], table[columns_of_points])
+        for (cells, _, tables, _), columns_of_points in outer_sides
+        for table in tables
+    ]
     every = [(cells, np.full(len(cells), table.shape[1]), table.ravel()) for cells, table in pieces]
     owner, sizes, flat = map(np.concatenate, zip(*[(np.empty(0, np.int64),) * 3, *every], strict=True))
     order = np.argsort(owner, kind="stable")
@@ -139,22 +143,22 @@ def skin(
     has_skin = any(is_skin for _, _, _, is_skin in sides)
     used = np.unique(corners) if has_skin else np.arange(len(points))
     lost |= {INSIDE: None} if has_skin else {}
-    taken = {name: np.asarray(values)[used] for name, values in of_points.items()}
-    whole = {name: np.asarray(values)[owner[order]] for name, values in of_cells.items()}
-    columns = (*columns_of(taken, "vertex", lost), *columns_of(whole, "face", lost))
+    columns_of_points = {name: np.asarray(values)[used] for name, values in of_points.items()}
+    columns_of_cells = {name: np.asarray(values)[owner[order]] for name, values in of_cells.items()}
+    columns = (*columns_of(columns_of_points, "vertex", lost), *columns_of(columns_of_cells, "face", lost))
     corners = np.searchsorted(used, corners)
-    return Polygons(points[used], sizes[order], corners, (), (*lost, *left), columns, metadata or {})
+    return Polygons(points[used], sizes[order], corners, (), (*lost, *losses), columns, metadata or {})
 
 
 def of_meshio(mesh: Any) -> Polygons:
     """The surfaces of a meshio mesh and the skin of its volumes, in the order of its cells."""
-    left = list[str]()
+    losses = list[str]()
     blocks = [(block.type, [*block.data] if block.type.startswith("poly") else block.data) for block in mesh.cells]
     for what in ("point_sets", "cell_sets", "field_data", "info"):
-        named = ", ".join(map(str, getattr(mesh, what, None) or ()))
-        left += [f"{what.replace('_', ' ')} ({named})"] if named else []
+        names = ", ".join(map(str, getattr(mesh, what, None) or ()))
+        losses += [f"{what.replace('_', ' ')} ({names})"] if names else []
     of_cells = {name: [*map(np.asarray, values)] for name, values in mesh.cell_data.items()}
     alike = {name: rows for name, rows in of_cells.items() if len({row.shape[1:] for row in rows}) == 1}
-    whole = {name: np.concatenate(rows) for name, rows in alike.items()}
-    left += [name for name in of_cells if name not in whole]
-    return skin(mesh.points, blocks, mesh.point_data, whole, left)
+    joined_rows = {name: np.concatenate(rows) for name, rows in alike.items()}
+    losses += [name for name in of_cells if name not in joined_rows]
+    return skin(mesh.points, blocks, mesh.point_data, joined_rows, losses)

@@ -39,30 +39,30 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
     collada = imported("collada", "DAE is read with pycollada", "formats")
     beside = Beside(Path(path).resolve().parent if path else None, limits)
     with as_library_error("pycollada"), np.errstate(all="ignore"):  # a later check refuses infinite values
-        prepared, left = _prepared(data)
+        prepared, unread = _prepared(data)
         document = collada.Collada(io.BytesIO(prepared), ignore=[collada.common.DaeError])
         scene = _Nodes(collada, beside)
         nodes = document.scene.nodes if document.scene is not None else ()
         surfaces = [*_placed(collada, nodes)]
         shapes = [scene.shape(primitive) for primitive, _, _ in surfaces]
         counts = [(len(shape.positions), max(len(shape.corners) - 2 * len(shape.sizes), 0)) for shape in shapes]
-        found = joined_parts(starmap(scene.part, surfaces), counts, limits, len(data))
+        joined = joined_parts(starmap(scene.part, surfaces), counts, limits, len(data))
         about = document.assetInfo
         metadata: dict[str, Value] = {"up": str(about.upaxis or "Y_UP")[0].lower()}
         metadata["unit"] = unit_named(float(about.unitmeter or 1.0))
         tools = [str(contributor.authoring_tool or "") for contributor in about.contributors]
-        own = next((tool for tool in tools if tool.startswith("bsm ")), None)
-        metadata |= {"provenance": own} if own else {}
+        own_tool = next((tool for tool in tools if tool.startswith("bsm ")), None)
+        metadata |= {"provenance": own_tool} if own_tool else {}
         metadata |= described(dict(enumerate(scene.materials.values()))) | scene.images
         errors = [f"unreadable elements ({in_words(error)[:80]})" for error in document.errors[:_MOST_ERRORS]]
-        dropped = (*left, *errors, *scene.absent)
-        return replace(found, metadata={**metadata, **found.metadata}, dropped=dropped)
+        dropped = (*unread, *errors, *scene.absent)
+        return replace(joined, metadata={**metadata, **joined.metadata}, dropped=dropped)
 
 
 def _prepared(data: bytes) -> tuple[bytes, list[str]]:
     """Return a document without what pycollada cannot read, holes of polygons marked, and the names not taken."""
     root, changed = ElementTree.fromstring(data), False
-    left = _TAKEN.left(_TAKEN.in_xml(data))
+    unread = _TAKEN.unread_names(_TAKEN.in_xml(data))
     for mesh in [element for element in root.iter() if _tag(element) == "mesh"]:
         for drawn in list(mesh):
             for place, holed in enumerate(drawn):
@@ -76,7 +76,7 @@ def _prepared(data: bytes) -> tuple[bytes, list[str]]:
             if _tag(drawn) in ("lines", "linestrips") or (_tag(drawn) in _DRAWN and not filled):
                 mesh.remove(drawn)
                 changed = True
-    return (ElementTree.tostring(root) if changed else data), left
+    return (ElementTree.tostring(root) if changed else data), unread
 
 
 def _tag(element: Any) -> str:
@@ -111,9 +111,9 @@ class _Nodes:
         if id(primitive) not in self._shapes:
             sizes = np.asarray(getattr(primitive, "vcounts", np.full(len(primitive.index), 3)), np.int64)
             index = np.asarray(primitive.index, np.int64).reshape(-1, primitive.index.shape[-1])
-            sizes, taken = _without_holes(primitive, sizes, index.shape[1])
-            index = index[taken]
-            rows, corners = np.unique(np.asarray(primitive.vertex_index).reshape(-1)[taken], return_inverse=True)
+            sizes, corner_rows = _without_holes(primitive, sizes, index.shape[1])
+            index = index[corner_rows]
+            rows, corners = np.unique(np.asarray(primitive.vertex_index).reshape(-1)[corner_rows], return_inverse=True)
             if rows.size and rows[0] < 0:  # numpy would count from the end
                 raise FormatError(f"a corner has the index {rows[0]}, which no vertex has")
             points = np.asarray(primitive.vertex, np.float64)[rows]
@@ -130,20 +130,22 @@ class _Nodes:
             others = {symbol for use in node.materials for symbol, _, number in use.inputs if str(number or 0) != first}
             self.materials[name] = {} if material is None else self._words(material, others)
         shape, number = self.shape(primitive), list(self.materials).index(name)
-        named = replace(shape, materials=shape.materials + number, name=str(node.geometry.name or node.geometry.id))
-        return named.placed(matrix)
+        named_part = replace(
+            shape, materials=shape.materials + number, name=str(node.geometry.name or node.geometry.id)
+        )
+        return named_part.placed(matrix)
 
     def _words(self, material: Any, others: set[str]) -> Material:
         """A material in the words of libraries of OBJ, which are those of COLLADA."""
-        effect, found = material.effect, dict[str, Any](name=str(material.name or material.id))
-        for given, word in _NUMBERS.items():
-            value = getattr(effect, given)
+        effect, fields = material.effect, dict[str, Any](name=str(material.name or material.id))
+        for attribute, word in _NUMBERS.items():
+            value = getattr(effect, attribute)
             if isinstance(value, tuple | list):
-                found[word] = as_text(value[:3])
+                fields[word] = as_text(value[:3])
             elif isinstance(value, int | float):
-                found[word] = float(value)
-        for given, word in _IMAGES.items():
-            if isinstance(value := getattr(effect, given), self._collada.material.Map):
+                fields[word] = float(value)
+        for attribute, word in _IMAGES.items():
+            if isinstance(value := getattr(effect, attribute), self._collada.material.Map):
                 name = str(value.sampler.surface.image.path)
                 image = self._beside.read(unquote(name))
                 ways = {_tag(one): str(one.text).strip() for one in value.sampler.xmlnode.iter()}
@@ -155,11 +157,11 @@ class _Nodes:
                     continue
                 number = self._numbers.setdefault(name, len(self._numbers))
                 wrap = tuple(_WAYS.get(ways.get(side, ""), "repeat") for side in ("wrap_s", "wrap_t"))
-                found |= Texture(number, wrap=wrap).in_words(word)
+                fields |= Texture(number, wrap=wrap).in_words(word)
                 self.images |= {f"image.{number}.name": name, f"image.{number}.data": image}
         if (opacity := _opacity(effect)) != 1:
-            found["d"] = opacity
-        return found | ({"doubleSided": 1} if effect.double_sided else {})
+            fields["d"] = opacity
+        return fields | ({"doubleSided": 1} if effect.double_sided else {})
 
 
 def _without_holes(primitive: Any, sizes: Ints, width: int) -> tuple[Ints, Any]:
@@ -194,11 +196,11 @@ def _opacity(effect: Any) -> float:
 
 def _columns(primitive: Any, index: Array) -> list[Column]:
     """Normals, texture coordinates and colors of the corners; of most kinds there may be several."""
-    found = []
+    columns = []
     for kind, semantic in _SEMANTICS.items():
         for number, (offset, _, _, _, source) in enumerate(primitive.sources.get(kind, ())):
             values = np.asarray(source.data, np.float64)
             column = Column(semantic, compact(values), "corner", semantic)
             column = color_column(values[:, :4], "corner") if semantic == "color" else column
-            found.append(replace(column, name=f"{semantic}{number or ''}", indices=index[:, offset]))
-    return found
+            columns.append(replace(column, name=f"{semantic}{number or ''}", indices=index[:, offset]))
+    return columns

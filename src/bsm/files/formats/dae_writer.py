@@ -32,12 +32,12 @@ def write_dae(mesh: TriangleMesh, stem: str) -> materials.Written:
     document = collada.Collada()
     # Equal meshes become equal files.
     document.assetInfo.created = document.assetInfo.modified = _NO_DATE
-    held = _say_place(document, mesh)
-    held.add("name")
+    metadata_held = _say_place(document, mesh)
+    metadata_held.add("name")
     provenance = mesh.metadata.get(PROVENANCE)
     if isinstance(provenance, str):
         document.assetInfo.contributors.append(collada.asset.Contributor(authoring_tool=one_line(provenance)))
-        held.add(PROVENANCE)
+        metadata_held.add(PROVENANCE)
     library = materials.Library(mesh, stem)
     texcoord = materials.first(mesh, "texcoord", (2,), "vertex", "corner")
     color = materials.first(mesh, "color", (3, 4), "vertex", "corner", "face")
@@ -45,18 +45,20 @@ def write_dae(mesh: TriangleMesh, stem: str) -> materials.Written:
     name = one_line(str(mesh.metadata.get("name") or stem))
     geometry, indices = _add_geometry(collada, document, mesh, name, (normal, texcoord, color))
     numbers = materials.face_numbers(mesh, "material")
-    own = np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
+    face_materials = np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
     inputs = _inputs(collada, (normal, texcoord, color))
     symbols = []
-    for number in np.unique(own).tolist():
-        said = library.materials.get(number, {})
-        words = in_mtl(said)
-        rows = indices[own == number]
+    for number in np.unique(face_materials).tolist():
+        material_words = library.materials.get(number, {})
+        words = in_mtl(material_words)
+        rows = indices[face_materials == number]
         symbol = f"material-{number}"
         geometry.primitives.append(geometry.createTriangleSet(rows.reshape(-1), inputs, symbol))
         material = _add_material(collada, document, number, words, library.images)
-        held |= {
-            f"material.{number}.{word}" for word in said if not is_mtl(word) or _holds(word, words, library.images)
+        metadata_held |= {
+            f"material.{number}.{word}"
+            for word in material_words
+            if not is_mtl(word) or _holds(word, words, library.images)
         }
         symbols.append(collada.scene.MaterialNode(symbol, material, inputs=[("UV", "TEXCOORD", "0")]))
     document.geometries.append(geometry)
@@ -65,28 +67,28 @@ def write_dae(mesh: TriangleMesh, stem: str) -> materials.Written:
     document.scenes.append(scene)
     document.scene = scene
     data = _as_text(document, geometry)
-    shown = [attribute for attribute in (normal, texcoord, color, numbers) if attribute is not None]
-    held = (held | library.written) - {*materials.unsaid(mesh.metadata, "MTL")}
-    lost = materials.left_out(mesh, shown, [name for name in mesh.metadata if name not in held])
+    attributes_written = [attribute for attribute in (normal, texcoord, color, numbers) if attribute is not None]
+    metadata_held = (metadata_held | library.written) - {*materials.unsaid(mesh.metadata, "MTL")}
+    lost = materials.left_out(mesh, attributes_written, [name for name in mesh.metadata if name not in metadata_held])
     return materials.Written(data, lost, library.beside)
 
 
 def _say_place(document: Any, mesh: TriangleMesh) -> set[str]:
     """Write the unit and the upward axis of a mesh into a document; return the metadata that it holds."""
-    held = set()
+    metadata_held = set()
     up = str(mesh.metadata.get("up", "y")).upper()
     document.assetInfo.upaxis = "Y_UP"
     if f"{up}_UP" in AXES:
         document.assetInfo.upaxis = f"{up}_UP"
-        held.add("up")
+        metadata_held.add("up")
     unit = unit_of(mesh.metadata)
     size = metres(unit) if unit else None
     document.assetInfo.unitmeter, document.assetInfo.unitname = 1.0, "meter"
     if size is not None:
         document.assetInfo.unitmeter = size
         document.assetInfo.unitname = unit.replace(" ", "_")
-        held.add("unit")
-    return held
+        metadata_held.add("unit")
+    return metadata_held
 
 
 def _add_geometry(

@@ -65,8 +65,8 @@ class _Numbers:
         return self._data[begin : self._at] if kind == "f8" else as_integers(self._data[begin : self._at], "a number")
 
     def counts(self, count: int, kind: str = "u8") -> list[int]:
-        found: list[int] = self.take(kind, count).tolist()
-        return found
+        numbers: list[int] = self.take(kind, count).tolist()
+        return numbers
 
     def count(self) -> int:
         return self.counts(1)[0]
@@ -88,13 +88,13 @@ class _Gmsh:
         self._groups: dict[tuple[int, ...], int] = {(): 0}
         self._limits, self._size = limits, len(data)
         line, counted = 1, 0
-        for found in re.finditer(rb"^\$(?!End)(\w+)[^\n]*\n(.*?)(?=^\$End\1|\Z)", data, re.M | re.S):
-            line, counted = line + data.count(b"\n", counted, found.start()), found.start()
-            name = found[1].decode()
-            known = self._sections.setdefault(name, [])
-            if known and name not in _VALUES and found[2] not in known:  # Gmsh writes all again for each view
+        for match in re.finditer(rb"^\$(?!End)(\w+)[^\n]*\n(.*?)(?=^\$End\1|\Z)", data, re.M | re.S):
+            line, counted = line + data.count(b"\n", counted, match.start()), match.start()
+            name = match[1].decode()
+            sections = self._sections.setdefault(name, [])
+            if sections and name not in _VALUES and match[2] not in sections:  # Gmsh writes all again for each view
                 raise self.keywords.refusal(f"another ${name}", line)
-            known.append(found[2])
+            sections.append(match[2])
             self.keywords.leave(name, line)
         form, _, one = self._sections.get("MeshFormat", [b""])[0].partition(b"\n")
         with as_format_error("Gmsh"):
@@ -105,17 +105,19 @@ class _Gmsh:
             numbers, self.points = self._nodes()
             require_counts(limits, vertices=len(numbers))
             nodes = Numbering(numbers)
-            self.cells = [(shape, own, of, nodes.rows(corners)) for shape, own, of, corners in self._cells()]
+            self.cells = [
+                (shape, cell_numbers, of, nodes.rows(corners)) for shape, cell_numbers, of, corners in self._cells()
+            ]
             elements = np.concatenate([np.zeros(0, np.int64), *(cell[1] for cell in self.cells)])
             self._series: dict[tuple[str, str], dict[float, tuple[Ints, Doubles]]] = {}
             self._tagged = {"NodeData": nodes}
             if "ElementData" in self._sections:
                 self._tagged["ElementData"] = Numbering(elements, "element")
             for kind, section in ((whose, one) for whose in _VALUES for one in self._sections.get(whose, ())):
-                called, time, asked, values = self._values(section)
-                rows = self._tagged[kind].rows(asked), values
-                if self._series.setdefault((kind, called), {}).setdefault(time, rows) is not rows:
-                    raise FormatError(f"the values {called} are there twice for the time {time:g}")
+                series_name, time, value_numbers, values = self._values(section)
+                rows = self._tagged[kind].rows(value_numbers), values
+                if self._series.setdefault((kind, series_name), {}).setdefault(time, rows) is not rows:
+                    raise FormatError(f"the values {series_name} are there twice for the time {time:g}")
             self._require_tables()
             self._names = _names_in(self._sections.get("PhysicalNames", [b""])[0])
         moving = [[*steps] for steps in self._series.values() if len(steps) > 1] or [[0.0]]
@@ -128,11 +130,11 @@ class _Gmsh:
 
     def _require_tables(self) -> None:
         """Refuse values that take too much memory as tables: a file may have few of many names, or of a wide one."""
-        taken = 0
+        numbers = 0
         for (kind, _), steps in self._series.items():
             widths = [values.shape[1] for _, values in steps.values()]
-            taken += len(self._tagged[kind]) * max(widths) * AS_NUMBERS
-        self._require_memory(_COPIES * taken)
+            numbers += len(self._tagged[kind]) * max(widths) * AS_NUMBERS
+        self._require_memory(_COPIES * numbers)
 
     def _table(self, kind: str, rows: Ints, values: Doubles) -> Doubles:
         """Return a row of values for each node or element; those without any have no numbers."""
@@ -150,43 +152,43 @@ class _Gmsh:
 
     def _blocks(self, name: str) -> Iterator[tuple[_Numbers, int, int, int, int]]:
         """The blocks of a section of version 4: dimension and number of an entity, a third number, and a count."""
-        given, is_new = self._section(name), self._version > 4
-        for _ in range(given.counts(4 if is_new else 2)[0] if given else 0):
-            *entity, third = given.counts(3, "i4")
+        section, is_new = self._section(name), self._version > 4
+        for _ in range(section.counts(4 if is_new else 2)[0] if section else 0):
+            *entity, third = section.counts(3, "i4")
             dimension, number = entity if is_new else entity[::-1]
-            yield given, dimension, number, third, given.count()
+            yield section, dimension, number, third, section.count()
 
     def _nodes(self) -> tuple[Ints, Doubles]:
         """The numbers of nodes, and where they are."""
         if self._version < 4:
-            count, given = self._counted("Nodes")
-            return given.rows(count, 3)
-        found = [(np.zeros(0, np.int64), np.zeros((0, 3)))]
-        for given, dimension, _, parametric, count in self._blocks("Nodes"):
+            count, section = self._counted("Nodes")
+            return section.rows(count, 3)
+        blocks = [(np.zeros(0, np.int64), np.zeros((0, 3)))]
+        for section, dimension, _, parametric, count in self._blocks("Nodes"):
             width = 3 + dimension * bool(parametric)
             if self._version > 4:
-                found.append((given.take("u8", count).astype(np.int64), given.take("f8", count * width)))
+                blocks.append((section.take("u8", count).astype(np.int64), section.take("f8", count * width)))
             else:
-                found.append(given.rows(count, width))
-            found[-1] = found[-1][0], found[-1][1].reshape(count, width)[:, :3]
-        numbers, points = map(np.concatenate, zip(*found))
+                blocks.append(section.rows(count, width))
+            blocks[-1] = blocks[-1][0], blocks[-1][1].reshape(count, width)[:, :3]
+        numbers, points = map(np.concatenate, zip(*blocks))
         return numbers, points
 
     def _cells(self) -> Iterator[_Cells]:
         if self._version < 4:
-            left, given = self._counted("Elements")
-            while self._binary and left > 0:
-                kind, count, tags = given.counts(3, "i4")
-                width, left = 1 + tags + self._width(kind), left - count
-                yield self._cell(kind, tags, given.take("i4", count * width).reshape(count, width))
-            flat = given.take("i8", 0 if self._binary else len(given))
+            cells_left, section = self._counted("Elements")
+            while self._binary and cells_left > 0:
+                kind, count, tags = section.counts(3, "i4")
+                width, cells_left = 1 + tags + self._width(kind), cells_left - count
+                yield self._cell(kind, tags, section.take("i4", count * width).reshape(count, width))
+            flat = section.take("i8", 0 if self._binary else len(section))
             for table in runs(flat, lambda row: (3 + int(row[2]) + self._width(int(row[1])), slice(1, 3))):
                 yield self._cell(int(table[0, 1]), int(table[0, 2]), np.delete(table, [1, 2], axis=1))
             return
         groups = self._groups_of_entities()
-        for given, dimension, entity, kind, count in self._blocks("Elements"):
+        for section, dimension, entity, kind, count in self._blocks("Elements"):
             width = 1 + self._width(kind)
-            table = given.take("u8" if self._version > 4 else "i4", count * width).reshape(count, width)
+            table = section.take("u8" if self._version > 4 else "i4", count * width).reshape(count, width)
             place = self._groups.setdefault(groups.get((dimension, entity), ()), len(self._groups))
             shape, numbers, _, nodes = self._cell(kind, 0, table)
             yield shape, numbers, np.full(count, place), nodes
@@ -210,22 +212,22 @@ class _Gmsh:
 
     def _groups_of_entities(self) -> dict[tuple[int, int], tuple[int, ...]]:
         """The physical groups of entities by their dimensions and numbers."""
-        found = dict[tuple[int, int], tuple[int, ...]]()
+        groups_by_entity = dict[tuple[int, int], tuple[int, ...]]()
         for name in ("Entities", "PartitionedEntities"):
-            given, is_part = self._section(name), name != "Entities"
-            if is_part and given:
-                given.take("i4", 2 * given.counts(2)[1])  # ghosts
-            for dimension, count in enumerate(given.counts(4) if given else ()):
+            section, is_part = self._section(name), name != "Entities"
+            if is_part and section:
+                section.take("i4", 2 * section.counts(2)[1])  # ghosts
+            for dimension, count in enumerate(section.counts(4) if section else ()):
                 for _ in range(count):
-                    (entity,) = given.counts(1, "i4")
+                    (entity,) = section.counts(1, "i4")
                     if is_part:
-                        given.take("i4", 2)  # of which entity it is a part
-                        given.take("i4", given.count())
-                    given.take("f8", 3 if dimension == 0 and self._version > 4 else 6)
-                    groups = given.counts(given.count(), "i4")
-                    given.take("i4", given.count() if dimension else 0)
-                    found[dimension, entity] = tuple(sorted({*map(abs, groups)}))
-        return found
+                        section.take("i4", 2)  # of which entity it is a part
+                        section.take("i4", section.count())
+                    section.take("f8", 3 if dimension == 0 and self._version > 4 else 6)
+                    groups = section.counts(section.count(), "i4")
+                    section.take("i4", section.count() if dimension else 0)
+                    groups_by_entity[dimension, entity] = tuple(sorted({*map(abs, groups)}))
+        return groups_by_entity
 
     def _values(self, section: bytes) -> tuple[str, float, Ints, Doubles]:
         """The name of values, their time, the numbers that they are of, and a row for each."""
@@ -238,7 +240,7 @@ class _Gmsh:
         numbers, values = _Numbers(section, self._binary).rows(int(rows), int(width))
         return name.decode("utf-8", "replace").strip().strip('"'), float(time), numbers, values
 
-    def surface(self, step: int, left: Sequence[str] = ()) -> Polygons:
+    def surface(self, step: int, losses: Sequence[str] = ()) -> Polygons:
         """The surface at one of the times."""
         most = max((nodes.shape[1] for *_, nodes in self.cells), default=0)
         tables = [np.zeros((0, 2 + most), np.int64)]  # dimensions, groups and nodes
@@ -247,20 +249,20 @@ class _Gmsh:
             tables[-1][:, 0], tables[-1][:, 1] = _DIMENSIONS.get(shape, 3), group
         # Version 2.2 writes an element again for each further group of it.
         alike: Ints = row_numbers(np.delete(np.concatenate(tables), 1, axis=1)).astype(np.int64)
-        own = np.unique(alike, return_index=True)[1]
+        first_rows = np.unique(alike, return_index=True)[1]
         again = np.ones(len(alike), np.bool_)
-        again[own] = False
+        again[first_rows] = False
         there = np.split(~again, np.cumsum([len(table) for table in tables[1:]]))
-        cells = [(shape, nodes[kept]) for (shape, _, _, nodes), kept in zip(self.cells, there)]
+        cells = [(shape, nodes[is_kept]) for (shape, _, _, nodes), is_kept in zip(self.cells, there)]
         rows: dict[str, dict[str, Any]] = {"NodeData": {}, "ElementData": {}}
-        for (kind, called), steps in self._series.items():
+        for (kind, series_name), steps in self._series.items():
             values = self._table(kind, *[*steps.values()][step if len(steps) > 1 else 0])
-            rows[kind][called] = values if kind == "NodeData" else values[~again]
+            rows[kind][series_name] = values if kind == "NodeData" else values[~again]
         metadata, of_cells, lost, notes = self._named_groups(np.concatenate(tables)[:, :2], alike, ~again)
         rows["ElementData"] |= of_cells
-        lost = [*self.keywords.named, *lost, *left]
-        found = skin(self.points, cells, rows["NodeData"], rows["ElementData"], lost, metadata)
-        return replace(found, notes=(*found.notes, *notes))
+        lost = [*self.keywords.notes, *lost, *losses]
+        skin_mesh = skin(self.points, cells, rows["NodeData"], rows["ElementData"], lost, metadata)
+        return replace(skin_mesh, notes=(*skin_mesh.notes, *notes))
 
     def _pairs(self, owned: Ints, alike: Ints) -> tuple[Ints, int]:
         """The numbers of cells with the dimension and a group each, 0 for none, and how many pairs are there again."""
@@ -274,7 +276,7 @@ class _Gmsh:
         return pairs, len(every) - len(pairs)
 
     def _named_groups(
-        self, owned: Ints, alike: Ints, kept: Any
+        self, owned: Ints, alike: Ints, is_kept: Any
     ) -> tuple[dict[str, str], dict[str, Any], list[str], list[str]]:
         """The groups of cells, whose dimensions and sets of groups are `owned`; equal cells have one number in `alike`.
 
@@ -286,7 +288,7 @@ class _Gmsh:
         grouped = pairs[pairs[:, 2] > 0]
         table, kind_of = np.unique(grouped[:, 1:], axis=0, return_inverse=True)
         kinds = [*map(tuple, table.tolist())]
-        called = [names.pop(kind, str(kind[1])) for kind in kinds]
+        group_names = [names.pop(kind, str(kind[1])) for kind in kinds]
         lost += [f"the group {name}" for name in names.values()]
         if not kinds:
             return {}, {}, lost, []
@@ -297,18 +299,18 @@ class _Gmsh:
             self._require_memory(_COPIES * len(alike) * len(kinds))
             is_in = np.zeros((len(alike), len(kinds)), np.uint8)
             is_in[grouped[:, 0], kind_of.ravel()] = 1
-            is_in = is_in[alike[kept]]
+            is_in = is_in[alike[is_kept]]
             not_in, places = np.unique(1 - is_in, axis=0, return_inverse=True)  # the first group first
-            together = [" + ".join(np.array(called)[row == 0].tolist()) for row in not_in]
-            for (dimension, _), name, marks in zip(kinds, called, is_in.T, strict=True):
+            together = [" + ".join(np.array(group_names)[row == 0].tolist()) for row in not_in]
+            for (dimension, _), name, marks in zip(kinds, group_names, is_in.T, strict=True):
                 if dimension > 1:
                     masks[f"{name} ({dimension}D)" if name in masks else name] = marks
         else:
             lost += [f"further groups of faces that are in several ({further})"] if further else []
             first = np.full(len(alike), len(kinds))
             np.minimum.at(first, grouped[:, 0], kind_of.ravel())
-            used, places = np.unique(first[alike[kept]], return_inverse=True)
-            named_so = [*called, ""]
+            used, places = np.unique(first[alike[is_kept]], return_inverse=True)
+            named_so = [*group_names, ""]
             together = [named_so[place] for place in used.tolist()]
         metadata = named([name or "0" for name in together], "group")
         of_cells: dict[str, Any] = {"group": places.ravel().astype(np.int32)} if len(together) > 1 else {}
@@ -329,7 +331,7 @@ def read_gmsh_mesh(data: bytes, limits: Limits) -> Polygons:
     return model.surface(0, [f"later steps ({later})"] if later else [])
 
 
-def read_gmsh(path: str, wanted: Wanted, limits: Limits) -> Frames | None:
+def read_gmsh(path: str, request: Wanted, limits: Limits) -> Frames | None:
     """The times of values as frames; None if there is one."""
     model = _Gmsh(data := Path(path).read_bytes(), limits)
-    return read_steps(model.surface, model.times, len(data), wanted, limits)
+    return read_steps(model.surface, model.times, len(data), request, limits)

@@ -22,71 +22,76 @@ class Keywords:
     def __init__(self, file_format: str, way: str) -> None:
         rows = csv.DictReader(Path(__file__).with_name("keywords.csv").read_text().splitlines())
         self._harmless = [word for row in rows if row["format"] == file_format for word in row["harmless"].split(";")]
-        self._way, self.left = way, Counter[str]()
+        self._way, self.counts = way, Counter[str]()
 
     def leave(self, keyword: str, line: int) -> None:
         """Count a keyword that is not taken, or refuse the file."""
-        if keyword not in self.left and not any(fnmatch(keyword, word.lstrip("-")) for word in self._harmless):
+        if keyword not in self.counts and not any(fnmatch(keyword, word.lstrip("-")) for word in self._harmless):
             raise self.refusal(keyword, line)
-        self.left[keyword] += 1
+        self.counts[keyword] += 1
 
     def refusal(self, what: str, line: int) -> FormatError:
         """Return the error of a file with something that may change its shape, its numbers or its values."""
         return FormatError(f"line {line}: {what} is not read here, and may change the mesh; {self._way}")
 
     @property
-    def named(self) -> tuple[str, ...]:
+    def notes(self) -> tuple[str, ...]:
         """Return the keywords that were left out, with their counts."""
-        found = [f"{keyword} ({count})" for keyword, count in self.left.items() if f"-{keyword}" not in self._harmless]
-        return (*found[:_MOST_NAMED], *([f"{len(found) - _MOST_NAMED} other keywords"] * (len(found) > _MOST_NAMED)))
+        keywords = [
+            f"{keyword} ({count})" for keyword, count in self.counts.items() if f"-{keyword}" not in self._harmless
+        ]
+        return (
+            *keywords[:_MOST_NAMED],
+            *([f"{len(keywords) - _MOST_NAMED} other keywords"] * (len(keywords) > _MOST_NAMED)),
+        )
 
 
 def included(text: str, pattern: str, path: str | None) -> str:
     """Text with that of files it includes, each once: a pattern finds the kept part of a line, a name, and the rest."""
-    known, pieces, waiting = set[Path](), list[str](), [(text, 0)]
+    paths, pieces, waiting = set[Path](), list[str](), [(text, 0)]
     find = re.compile(pattern, re.M | re.I).search
     # A stack and no recursion: files may include each other deeper than Python can call.
     while waiting:
         text, begin = waiting.pop()
-        found = find(text, begin)
-        if found is None:
+        match = find(text, begin)
+        if match is None:
             pieces.append(text[begin:])
             continue
-        waiting.append((text, found.end()))
-        name = re.sub(r"\s*\n\s*", "", found[2].strip("'\""))
+        waiting.append((text, match.end()))
+        name = re.sub(r"\s*\n\s*", "", match[2].strip("'\""))
         with about(name):
             if path is None:
                 raise FormatError("only a file with a name, and not compressed, can include others")
             file = file_beside(Path(path).resolve().parent, name)
-            if file in known:
+            if file in paths:
                 raise FormatError("this file is included twice")
-            known.add(file)
+            paths.add(file)
             content = file.read_text("latin-1")
-        kept = f"{found[1]}{found[3]}"
-        pieces += [text[begin : found.start()], *([kept, "\n"] if kept else [])]
-        waiting.append((content if kept else content.lstrip("\n"), 0))
+        statement = f"{match[1]}{match[3]}"
+        pieces += [text[begin : match.start()], *([statement, "\n"] if statement else [])]
+        waiting.append((content if statement else content.lstrip("\n"), 0))
     return "".join(pieces)
 
 
 class Numbering:
     """The rows of things by their numbers, which need no order."""
 
-    def __init__(self, known: Ints, what: str = "node") -> None:
-        self._what, self._order = what, np.argsort(known, kind="stable")
-        self._known = known[self._order]
+    def __init__(self, numbers: Ints, what: str = "node") -> None:
+        self._what, self._order = what, np.argsort(numbers, kind="stable")
+        self._known = numbers[self._order]
         if (same := np.diff(self._known) == 0).any():
             raise MeshError(f"{what} {self._known[1:][same][0]} is there twice")
 
     def __len__(self) -> int:
         return len(self._known)
 
-    def rows(self, asked: Ints) -> Ints:
+    def rows(self, references: Ints) -> Ints:
         """Return the rows of things with these numbers."""
-        places = np.searchsorted(self._known, asked).clip(0, max(len(self) - 1, 0))
-        missing = self._known[places] != asked if len(self) else np.ones(np.shape(asked), np.bool_)
+        places = np.searchsorted(self._known, references).clip(0, max(len(self) - 1, 0))
+        missing = self._known[places] != references if len(self) else np.ones(np.shape(references), np.bool_)
         if missing.any():
-            raise MeshError(f"{self._what} {np.asarray(asked)[missing].ravel()[0]} is not there")
-        rows: Ints = self._order[places] if len(self) else np.full(np.shape(asked), -1)
+            raise MeshError(f"{self._what} {np.asarray(references)[missing].ravel()[0]} is not there")
+        rows: Ints = self._order[places] if len(self) else np.full(np.shape(references), -1)
         return rows
 
 

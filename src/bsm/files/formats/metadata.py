@@ -56,20 +56,20 @@ _TGA = re.compile(rb".[\0\1][\1-\3\x09-\x0b].{9}(?!\0\0)..(?!\0\0)..[\x08\x0f\x1
 
 def without_materials(metadata: Metadata) -> Metadata:
     """What does not say how the mesh looks."""
-    known = without_names(metadata, ("material",))
-    return {name: value for name, value in known.items() if not _ENTRY.fullmatch(name)}
+    plain_metadata = without_names(metadata, ("material",))
+    return {name: value for name, value in plain_metadata.items() if not _ENTRY.fullmatch(name)}
 
 
 def without_names(metadata: Metadata, attributes: Collection[str]) -> Metadata:
     """Metadata without the names of the values of attributes."""
-    found = {name: _NAMES.fullmatch(name) for name in metadata}
-    return {name: metadata[name] for name, match in found.items() if match is None or match[1] not in attributes}
+    matches = {name: _NAMES.fullmatch(name) for name in metadata}
+    return {name: metadata[name] for name, match in matches.items() if match is None or match[1] not in attributes}
 
 
 def kind_of_image(data: bytes) -> str | None:
     """Return the suffix of an image by its first bytes; None for unknown formats."""
-    found = next((kind for signature, kind in _SIGNATURES.items() if data.startswith(signature)), None)
-    return found or ("tga" if _TGA.match(data) else None)
+    known_kind = next((kind for signature, kind in _SIGNATURES.items() if data.startswith(signature)), None)
+    return known_kind or ("tga" if _TGA.match(data) else None)
 
 
 def named(names: Sequence[str], what: str) -> dict[str, str]:
@@ -81,32 +81,32 @@ def named(names: Sequence[str], what: str) -> dict[str, str]:
 
 def names_in(metadata: Metadata, what: str) -> dict[int, str]:
     together = metadata.get(f"{what}.names")
-    found = dict(enumerate(together.split("\n"))) if isinstance(together, str) else {}
+    names = dict(enumerate(together.split("\n"))) if isinstance(together, str) else {}
     for key, name in metadata.items():
         if match := re.fullmatch(rf"{what}\.(\d{{1,9}})\.name", key):
-            found[int(match[1])] = str(name)
-    return found
+            names[int(match[1])] = str(name)
+    return names
 
 
 def materials_in(metadata: Metadata) -> dict[int, Material]:
-    found: dict[int, Material] = {number: {"name": name} for number, name in names_in(metadata, "material").items()}
+    materials: dict[int, Material] = {number: {"name": name} for number, name in names_in(metadata, "material").items()}
     for kind, number, name, value in _entries(metadata):
         if kind == "material" and not isinstance(value, bytes):
-            found.setdefault(number, {})[name] = value
-    return dict(sorted(found.items()))
+            materials.setdefault(number, {})[name] = value
+    return dict(sorted(materials.items()))
 
 
 def images_in(metadata: Metadata) -> dict[int, tuple[str, bytes]]:
     """Return the name and the bytes of every image, by number; unknown ones are empty."""
-    found: dict[int, tuple[str, bytes]] = {}
+    images: dict[int, tuple[str, bytes]] = {}
     for kind, number, name, value in _entries(metadata):
         if kind == "image":
-            called, data = found.get(number, ("", b""))
+            image_name, data = images.get(number, ("", b""))
             if name == "name" and isinstance(value, str):
-                found[number] = (value, data)
+                images[number] = (value, data)
             elif name == "data" and isinstance(value, bytes):
-                found[number] = (called, value)
-    return dict(sorted(found.items()))
+                images[number] = (image_name, value)
+    return dict(sorted(images.items()))
 
 
 def _entries(metadata: Metadata) -> Iterable[tuple[str, int, str, Value]]:
@@ -126,24 +126,24 @@ def fetched(
     metadata: Metadata, read: Callable[[str], bytes | str]
 ) -> tuple[dict[str, Value], list[str], tuple[str, ...]]:
     """Return metadata with the contents of the files that they name, notes on those that `read` has not, and losses."""
-    found, notes, images = dict(metadata), list[str](), dict[str, int]()
+    contents, notes, images = dict(metadata), list[str](), dict[str, int]()
     libraries: list[dict[str, Material]] = []
     folders: dict[str, str] = {}
-    for line in str(found.get("mtllib", "")).split("\n"):
-        whole = read(line)
-        for name in [line] if isinstance(whole, bytes) or len(line.split()) < 2 else line.split():
+    for line in str(contents.get("mtllib", "")).split("\n"):
+        library_data = read(line)
+        for name in [line] if isinstance(library_data, bytes) or len(line.split()) < 2 else line.split():
             if isinstance(library := read(name), bytes):
-                known, within = {*images}, name.replace("\\", "/").rpartition("/")[0]
+                image_names, within = {*images}, name.replace("\\", "/").rpartition("/")[0]
                 libraries.append(parse_mtl(library, images))
-                folders |= dict.fromkeys(images.keys() - known, within) if within else {}
+                folders |= dict.fromkeys(images.keys() - image_names, within) if within else {}
             elif name:
                 notes.append(f"the materials in {name} were left out: {library}")
-    of_libraries, lost = _add_libraries(found, libraries)
+    of_libraries, lost = _add_libraries(contents, libraries)
     notes += of_libraries
-    found |= {f"image.{number}.name": name for name, number in images.items()}
-    for key in [key for key in found if key.startswith("image.") and key.endswith(".name")]:
-        name, place = str(found[key]), key.removesuffix("name") + "data"
-        if place in found:
+    contents |= {f"image.{number}.name": name for name, number in images.items()}
+    for key in [key for key in contents if key.startswith("image.") and key.endswith(".name")]:
+        name, place = str(contents[key]), key.removesuffix("name") + "data"
+        if place in contents:
             continue
         if _TILES.search(name):
             lost.append(f"the images {name}, of which a material has one")
@@ -153,22 +153,24 @@ def fetched(
         if isinstance(image, bytes) and kind_of_image(image) is None:
             image = "its format is not known"
         if isinstance(image, bytes):
-            found[place] = image
+            contents[place] = image
         else:
             notes.append(f"the image {name} was left out, its name was kept: {image}")
-    return found, notes, tuple(lost)
+    return contents, notes, tuple(lost)
 
 
-def _add_libraries(found: dict[str, Value], libraries: Sequence[Mapping[str, Material]]) -> tuple[list[str], list[str]]:
+def _add_libraries(
+    contents: dict[str, Value], libraries: Sequence[Mapping[str, Material]]
+) -> tuple[list[str], list[str]]:
     """Add the materials of libraries, the first of each name, those that faces name first; return notes and losses."""
-    numbers = {str(material.get("name", "")): number for number, material in materials_in(found).items()}
+    numbers = {str(material.get("name", "")): number for number, material in materials_in(contents).items()}
     materials = {name: material for library in reversed(libraries) for name, material in library.items()}
     absent = [name for name in numbers if name and name not in materials] if libraries else []
     black = [name for name, material in materials.items() if is_black_beside_image(material)]
     free = count(max(numbers.values(), default=-1) + 1)
     for name, material in materials.items():
         numbers[name] = numbers[name] if name in numbers else next(free)
-        found |= described({numbers[name]: {"name": name, **material}})
+        contents |= described({numbers[name]: {"name": name, **material}})
     notes = {"no library has these materials": absent, "black beside an image, which other formats get white": black}
     again = {name: None for library in libraries for name in library if library[name] != materials[name]}
     lost = [f"the material {name} of a later library" for name in again]
@@ -177,17 +179,17 @@ def _add_libraries(found: dict[str, Value], libraries: Sequence[Mapping[str, Mat
 
 def plain_fields(fields: Mapping[str, Any]) -> tuple[dict[str, Value], list[str]]:
     """Return the field data of VTK that are one text, one number, or bytes each, and the names of all others."""
-    found: dict[str, Value] = {}
-    left: list[str] = []
-    for name, given in fields.items():
-        values = np.asarray(given)
+    plain: dict[str, Value] = {}
+    others: list[str] = []
+    for name, table in fields.items():
+        values = np.asarray(table)
         if values.dtype == np.uint8:
-            found[name] = values.tobytes()
+            plain[name] = values.tobytes()
         elif values.size == 1 and isinstance(value := values.reshape(-1)[0].item(), str | int | float):
-            found[name] = value
+            plain[name] = value
         else:
-            left.append(name)
-    return found, left
+            others.append(name)
+    return plain, others
 
 
 _READ = 4  # times the largest section of a stream that all files beside a mesh may have together
@@ -230,13 +232,13 @@ class Beside:
 
 def _in_other_case(folder: Path, name: str) -> str:
     """A path below a folder as its files are spelled."""
-    found = Path()
+    spelled_path = Path()
     for part in Path(name).parts:
         with suppress(OSError):
-            names = os.listdir(folder / found) if ".." not in (part, *found.parts) else ()
-            part = next((other for other in names if other.lower() == part.lower()), part)
-        found /= part
-    return str(found)
+            names = os.listdir(folder / spelled_path) if ".." not in (part, *spelled_path.parts) else ()
+            part = next((spelling for spelling in names if spelling.lower() == part.lower()), part)
+        spelled_path /= part
+    return str(spelled_path)
 
 
 MOST_TEXT = 1 << 13  # characters of a comment; readers of PLY look for the end of a header in its first 64 KiB
@@ -266,7 +268,7 @@ def remarks(metadata: Metadata, written: Iterable[str] = ()) -> tuple[list[str],
 
 
 def parse_remarks(lines: Iterable[str]) -> dict[str, Value]:
-    found: dict[str, Value] = {}
+    entries: dict[str, Value] = {}
     for match in filter(None, (_REMARK.fullmatch(line.strip()) for line in lines)):
         try:
             value = json.loads(match[2])
@@ -276,8 +278,8 @@ def parse_remarks(lines: Iterable[str]) -> dict[str, Value]:
             continue
         number = isinstance(value, int | float) and not isinstance(value, bool)
         if isinstance(value, str) or (number and abs(value) < 1 << 63):
-            found[match[1]] = value
-    return found
+            entries[match[1]] = value
+    return entries
 
 
 def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, Value], dict[str, str]]:
@@ -313,9 +315,9 @@ def unsaid(metadata: Metadata, kind: str) -> list[str]:
     return [f"material.{n}.{word}" for n, m in materials_in(metadata).items() for word in lost(m, held_by(kind))]
 
 
-def left_out(mesh: TriangleMesh, held: Iterable[Attribute | None], metadata: Collection[str]) -> tuple[str, ...]:
+def left_out(mesh: TriangleMesh, attributes: Iterable[Attribute | None], metadata: Collection[str]) -> tuple[str, ...]:
     """The names of the attributes that are not among those held, and metadata in words."""
-    names = {attribute.name for attribute in held if attribute is not None}
+    names = {attribute.name for attribute in attributes if attribute is not None}
     return (*(a.name for a in mesh.attributes if a.name not in names), *in_words(metadata, mesh.metadata))
 
 
@@ -325,24 +327,24 @@ _MOST_NAMED = 3
 
 def in_words(names: Iterable[str], metadata: Metadata) -> list[str]:
     """Return metadata as a user knows them: "opacity of material Glass", "the image oak.png"."""
-    found: list[str] = []
+    phrases: list[str] = []
     of_materials: dict[str, dict[str, None]] = {}
     for name in (name for name in names if not name.startswith((CALLED, COMPONENTS))):
         kind, number, what = match.groups() if (match := _ENTRY.fullmatch(name)) else ("", "", name)
-        called = str(metadata.get(f"{kind}.{number}.name") or number)
+        thing_name = str(metadata.get(f"{kind}.{number}.name") or number)
         if kind == "material":
-            of_materials.setdefault(called, {})[_IN_WORDS.get(what, what)] = None
+            of_materials.setdefault(thing_name, {})[_IN_WORDS.get(what, what)] = None
         elif kind == "image":
-            found += [f"the image {called}"] if what == "data" or f"{kind}.{number}.data" not in metadata else []
+            phrases += [f"the image {thing_name}"] if what == "data" or f"{kind}.{number}.data" not in metadata else []
         else:
-            found.append(name)
+            phrases.append(name)
     alike: dict[str, list[str]] = {}
-    for called, words in of_materials.items():
-        alike.setdefault(", ".join(words), []).append(called)
+    for thing_name, words in of_materials.items():
+        alike.setdefault(", ".join(words), []).append(thing_name)
     for what, those in alike.items():
         more = f" and {len(those) - _MOST_NAMED} more" if len(those) > _MOST_NAMED else ""
-        found.append(f"{what} of material{'s' * (len(those) > 1)} {', '.join(those[:_MOST_NAMED])}{more}")
-    return found
+        phrases.append(f"{what} of material{'s' * (len(those) > 1)} {', '.join(those[:_MOST_NAMED])}{more}")
+    return phrases
 
 
 def name_in_file(metadata: Metadata, attribute: Attribute) -> str:
@@ -359,12 +361,12 @@ def components_in_file(metadata: Metadata, attribute: Attribute) -> list[str]:
 def with_none(attributes: Iterable[Attribute]) -> dict[str, npt.NDArray[Any]]:
     """The values of attributes by name, with NaN where others mark that there are none, and without the marks."""
     every = {attribute.name: attribute for attribute in attributes}
-    found = {name: attribute.values for name, attribute in every.items()}
+    values = {name: attribute.values for name, attribute in every.items()}
     for name, attribute in every.items():
         marks = every.get(f"{name}{NONE}")
         if marks is not None and marks.domain == attribute.domain and attribute.values.dtype.kind == "f":
-            found[name] = np.where(found.pop(marks.name) > 0, np.nan, attribute.values)
-    return found
+            values[name] = np.where(values.pop(marks.name) > 0, np.nan, attribute.values)
+    return values
 
 
 def split_at_seams(mesh: TriangleMesh, *seams: Attribute | None) -> TriangleMesh:
@@ -372,14 +374,14 @@ def split_at_seams(mesh: TriangleMesh, *seams: Attribute | None) -> TriangleMesh
 
     The vertices of the mesh keep their numbers, and copies follow them.
     """
-    kept = [attribute for attribute in mesh.attributes if attribute.domain == "corner" and attribute not in seams]
-    parted = [attribute for attribute in mesh.attributes if attribute not in kept]
+    unsplit = [attribute for attribute in mesh.attributes if attribute.domain == "corner" and attribute not in seams]
+    parted = [attribute for attribute in mesh.attributes if attribute not in unsplit]
     split, origin = split_with_origin(replace(mesh, attributes=tuple(parted)))
     is_copy = np.diff(origin, prepend=-1) == 0
     order = np.argsort(is_copy, kind="stable")
     moved = [attribute.taken(order, np.arange(len(mesh.faces))) for attribute in split.attributes]
     faces = np.argsort(order)[split.faces].astype(np.int32)
-    return replace(split, positions=split.positions[order], faces=faces, attributes=(*moved, *kept))
+    return replace(split, positions=split.positions[order], faces=faces, attributes=(*moved, *unsplit))
 
 
 def first(mesh: TriangleMesh, semantic: Semantic, components: Collection[int], *domains: Domain) -> Attribute | None:
@@ -404,8 +406,8 @@ def without_seams(attribute: Attribute, mesh: TriangleMesh) -> Attribute:
 def face_numbers(mesh: TriangleMesh, name: str) -> Attribute | None:
     """The attribute of this name, if it is a whole number for each face."""
     fits = (a for a in mesh.attributes if a.name == name and a.domain == "face" and a.components == 1)
-    found = next(fits, None)
-    return found if found is not None and found.values.dtype.kind in "iu" else None
+    attribute = next(fits, None)
+    return attribute if attribute is not None and attribute.values.dtype.kind in "iu" else None
 
 
 def shown_at_vertices(mesh: TriangleMesh) -> tuple[Attribute | None, Attribute | None, Attribute | None]:

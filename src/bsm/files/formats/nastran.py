@@ -47,16 +47,16 @@ def read_nastran(data: bytes, path: str | None, limits: Limits) -> Polygons:
     require_counts(limits, vertices=len(cards["GRID"]))
     grids = _without_repeats(cards["GRID"])
     numbers = Numbering(_integers(grids, 0))
-    given, owners = _reals([(line, row[2:5]) for line, row in grids]), _integers(grids, 1)
-    points = _Systems(systems, numbers, given, owners).points() if owners.any() else given
+    grid_points, owners = _reals([(line, row[2:5]) for line, row in grids]), _integers(grids, 1)
+    points = _Systems(systems, numbers, grid_points, owners).points() if owners.any() else grid_points
     blocks, properties = [], list[Ints]()
     for name, (shape, counts) in _ELEMENTS.items():
-        for count, some in _by_count(name, cards[name], counts, keywords):
-            nodes = np.column_stack([_integers(some, 2 + place) for place in range(count)])
+        for count, cards_alike in _by_count(name, cards[name], counts, keywords):
+            nodes = np.column_stack([_integers(cards_alike, 2 + place) for place in range(count)])
             blocks.append((shape, numbers.rows(nodes)[:, _ORDER.get(count, [*range(count)])]))
-            properties.append(_integers(some, 1))
+            properties.append(_integers(cards_alike, 1))
     of_cells = {"property": np.concatenate(properties)} if properties else {}
-    return skin(points, blocks, {}, of_cells, keywords.named)
+    return skin(points, blocks, {}, of_cells, keywords.notes)
 
 
 def _cards(lines: Sequence[str], keywords: Keywords) -> Iterator[tuple[str, int, list[str]]]:
@@ -66,8 +66,8 @@ def _cards(lines: Sequence[str], keywords: Keywords) -> Iterator[tuple[str, int,
         raise keywords.refusal(lines[starts[-1]].strip()[:40], starts[-1] + 1)
     first = starts[0] + 1 if starts else 0
     name, begun, fields = "", 0, list[str]()
-    for number, given in enumerate(lines[first:], first + 1):
-        line = given.partition("$")[0].rstrip()
+    for number, raw_line in enumerate(lines[first:], first + 1):
+        line = raw_line.partition("$")[0].rstrip()
         if not line.strip():
             continue
         if re.fullmatch(r"[\w*+]*", line.partition(",")[0].strip()) and "," in line:
@@ -88,7 +88,7 @@ def _cards(lines: Sequence[str], keywords: Keywords) -> Iterator[tuple[str, int,
         if name == "ENDDATA":
             return
         if not re.fullmatch("[A-Z][A-Z0-9]{0,7}", name):
-            raise FormatError(f"line {number}: {given.strip()[:40]!r} is not a card of Nastran")
+            raise FormatError(f"line {number}: {raw_line.strip()[:40]!r} is not a card of Nastran")
     if name:
         yield name, begun, fields
 
@@ -105,7 +105,7 @@ def _integers(cards: Sequence[Card], place: int) -> Ints:
 
 def _reals(cards: Sequence[Card]) -> Doubles:
     """The fields of cards as numbers, as Nastran writes them: 7.-3 is 7e-3."""
-    text = _EXPONENT.sub(lambda found: f"e{found[1] or ''}", " ".join(word or "0" for _, row in cards for word in row))
+    text = _EXPONENT.sub(lambda match: f"e{match[1] or ''}", " ".join(word or "0" for _, row in cards for word in row))
     try:
         return np.array(text.split(), np.float64).reshape(len(cards), len(cards[0][1]) if cards else 3)
     except ValueError:
@@ -117,43 +117,43 @@ def _reals(cards: Sequence[Card]) -> Doubles:
 
 def _without_repeats(cards: Sequence[Card]) -> list[Card]:
     """Cards without those that say the same again."""
-    known = {tuple(row): (line, row) for line, row in reversed(cards)}
-    return list(reversed(known.values()))
+    first_cards = {tuple(row): (line, row) for line, row in reversed(cards)}
+    return list(reversed(first_cards.values()))
 
 
 def _by_count(
     name: str, cards: Sequence[Card], counts: Sequence[int], keywords: Keywords
 ) -> Iterator[tuple[int, list[Card]]]:
     """Elements by how many nodes they have; nodes on edges are all there, or none."""
-    found = defaultdict[int, list[Card]](list)
+    cards_by_count = defaultdict[int, list[Card]](list)
     for line, row in cards:
         there = [word not in ("", "0") for word in row[2 : 2 + counts[0]]]
         count = next((n for n in counts if all(there[:n]) and len(there) >= n and not any(there[n:])), 0)
         if not count:
             raise keywords.refusal(f"{name} with {sum(there)} of {counts[0]} nodes", line)
-        found[count].append((line, row))
-    yield from found.items()
+        cards_by_count[count].append((line, row))
+    yield from cards_by_count.items()
 
 
 class _Systems:
     """Coordinate systems, each of which is placed once, after the one that it is in."""
 
     def __init__(
-        self, given: Mapping[int, tuple[str, Card]], numbers: Numbering, points: Doubles, owners: Ints
+        self, systems: Mapping[int, tuple[str, Card]], numbers: Numbering, points: Doubles, owners: Ints
     ) -> None:
-        self._given, self._numbers, self._points, self._owners = given, numbers, points, owners
+        self._given, self._numbers, self._points, self._owners = systems, numbers, points, owners
         self._axes: dict[int, tuple[Doubles, Doubles]] = {}  # origins, and axes as rows, in basic coordinates
 
     def points(self) -> Doubles:
         """Return all points in basic coordinates."""
-        found = self._points.copy()
+        points = self._points.copy()
         order = np.argsort(self._owners, kind="stable")
         owners, begins = np.unique(self._owners[order], return_index=True)
         for owner, rows in zip(owners.tolist(), np.split(order, begins[1:])):
             if owner:
                 self._place(owner)
-                found[rows] = self._moved(self._points[rows], owner)
-        return found
+                points[rows] = self._moved(self._points[rows], owner)
+        return points
 
     def _place(self, number: int) -> None:
         """Find the axes of a system, and of those that it is in."""

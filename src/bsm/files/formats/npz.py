@@ -52,11 +52,11 @@ def read_header(file: IO[bytes] | Input) -> tuple[tuple[int, ...], bool, Kind]:
     text = file.read(min(declared, _MOST_HEADER))
     if begin.startswith(NPY) and (not length or len(text) < declared):
         raise TruncatedError(f"the header of an npy array has {len(text)} bytes of {declared}")
-    known = io.BytesIO(begin + length + text)
+    header = io.BytesIO(begin + length + text)
     try:
-        version = np.lib.format.read_magic(known)
+        version = np.lib.format.read_magic(header)
         read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-        shape, fortran, kind = read(known)
+        shape, fortran, kind = read(header)
     except _NO_HEADER as error:
         raise CorruptError(f"not a valid npy header: {error}") from error
     # Objects would be unpickled, which runs whatever the file says.
@@ -133,7 +133,7 @@ class NpzArray:
     def size(self) -> int:
         return math.prod(self.shape) * self._kind.itemsize
 
-    def whole(self) -> Array:
+    def read_array(self) -> Array:
         """All numbers; `LimitError` beyond 4 GiB."""
         if self.size > _MAX_BYTES:
             raise LimitError(f"the array {self._name} takes {self.size} bytes; the limit is {_MAX_BYTES}")
@@ -186,10 +186,10 @@ def read_npz(data: bytes, limits: Limits) -> Polygons:
         frames, inflated = _require_shapes(archive, len(data), limits)
         if frames:
             raise MeshError(f"this npz file holds a sequence of {frames} frames, not one mesh")
-        mesh = TriangleMesh(NpzArray(archive, "positions").whole(), NpzArray(archive, "faces").whole())
-        found = _beside(archive, mesh, len(data), limits, inflated)
+        mesh = TriangleMesh(NpzArray(archive, "positions").read_array(), NpzArray(archive, "faces").read_array())
+        extras = _beside(archive, mesh, len(data), limits, inflated)
     sizes, corners = np.full(len(mesh.faces), 3), mesh.faces.astype(np.int64).reshape(-1)
-    return Polygons(mesh.positions, sizes, corners, (), found.dropped, tuple(found.columns), found.metadata)
+    return Polygons(mesh.positions, sizes, corners, (), extras.dropped, tuple(extras.columns), extras.metadata)
 
 
 _PER_MOVING_BYTE = 5
@@ -203,31 +203,31 @@ class _Beside:
     columns: list[Column] = field(default_factory=list)
     moving: dict[str, str] = field(default_factory=dict)
     metadata: dict[str, str | int | float | bytes] = field(default_factory=dict)
-    left: list[str] = field(default_factory=list)
+    unread: list[str] = field(default_factory=list)
 
     @property
     def dropped(self) -> tuple[str, ...]:
         """The names of those that are none of these, or how many there are."""
-        rest = len(self.left) - MOST_NAMED
-        return (*self.left[:MOST_NAMED], *([f"{rest} other arrays"] if rest > 0 else []))
+        rest = len(self.unread) - MOST_NAMED
+        return (*self.unread[:MOST_NAMED], *([f"{rest} other arrays"] if rest > 0 else []))
 
 
 def _beside(
     archive: zipfile.ZipFile, mesh: TriangleMesh, compressed: int, limits: Limits, inflated: int, frames: int = 0
 ) -> _Beside:
     """Check shapes before numbers are read; for a sequence, with its number of frames."""
-    found, frame, vertices = _Beside(), 0, len(mesh.positions)
+    extras, frame, vertices = _Beside(), 0, len(mesh.positions)
     names = dict.fromkeys(name.removesuffix(".npy") for name in archive.namelist())
     indices = {name for name in names if name.endswith("/indices") and name.removesuffix("/indices") in names}
     for number, name in enumerate(name for name in names if name not in ("positions", "faces", *indices)):
-        found.left.append(name)  # until it is taken
+        extras.unread.append(name)  # until it is taken
         with suppress(MeshError, FormatError):  # no numbers
             array = NpzArray(archive, name)
             if frames and array.shape[:2] == (frames, vertices) and math.prod(array.shape[2:]) <= MOST_COMPONENTS:
                 frame += _PER_MOVING_BYTE * array.size // frames
                 require_inflated(frame, compressed, limits, vertices)
-                if len(found.moving) < limits.attributes:
-                    found.moving[name.removeprefix("vertex/")] = found.left.pop()
+                if len(extras.moving) < limits.attributes:
+                    extras.moving[name.removeprefix("vertex/")] = extras.unread.pop()
             # An archive may name a million arrays: only so many are opened.
             elif number <= 2 * limits.attributes and (
                 name == "metadata" or max(array.shape, default=0) <= max(vertices, 3 * len(mesh.faces))
@@ -236,14 +236,14 @@ def _beside(
                 inflated += array.size * (TREE if name == "metadata" else 1)
                 inflated += AS_NUMBERS * math.prod(of_corners.shape) if of_corners else 0
                 require_inflated(inflated, compressed, limits)
-                values = array.whole()
+                values = array.read_array()
                 if name == "metadata" and values.dtype == np.uint8:
-                    found.metadata.update(_parse_metadata(values.tobytes()))
-                    found.left.pop()
+                    extras.metadata.update(_parse_metadata(values.tobytes()))
+                    extras.unread.pop()
                 elif column := column_of(name, values, mesh, of_corners):
-                    found.columns.append(column)
-                    found.left.pop()
-    return found
+                    extras.columns.append(column)
+                    extras.unread.pop()
+    return extras
 
 
 def column_of(name: str, values: Array, mesh: TriangleMesh, of_corners: NpzArray | None) -> Column | None:
@@ -255,7 +255,7 @@ def column_of(name: str, values: Array, mesh: TriangleMesh, of_corners: NpzArray
         rest = name
     indices = None
     if domain == "corner" and of_corners:
-        indices = of_corners.whole()
+        indices = of_corners.read_array()
         if indices.dtype.kind not in "iu" or indices.size != 3 * faces:
             return None
         indices = indices.reshape(-1).astype(np.int64)
@@ -272,15 +272,15 @@ def column_of(name: str, values: Array, mesh: TriangleMesh, of_corners: NpzArray
 def _parse_metadata(data: bytes) -> Metadata:
     try:
         entries = json.loads(data)
-        found: dict[str, str | int | float | bytes] = {}
+        metadata: dict[str, str | int | float | bytes] = {}
         for name, value in entries.items():
             plain = base64.b64decode(value["base64"], validate=True) if isinstance(value, dict) else value
             if not isinstance(plain, str | int | float | bytes):
                 raise ValueError(f"{name} is neither a text nor a number")
-            found[name] = plain
+            metadata[name] = plain
     except (ValueError, AttributeError, KeyError, TypeError, RecursionError, binascii.Error) as error:
         raise CorruptError(f"the metadata of the npz file are invalid: {error}") from error
-    return found
+    return metadata
 
 
 def _metadata_in(metadata: Metadata) -> dict[str, Array]:
@@ -318,33 +318,33 @@ def open_npz_sequence(
     file: BinaryIO, faces: Faces, count: int, shared: Shared
 ) -> Iterator[Callable[[Positions], None]]:
     """Write an npz of frames, shape (T, n, 3); yields what takes them. What changes waits in files for their number."""
-    first, moved, taken = dict[str, Array](), dict[str, IO[bytes]](), 0
+    first, moved, frames_taken = dict[str, Array](), dict[str, IO[bytes]](), 0
     # Deflated, positions are 5 % smaller, and take longer than decoding does; faces would be a hundredth of them.
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive, ExitStack() as waiting:
 
         def take(frame: Positions) -> None:
-            nonlocal taken
+            nonlocal frames_taken
             for name, values in {"positions": np.asarray(frame, "<f8"), **_arrays_of(shared.attributes())}.items():
                 before = first.setdefault(name, values)
                 if name not in moved and (name == "positions" or not np.array_equal(values, before)):
                     moved[name] = waiting.enter_context(tempfile.TemporaryFile())
                     # Until now the values were those of the first frame, and so they were for all frames before.
-                    moved[name].writelines(before.tobytes() for _ in range(taken))
+                    moved[name].writelines(before.tobytes() for _ in range(frames_taken))
                 if name in moved:
                     moved[name].write(values.tobytes())
-            taken += 1
+            frames_taken += 1
 
         yield take
-        if taken != (count or taken):
-            raise CorruptError(f"{taken} of {count} frames came")
+        if frames_taken != (count or frames_taken):
+            raise CorruptError(f"{frames_taken} of {count} frames came")
         for name, values in {"faces": faces, **first, **_metadata_in(shared.metadata())}.items():
             # Positions and faces are stored and the rest is deflated: an entry made with a ZipInfo is not compressed by
             # default.
-            named: Any = zipfile.ZipInfo(f"{name}.npy") if name in ("faces", "positions") else f"{name}.npy"
+            target: Any = zipfile.ZipInfo(f"{name}.npy") if name in ("faces", "positions") else f"{name}.npy"
             # The size is not known before, and zipfile cannot change to 64 bits while it writes.
-            with archive.open(named, "w", force_zip64=name in moved) as entry:
+            with archive.open(target, "w", force_zip64=name in moved) as entry:
                 if name in moved:
-                    header = {"descr": values.dtype.str, "fortran_order": False, "shape": (taken, *values.shape)}
+                    header = {"descr": values.dtype.str, "fortran_order": False, "shape": (frames_taken, *values.shape)}
                     np.lib.format.write_array_header_1_0(entry, header)
                     moved[name].seek(0)
                     shutil.copyfileobj(moved[name], entry)
@@ -355,24 +355,26 @@ def open_npz_sequence(
 # ------------------------------------------------------------------------------------------------------------ sequences
 
 
-def read_archive(given: Input, limits: Limits) -> Frames | None:
+def read_archive(source: Input, limits: Limits) -> Frames | None:
     """The sequence of an npz; None if it holds a mesh. Shapes are looked at before numbers are read."""
-    held = b"" if given.is_file else given.peek(1 << 32)
-    archive = given.name if given.is_file else io.BytesIO(held)
-    compressed = os.path.getsize(given.name) if given.is_file else len(held)
+    buffered = b"" if source.is_file else source.peek(1 << 32)
+    archive = source.name if source.is_file else io.BytesIO(buffered)
+    compressed = os.path.getsize(source.name) if source.is_file else len(buffered)
     with opened_archive(archive) as opened:
         count, inflated = _require_shapes(opened, compressed, limits)
         if not count:
             return None
-        mesh = TriangleMesh(next(_positions(archive)), NpzArray(opened, "faces").whole())
-        found = _beside(opened, mesh, compressed, limits, inflated, count)
+        mesh = TriangleMesh(next(_positions(archive)), NpzArray(opened, "faces").read_array())
+        extras = _beside(opened, mesh, compressed, limits, inflated, count)
     corners, every_face = np.arange(3 * len(mesh.faces)).reshape(-1, 3), np.arange(len(mesh.faces))
-    still, _, refused = attributes_of(found.columns, len(mesh.positions), len(mesh.faces), corners, every_face)
-    found.left.extend(refused)
-    notes = (f"left out: {', '.join(found.dropped)}",) if found.left else ()
-    meshes = _with_attributes(archive, mesh.faces, still, found.moving) if found.moving else None
-    attributes = next(_with_attributes(archive, mesh.faces, still, found.moving)).attributes if found.moving else still
-    return Frames(mesh.faces, count, _positions(archive), attributes, notes, metadata=found.metadata, meshes=meshes)
+    still, _, refused = attributes_of(extras.columns, len(mesh.positions), len(mesh.faces), corners, every_face)
+    extras.unread.extend(refused)
+    notes = (f"left out: {', '.join(extras.dropped)}",) if extras.unread else ()
+    meshes = _with_attributes(archive, mesh.faces, still, extras.moving) if extras.moving else None
+    attributes = (
+        next(_with_attributes(archive, mesh.faces, still, extras.moving)).attributes if extras.moving else still
+    )
+    return Frames(mesh.faces, count, _positions(archive), attributes, notes, metadata=extras.metadata, meshes=meshes)
 
 
 def _positions(archive: str | BinaryIO) -> Iterator[Positions]:
@@ -385,17 +387,17 @@ def _with_attributes(
     """One frame after the other, with the attributes of all frames, and its own."""
     for number, (positions, *values) in enumerate(_frames(archive, "positions", *moving.values())):
         with about(f"frame {number}"):
-            own = [column.astype(column.dtype.newbyteorder("=")) for column in values]
-            more = (Attribute(name, v, semantic=meaning_of(name, v[0].size)) for name, v in zip(moving, own))
+            columns = [column.astype(column.dtype.newbyteorder("=")) for column in values]
+            more = (Attribute(name, v, semantic=meaning_of(name, v[0].size)) for name, v in zip(moving, columns))
             mesh = TriangleMesh(positions, faces, (*still, *more))
         yield mesh
 
 
-def read_pipe(given: Input, limits: Limits) -> Frames:
+def read_pipe(source: Input, limits: Limits) -> Frames:
     """npy arrays, one after the other: faces, frame, frame, ..."""
     with ExitStack() as unread:
-        unread.callback(given.close)
-        faces = read_npy(given, "faces", limits)
+        unread.callback(source.close)
+        faces = read_npy(source, "faces", limits)
         if faces is None or faces.dtype.kind not in "iu":
             raise FormatError("the first array must be the faces: integers of shape (m, 3)")
         if faces.size and not 0 <= int(faces.min()) <= int(faces.max()) < 1 << 31:
@@ -403,8 +405,8 @@ def read_pipe(given: Input, limits: Limits) -> Frames:
         unread.pop_all()
 
     def frames() -> Iterator[Positions]:
-        with closing(given):
-            while (frame := read_npy(given, "vertices", limits)) is not None:
+        with closing(source):
+            while (frame := read_npy(source, "vertices", limits)) is not None:
                 yield frame.astype(np.float64)
 
     return Frames(faces.astype(np.int32), 0, frames())

@@ -47,14 +47,14 @@ _NOTHING = (*3 * [((0, 0), np.float64)], *4 * [(0, np.int64)], *2 * [((0, 0), np
 _ENDS = (b"", b"\n")  # before the beginning of a line
 
 
-def read_obj(data: bytes, limits: Limits, seen: tuple[int, int, int] | None = None) -> Polygons:
+def read_obj(data: bytes, limits: Limits, counts_before: tuple[int, int, int] | None = None) -> Polygons:
     """Read an OBJ, or lines of one after `seen` vertices, texture coordinates and normals: their corners, -1 for none,
     may refer to values elsewhere."""
     if b"\0" in data:
         raise FormatError("this is not an OBJ file: it holds binary data")
     require_counts(limits, **{name: data.count(begin) for name, begin in _COUNTED.items()})  # before lines are objects
     text = continued(data)
-    lines = _plain_lines(text, seen or (0, 0, 0)) or _Lines(text, seen or (0, 0, 0))
+    lines = _plain_lines(text, counts_before or (0, 0, 0)) or _Lines(text, counts_before or (0, 0, 0))
     points, sizes = lines.rows(b"v", "vertex"), lines.sizes
     numbers, most = int(points.counts.min(initial=100)), int(points.counts.max(initial=0))
     # A fourth number alone is a weight. A color is only taken for one if all vertices have it, with or without an
@@ -70,7 +70,7 @@ def read_obj(data: bytes, limits: Limits, seen: tuple[int, int, int] | None = No
     positions, corners = points.columns(0, 3), lines.places(0)
     for which, (keyword, name) in enumerate(_OF_CORNERS.items(), 1):
         rows = lines.rows(keyword, name)
-        if seen is not None and name == "texcoord":
+        if counts_before is not None and name == "texcoord":
             indices = lines.places(which)
             indices = np.where(indices == _NOWHERE, -1, indices)
             columns.append(Column(name, _texcoords(rows), "corner", name, indices))
@@ -82,11 +82,11 @@ def read_obj(data: bytes, limits: Limits, seen: tuple[int, int, int] | None = No
     states, names, again = _states(lines)
     notes += [f"objects of one name became one: {', '.join(again)}"] if again else []
     metadata: dict[str, materials.Value] = {**names}
-    libraries = dict.fromkeys(text_of(library) for library in lines.named(b"mtllib"))
+    libraries = dict.fromkeys(text_of(library) for library in lines.values_of(b"mtllib"))
     metadata |= {"mtllib": "\n".join(libraries)} if libraries else {}
     metadata |= _comments(data, dropped)
-    found = (*columns, *states)
-    return Polygons(sealed(positions), sizes, corners, tuple(notes), tuple(dropped), found, metadata)
+    all_columns = (*columns, *states)
+    return Polygons(sealed(positions), sizes, corners, tuple(notes), tuple(dropped), all_columns, metadata)
 
 
 def _comments(data: bytes, dropped: list[str]) -> dict[str, materials.Value]:
@@ -97,8 +97,8 @@ def _comments(data: bytes, dropped: list[str]) -> dict[str, materials.Value]:
     # The sign first: a search for beginnings of lines looks at each of them.
     signs = re.finditer(rb"#([^\r\n]*)", data)
     comments = (sign for sign in signs if data[sign.start() - 1 : sign.start()] in _ENDS)
-    lines = [(found.start(), text_of(found[1])) for found in comments]
-    found = materials.parse_remarks(line for _, line in lines)
+    lines = [(entries.start(), text_of(entries[1])) for entries in comments]
+    entries = materials.parse_remarks(line for _, line in lines)
     others = [(at, line) for at, line in lines if line and not line.startswith(("meta ", "MRGB "))]
     ahead = "\n".join(line for at, line in others if begin is None or at < begin.start())
     later = sum(at >= (begin.start() if begin else 0) and not _OF_EXPORTERS.match(line) for at, line in others)
@@ -106,13 +106,13 @@ def _comments(data: bytes, dropped: list[str]) -> dict[str, materials.Value]:
     if data.count(b"#") > len(lines):
         later += len(re.findall(rb"^[ \t]*(?:v[nt]?|f)[ \t][^\r\n#]*#", data, re.M))
     dropped += [f"comments amid the data ({later})"] if later else []
-    return {**({"comment": ahead} if 0 < len(ahead) < materials.MOST_TEXT else {}), **found}
+    return {**({"comment": ahead} if 0 < len(ahead) < materials.MOST_TEXT else {}), **entries}
 
 
 class _PlainLines:
     """The lines of a text that the kernel reads."""
 
-    def __init__(self, text: bytes, counts: Ints, seen: Ints) -> None:
+    def __init__(self, text: bytes, counts: Ints, counts_before: Ints) -> None:
         points, point_numbers, texcoords, texcoord_numbers, normals, normal_numbers = counts[:6].tolist()
         faces, corners, others, words, with_texcoords, with_normals = counts[6:].tolist()
         tables = (
@@ -127,7 +127,7 @@ class _PlainLines:
         self._places = (point, texcoord, normal)
         lines, hard = np.empty((others, 3), np.int64), np.empty((words, 4), np.int64)
         arrays = (*tables, self.sizes, point, texcoord, normal, lines, hard)
-        _kernels.scan_obj(np.frombuffer(text, np.uint8), seen, True, np.empty_like(counts), arrays)
+        _kernels.scan_obj(np.frombuffer(text, np.uint8), counts_before, True, np.empty_like(counts), arrays)
         for table, place, begin, end in hard.tolist():
             tables[table].reshape(-1)[place] = float(text[begin:end])
         self._rows = dict(zip((b"v", b"vt", b"vn"), tables, strict=True))
@@ -144,7 +144,7 @@ class _PlainLines:
         places = self._places[which]
         return places if len(places) == len(self._places[0]) else np.full(len(self._places[0]), _NOWHERE)
 
-    def named(self, keyword: bytes) -> list[bytes]:
+    def values_of(self, keyword: bytes) -> list[bytes]:
         return [name for _, name in self._others.get(keyword, ())]
 
     def before_faces(self, keyword: bytes) -> Ints:
@@ -152,9 +152,9 @@ class _PlainLines:
         return np.cumsum(np.bincount(begins, minlength=len(self.sizes) + 1))[: len(self.sizes)]
 
 
-def _plain_lines(text: bytes, seen: tuple[int, int, int]) -> _PlainLines | None:
+def _plain_lines(text: bytes, counts_before: tuple[int, int, int]) -> _PlainLines | None:
     """Read the lines as nearly all programs write them; None: some need another reader, or an error in words."""
-    counts, before = np.empty(_kernels.OBJ_COUNTS, np.int64), np.array(seen, np.int64)
+    counts, before = np.empty(_kernels.OBJ_COUNTS, np.int64), np.array(counts_before, np.int64)
     nothing: Any = tuple(np.empty(shape, kind) for shape, kind in _NOTHING)
     if _kernels.scan_obj(np.frombuffer(text, np.uint8), before, False, counts, nothing):
         return None
@@ -164,27 +164,27 @@ def _plain_lines(text: bytes, seen: tuple[int, int, int]) -> _PlainLines | None:
 class _Lines:
     """The lines of any text by their keywords; # begins a comment at the start of a line, and after numbers."""
 
-    def __init__(self, text: bytes, seen: tuple[int, int, int]) -> None:
-        self._seen = seen
+    def __init__(self, text: bytes, counts_before: tuple[int, int, int]) -> None:
+        self._seen = counts_before
         self._lines = text.splitlines()
         keywords = [(line.split(None, 1) or [b""])[0] for line in self._lines] or [b""]
         self.keywords = {word for word in set(keywords) if not word.startswith(b"#")}
         self._keywords = np.array(keywords, dtype="S8")
         self._commented = b"#" in text
 
-        polygons = self.named(b"f")
+        polygons = self.values_of(b"f")
         self.sizes: Ints = np.fromiter((len(line.split()) for line in polygons), np.int64, len(polygons))
         self._references = _References(polygons)
         if (self._references.of(0) == 0).any():
             raise MeshError("a face refers to vertex 0, but OBJ files count from 1")
 
     def _are(self, keyword: bytes) -> Mask:
-        found: Mask = self._keywords == keyword
-        return found
+        mask: Mask = self._keywords == keyword
+        return mask
 
     def rows(self, keyword: bytes, what: str) -> Rows:
         """Return the numbers of the lines with a keyword."""
-        return Rows(self.named(keyword), what)
+        return Rows(self.values_of(keyword), what)
 
     def places(self, which: int) -> Ints:
         """Return the indices of corners, from 0 on; a negative one counts back from the last line before the face."""
@@ -196,11 +196,11 @@ class _Lines:
         """Return how many lines with a keyword are before each face."""
         return np.cumsum(self._are(keyword), dtype=np.int64)[self._are(b"f")]
 
-    def named(self, keyword: bytes) -> list[bytes]:
+    def values_of(self, keyword: bytes) -> list[bytes]:
         """Return the rest of each line with a keyword."""
-        found = [b"".join(self._lines[i].split(None, 1)[1:]) for i in np.flatnonzero(self._are(keyword)).tolist()]
+        names = [b"".join(self._lines[i].split(None, 1)[1:]) for i in np.flatnonzero(self._are(keyword)).tolist()]
         numbers = self._commented and keyword in _NUMBERS
-        return [line.partition(b"#")[0] for line in found] if numbers else [line.strip() for line in found]
+        return [line.partition(b"#")[0] for line in names] if numbers else [line.strip() for line in names]
 
 
 class _References:
@@ -219,9 +219,9 @@ class _References:
 
     def of(self, which: int) -> Ints:
         there = self._rows.counts > which
-        found = np.zeros(len(there), np.int64)
-        found[there] = self._numbers[self._rows.starts[there] + which]
-        return found
+        numbers = np.zeros(len(there), np.int64)
+        numbers[there] = self._numbers[self._rows.starts[there] + which]
+        return numbers
 
 
 def _corner_column(
@@ -237,8 +237,8 @@ def _corner_column(
         owner = 0 if flat is None else np.repeat(np.arange(len(flat[1])), flat[1])
         indices = np.where(present, indices, len(values) + owner)
         values = np.vstack([values, more])
-        given = "zeros" if flat is None else "those of their faces"
-        notes = [f"corners without {PLURALS[name]} were given {given}: {int((~present).sum())}"]
+        substitute = "zeros" if flat is None else "those of their faces"
+        notes = [f"corners without {PLURALS[name]} were given {substitute}: {int((~present).sum())}"]
     return [Column(name, compact(values), "corner", name, indices)], notes
 
 
@@ -258,11 +258,11 @@ def _states(lines: _Lines | _PlainLines) -> tuple[list[Column], dict[str, str], 
     metadata: dict[str, str] = {}
     again = dict[str, None]()
     for what, keyword in STATES.items():
-        names = ["", *map(text_of, lines.named(keyword.encode()))]
+        names = ["", *map(text_of, lines.values_of(keyword.encode()))]
         of_face = lines.before_faces(keyword.encode())
-        column, known = grouped(what, names, of_face)
+        column, group_names = grouped(what, names, of_face)
         columns += column
-        metadata |= known
+        metadata |= group_names
         if what == "object":
             counts = Counter(names[place] for place in np.unique(of_face).tolist())
             again |= {name: None for name, count in counts.items() if name and count > 1}
@@ -284,8 +284,8 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     names = {what: _names(mesh, what, attribute) for what, attribute in numbers.items()}
     library = materials.Library(mesh, stem)
     unsaid = [name for name in materials.unsaid(mesh.metadata, "MTL") if not is_mtl(name.split(".", 2)[2])]
-    said = {n: m for n, m in library.materials.items() if m.keys() - {"name"}}
-    mtl = write_mtl(said, names["material"], library.images)
+    described_materials = {n: m for n, m in library.materials.items() if m.keys() - {"name"}}
+    mtl = write_mtl(described_materials, names["material"], library.images)
     libraries = str(mesh.metadata.get("mtllib", "")).split("\n")
     if mtl:
         library.beside[f"{stem}.mtl"] = mtl
@@ -319,10 +319,10 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
         changes = np.flatnonzero(np.diff(values[order], prepend=values[order[0]] - 1))
         before[changes] += [f"{STATES[what]} {names[what][number]}\n" for number in values[order[changes]].tolist()]
     parts += chain.from_iterable(zip(before.tolist(), faces))
-    held = (color, texcoord, normal, *numbers.values())
-    called = {f"{what}.{number}.name": name for what in STATES for number, name in names[what].items()}
-    renamed = [key for key, name in called.items() if mesh.metadata.get(key, name) != name]
-    lost = materials.left_out(original, held, (*dict.fromkeys((*omitted, *unsaid)), *renamed))
+    attributes_held = (color, texcoord, normal, *numbers.values())
+    group_metadata = {f"{what}.{number}.name": name for what in STATES for number, name in names[what].items()}
+    renamed = [key for key, name in group_metadata.items() if mesh.metadata.get(key, name) != name]
+    lost = materials.left_out(original, attributes_held, (*dict.fromkeys((*omitted, *unsaid)), *renamed))
     if color is not None and color.components > _COLORS:
         lost = (f"alpha of {color.name}", *lost)
     return materials.Written("".join(parts).encode(), lost, library.beside)
@@ -347,19 +347,19 @@ def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[i
     names = materials.names_in(mesh.metadata, what)
     used = [0] if attribute is None else np.unique(attribute.values).tolist()
     has = materials.materials_in(mesh.metadata) if what == "material" else {}  # a library may hold some of no face
-    known = {number: names.get(number) for number in (*used, *has)}
-    if attribute is None and not any(known.values()) and not has:
+    names_by_number = {number: names.get(number) for number in (*used, *has)}
+    if attribute is None and not any(names_by_number.values()) and not has:
         return {}
-    found: dict[int, str] = {}
-    taken: dict[str, int] = {}
-    for number, name in known.items():
+    unique_names: dict[int, str] = {}
+    uses: dict[str, int] = {}
+    for number, name in names_by_number.items():
         text = unique = one_line(str(f"{what}_{number}" if name is None else name))[:_MOST_NAME]
-        while unique in taken:
-            taken[text] += 1
-            unique = f"{text}_{taken[text]}"
-        taken[unique] = 1
-        found[number] = unique
-    return found
+        while unique in uses:
+            uses[text] += 1
+            unique = f"{text}_{uses[text]}"
+        uses[unique] = 1
+        unique_names[number] = unique
+    return unique_names
 
 
 def _points(mesh: TriangleMesh, color: Attribute | None) -> str:

@@ -36,21 +36,23 @@ def read_off(data: bytes, limits: Limits) -> Polygons:
     points = Rows(lines[:vertices], "vertex")
     polygons = Rows(lines[vertices : vertices + faces], "face")
     sizes, corners = polygons.lists(0)
-    found, dropped = _vertex_columns(header["extras"], points, lines[:vertices])
+    columns, dropped = _vertex_columns(header["extras"], points, lines[:vertices])
     behind = polygons.counts - sizes - 1
     if (behind >= 3).all() and (behind == behind[:1]).all() and len(behind):
         first_behind = polygons.starts + sizes + 1
         colors = polygons.values[first_behind[:, None] + np.arange(min(int(behind[0]), 4))]
-        found.append(color_column(colors, "face", written_whole=_are_whole(colors, lines[vertices : vertices + faces])))
+        columns.append(
+            color_column(colors, "face", written_whole=_are_whole(colors, lines[vertices : vertices + faces]))
+        )
     elif (behind > 0).any():
         dropped.append("colors of faces")  # numbers of a map of colors, or of some faces only
     metadata = parse_remarks(line.decode(errors="replace") for line in re.findall(rb"^#([^\r\n]*)", data, re.M))
-    return Polygons(points.columns(0, 3), sizes, corners, (), tuple(dropped), tuple(found), metadata)
+    return Polygons(points.columns(0, 3), sizes, corners, (), tuple(dropped), tuple(columns), metadata)
 
 
 def _vertex_columns(extras: bytes, points: Rows, lines: Sequence[bytes]) -> tuple[list[Column], list[str]]:
     """Normals, colors and texture coordinates, in this order (NC: colors first, by MeshLab); and unknown letters."""
-    found: list[Column] = []
+    columns: list[Column] = []
     place, texcoords = 3, 2 if b"ST" in extras else 0
     behind = 3 * (b"NC" in extras) + texcoords
     for kind in (b"C", b"N") if b"NC" in extras else (b"N", b"C"):
@@ -60,14 +62,14 @@ def _vertex_columns(extras: bytes, points: Rows, lines: Sequence[bytes]) -> tupl
         values = points.columns(place, width)
         if kind == b"C":
             written_whole = _are_whole(values, [b" ".join(line.split()[place : place + width]) for line in lines])
-            found.append(color_column(values, "vertex", written_whole=written_whole))
+            columns.append(color_column(values, "vertex", written_whole=written_whole))
         else:
-            found.append(Column("normal", compact(values), semantic="normal"))
+            columns.append(Column("normal", compact(values), semantic="normal"))
         place += width
     if texcoords:
-        found.append(Column("texcoord", compact(points.columns(place, 2)), semantic="texcoord"))
+        columns.append(Column("texcoord", compact(points.columns(place, 2)), semantic="texcoord"))
         place += 2
-    return found, ["numbers after the coordinates"] if (points.counts > place).any() else []
+    return columns, ["numbers after the coordinates"] if (points.counts > place).any() else []
 
 
 def _are_whole(colors: Doubles, lines: Sequence[bytes]) -> bool:
@@ -95,8 +97,8 @@ def write_off(mesh: TriangleMesh, stem: str) -> Written:
     face, behind = _row([of_faces])
     columns = [*mesh.faces.T.tolist(), *(column for table in behind for column in table.T.tolist())]
     faces = "".join(map(("3 {} {} {}" + face).format, *columns))
-    held = (normal, color, texcoord, of_faces)
-    lost = left_out(original, held, dict.fromkeys((*omitted, *unsaid(mesh.metadata, "OFF"))))
+    attributes_held = (normal, color, texcoord, of_faces)
+    lost = left_out(original, attributes_held, dict.fromkeys((*omitted, *unsaid(mesh.metadata, "OFF"))))
     return Written((head + counts).encode() + points + faces.encode(), lost)
 
 

@@ -31,13 +31,13 @@ _PIECE, _HEAD = 1 << 20, 1 << 12
 
 def refuse_outside(path: str, kind: str, limits: Limits, *, closed: bool) -> None:
     """Refuse a file that names files of other folders; `closed`: the system keeps its library from these, too."""
-    given = Path(path)
-    folder = given.resolve().parent
+    source_path = Path(path)
+    folder = source_path.resolve().parent
     if kind in _IN_XML:
-        _refuse_in_xml(given, folder, limits)
+        _refuse_in_xml(source_path, folder, limits)
     elif kind in ("case", "encas"):
-        limits.check("metadata_bytes", given.stat().st_size)
-        _refuse_in_case(given)
+        limits.check("metadata_bytes", source_path.stat().st_size)
+        _refuse_in_case(source_path)
     elif kind == "foam" and not closed:
         _refuse_includes(folder)
     if kind in ("case", "encas", "foam") and not closed:
@@ -46,13 +46,15 @@ def refuse_outside(path: str, kind: str, limits: Limits, *, closed: bool) -> Non
         with open(path, "rb") as file:
             is_hdf = file.read(len(_HDF)) == _HDF
         if is_hdf:
-            refuse_outside_hdf(given, folder)
-        elif kind == "cgns" and not closed and any(_ADF_LINK in piece for piece in _pieces(given, len(_ADF_LINK))):
+            refuse_outside_hdf(source_path, folder)
+        elif (
+            kind == "cgns" and not closed and any(_ADF_LINK in piece for piece in _pieces(source_path, len(_ADF_LINK)))
+        ):
             raise FormatError("this CGNS file links to another one; write it as HDF5, with cgnsconvert -h")
 
 
 def _refuse_in_xml(path: Path, folder: Path, limits: Limits) -> None:
-    waiting, known = [path], {path.resolve()}
+    waiting, paths = [path], {path.resolve()}
     while waiting:
         current = waiting.pop()
         # The suffix does not tell: the library goes by this type. Files without names may be large, and not all XML.
@@ -63,10 +65,10 @@ def _refuse_in_xml(path: Path, folder: Path, limits: Limits) -> None:
             for name in (value for key, value in element.attrib.items() if key.lower() in _NAMING):
                 with about(name):
                     # The library looks beside the file that has the name, which may be in a folder below.
-                    named = file_beside(folder, str(current.resolve().parent / name))
-                if named.suffix[1:].lower() in _IN_XML and named not in known:
-                    known.add(named)
-                    waiting.append(named)
+                    target = file_beside(folder, str(current.resolve().parent / name))
+                if target.suffix[1:].lower() in _IN_XML and target not in paths:
+                    paths.add(target)
+                    waiting.append(target)
 
 
 def _type_in(path: Path) -> str:
@@ -121,28 +123,28 @@ def _pieces(path: Path, overlap: int) -> Iterator[bytes]:
 def refuse_outside_hdf(path: Path, folder: Path) -> None:
     """Refuse an HDF5 file with tables or links in files that are not in a folder, and so on for these."""
     h5py = imported("h5py", "names in HDF5 files are checked with h5py", "simulation")
-    waiting, known = [path.resolve()], {path.resolve()}
+    waiting, paths = [path.resolve()], {path.resolve()}
     with as_library_error("h5py"):
         while waiting:
             with h5py.File(waiting.pop(), "r") as file:
                 for name, place in _named_in(h5py, file):
                     with about(name):
-                        named = file_beside(folder, name)
-                        if place and not _has(h5py, named, place):
+                        target = file_beside(folder, name)
+                        if place and not _has(h5py, target, place):
                             # HDF5 would give zeros for it, without a word.
                             raise FormatError(f"it has no table {place}, which a virtual table shows")
-                    if named not in known:
-                        known.add(named)
-                        waiting.append(named)
+                    if target not in paths:
+                        paths.add(target)
+                        waiting.append(target)
 
 
 def _named_in(h5py: Any, file: Any) -> list[tuple[str, str]]:
     """Return the files that an HDF5 file names; and the table there, where a virtual table shows one."""
-    found = list[tuple[str, str]]()
+    links = list[tuple[str, str]]()
 
     def see_link(_: str, link: Any) -> None:
         if isinstance(link, h5py.ExternalLink):
-            found.append((str(link.filename), ""))
+            links.append((str(link.filename), ""))
 
     def see_object(name: str, item: Any) -> None:
         if not isinstance(item, h5py.Dataset):
@@ -151,11 +153,11 @@ def _named_in(h5py: Any, file: Any) -> list[tuple[str, str]]:
         if item.external:
             raise FormatError(f"the table {name} is in the file {item.external[0][0]}; write it into the HDF5 file")
         sources = item.virtual_sources() if item.is_virtual else ()
-        found.extend((str(source.file_name), str(source.dset_name)) for source in sources if source.file_name != ".")
+        links.extend((str(source.file_name), str(source.dset_name)) for source in sources if source.file_name != ".")
 
     file.visititems_links(see_link)
     file.visititems(see_object)
-    return found
+    return links
 
 
 def _has(h5py: Any, path: Path, place: str) -> bool:
@@ -170,16 +172,16 @@ def layers_inside(pxr: Any, path: str) -> list[Any]:
     """Open the layers that a stage may open; refuse one that is not in the folder of the stage, or below."""
     folder = Path(path).resolve().parent
     opened = [pxr.Sdf.Layer.FindOrOpen(path)]
-    known = {str(Path(path).resolve())}
+    paths = {str(Path(path).resolve())}
     for layer in filter(None, opened):
         for name in _layers_named_in(pxr, layer):
             with about(name):
-                named = _resolved(pxr, layer, name, folder)
-            if not named or named in known:
+                target = _resolved(pxr, layer, name, folder)
+            if not target or target in paths:
                 continue
-            known.add(named)
+            paths.add(target)
             with suppress(pxr.Tf.ErrorException):  # the stage says which of its layers cannot be read
-                opened.append(pxr.Sdf.Layer.FindOrOpen(named))
+                opened.append(pxr.Sdf.Layer.FindOrOpen(target))
     return opened
 
 
@@ -207,11 +209,11 @@ def _resolved(pxr: Any, layer: Any, name: str, folder: Path) -> str:
     plain, _ = pxr.Sdf.Layer.SplitIdentifier(name)
     anchored = pxr.Sdf.ComputeAssetPathRelativeToLayer(layer, plain) if plain else ""
     resolver = pxr.Ar.GetResolver()
-    found = str(resolver.Resolve(anchored)) if anchored else ""
-    if found:
-        is_packed = pxr.Ar.IsPackageRelativePath(found)
-        file_beside(folder, pxr.Ar.SplitPackageRelativePathOuter(found)[0] if is_packed else found)
-    return found
+    resolved = str(resolver.Resolve(anchored)) if anchored else ""
+    if resolved:
+        is_packed = pxr.Ar.IsPackageRelativePath(resolved)
+        file_beside(folder, pxr.Ar.SplitPackageRelativePathOuter(resolved)[0] if is_packed else resolved)
+    return resolved
 
 
 def refuse_clips_outside(pxr: Any, stage: Any, path: str) -> None:

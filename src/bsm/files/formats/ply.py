@@ -78,18 +78,18 @@ class PlyHeader:
     @property
     def metadata(self) -> Metadata:
         """Return the metadata in the comments; images are those of materials."""
-        found = formats.parse_remarks(line for _, line in self.comments)
+        contents = formats.parse_remarks(line for _, line in self.comments)
         for keyword in COMMENTS:
             lines = [line for kind, line in self.comments if kind == keyword and not line.startswith(f"{IMAGE} ")]
-            if own := [line for line in lines if line and not formats.parse_remarks([line])]:
-                found.setdefault(keyword, "\n".join(own))
-        entries = [item for material in formats.materials_in(found).values() for item in material.items()]
-        shown = {value for name, value in entries if refers_to_image(name)}
+            if own_comments := [line for line in lines if line and not formats.parse_remarks([line])]:
+                contents.setdefault(keyword, "\n".join(own_comments))
+        entries = [item for material in formats.materials_in(contents).values() for item in material.items()]
+        image_numbers = {value for name, value in entries if refers_to_image(name)}
         for number, name in self.images.items():
-            found[f"image.{number}.name"] = name
-            if number not in shown:
-                found |= {f"material.{number}.name": name, f"material.{number}.map_Kd": number}
-        return found
+            contents[f"image.{number}.name"] = name
+            if number not in image_numbers:
+                contents |= {f"material.{number}.name": name, f"material.{number}.map_Kd": number}
+        return contents
 
 
 def parse_header(data: bytes) -> PlyHeader:
@@ -264,7 +264,7 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
         raise MeshError("the faces of this PLY file have no list vertex_indices")
     sizes, items = face.lists(corners)
     wedges, dropped, notes = _wedges(face, corners, sizes)
-    wedges = [replace(w, called="" if header.images else w.name) if w.name == _WEDGES else w for w in wedges]
+    wedges = [replace(w, file_name="" if header.images else w.name) if w.name == _WEDGES else w for w in wedges]
     textured = bool(header.images)
     columns = [*_columns(vertex, "vertex", "xyz", textured), *_columns(face, "face", (), textured), *wedges]
     dropped += [f"the list {column.name} of vertices" for column in vertex.element.properties if column.length]
@@ -274,8 +274,8 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
         repeated = {name: 0 for name in names if names.count(name) > 1}
         dropped += [f"the first {name}, of which there are several" for name in repeated]
     flat = as_integers(items, "a vertex index")
-    found = tuple(_without_textures(columns, header))
-    return Polygons(positions, sizes, flat, tuple(notes), (*dropped, *others), found, header.metadata)
+    plain_columns = tuple(_without_textures(columns, header))
+    return Polygons(positions, sizes, flat, tuple(notes), (*dropped, *others), plain_columns, header.metadata)
 
 
 def _columns(table: _Table, domain: Domain, needed: Sequence[str], textured: bool) -> Iterator[Column]:
@@ -298,10 +298,10 @@ def _columns(table: _Table, domain: Domain, needed: Sequence[str], textured: boo
         yield replace(column, components=() if usual else names)
     for name, together in _series({name: properties[place].type for name, place in places.items()}):
         values = np.column_stack([table.numbers(places[member]) for member in together])
-        known = _NAMES.get(name, name)
+        short_name = _NAMES.get(name, name)
         if name == _TEXTURE and not _NAMES.keys().isdisjoint(places.keys() - {name}):
-            known = name  # another property has the materials
-        yield Column(known, values, domain, called=name if known != name else "")
+            short_name = name  # another property has the materials
+        yield Column(short_name, values, domain, file_name=name if short_name != name else "")
 
 
 def _narrow(colors: Array) -> Array:
@@ -326,26 +326,29 @@ def _without_textures(columns: Sequence[Column], header: PlyHeader) -> list[Colu
 def _texture_numbers(metadata: Metadata, order: Sequence[int]) -> dict[int, int]:
     """The place of the color image of each material among the images in this order; -1 for none."""
     textures = {number: appearance(words).color_texture for number, words in formats.materials_in(metadata).items()}
-    shown = {number: texture.image for number, texture in textures.items() if texture}
-    return {number: order.index(shown[number]) if shown.get(number) in order else -1 for number in textures}
+    texture_images = {number: texture.image for number, texture in textures.items() if texture}
+    return {
+        number: order.index(texture_images[number]) if texture_images.get(number) in order else -1
+        for number in textures
+    }
 
 
 def _series(types: dict[str, str]) -> Iterator[tuple[str, list[str]]]:
     """Names of properties, those that only differ in a number at the end together: a_0, a_1, ... are a."""
-    left = dict(types)
-    while left:
-        name = next(iter(left))
+    remaining = dict(types)
+    while remaining:
+        name = next(iter(remaining))
         stem = name.removesuffix("_0")
-        like_it = {member for member, kind in left.items() if kind == types[name]}
+        like_it = {member for member, kind in remaining.items() if kind == types[name]}
         run = list(takewhile(like_it.__contains__, (f"{stem}_{i}" for i in count())))
         together = run if name.endswith("_0") and 2 <= len(run) <= MOST_COMPONENTS else [name]
         yield (stem if len(together) > 1 else name), together
-        left = {member: kind for member, kind in left.items() if member not in together}
+        remaining = {member: kind for member, kind in remaining.items() if member not in together}
 
 
 def _wedges(table: _Table, corners: int, sizes: Ints) -> tuple[list[Column], list[str], list[str]]:
     """Values of corners: lists as long as that of the vertices, or twice, ...; the lists that are not; and notes."""
-    found, dropped, notes = [], [], []
+    columns, dropped, notes = [], [], []
     for place, column in enumerate(table.element.properties):
         if column.length is None or place == corners:
             continue
@@ -357,11 +360,11 @@ def _wedges(table: _Table, corners: int, sizes: Ints) -> tuple[list[Column], lis
             continue
         rows = np.zeros((int(sizes.sum()), width), values.dtype)  # a face without any gets zeros
         rows[np.repeat(present, sizes)] = values.reshape(-1, width)
-        found.append(Column(column.name, rows, "corner", meaning_of(column.name, width)))
+        columns.append(Column(column.name, rows, "corner", meaning_of(column.name, width)))
         if not present.all():
             what = PLURALS.get(column.name, column.name)
             notes.append(f"faces without {what} were given zeros: {int((~present).sum())}")
-    return found, dropped, notes
+    return columns, dropped, notes
 
 
 # ------------------------------------------------------------------------------------------------------------ writing
@@ -370,8 +373,8 @@ def _wedges(table: _Table, corners: int, sizes: Ints) -> tuple[list[Column], lis
 def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
     """The binary PLY of a mesh; values of corners are those of vertices where all corners of each have the same."""
     library = formats.Library(mesh, stem)
-    shown = (appearance(words).color_texture for words in library.materials.values())
-    first = {texture.image for texture in shown if texture}  # which most readers show
+    color_textures = (appearance(words).color_texture for words in library.materials.values())
+    first = {texture.image for texture in color_textures if texture}  # which most readers show
     order = dict(sorted(library.images.items(), key=lambda image: image[0] not in first))
     images = [f"{IMAGE} {name}" for name in order.values()]
     # Comments of other programs have no numbers, so images count from 0 in their order; ours are named where that
@@ -414,8 +417,8 @@ def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
         lines += [f"element {element} {len(rows)}", *properties]
         body.append(rows.tobytes())
     header = "".join(f"{line}\n" for line in (*lines, "end_header"))
-    own = formats.unsaid(metadata, "PLY")
-    lost = formats.left_out(original, mesh.attributes, dict.fromkeys((*omitted, *own)))
+    unsaid_words = formats.unsaid(metadata, "PLY")
+    lost = formats.left_out(original, mesh.attributes, dict.fromkeys((*omitted, *unsaid_words)))
     return formats.Written(header.encode() + b"".join(body), lost, library.beside)
 
 
@@ -432,26 +435,26 @@ def table_of(columns: Sequence[tuple[str, Array]]) -> tuple[list[str], Array]:
 
 def _wedge_texcoords(mesh: TriangleMesh, *, textured: bool, several: bool) -> Attribute | None:
     """Return the texture coordinates that are written at corners, where programs that show images look for them."""
-    found = formats.first(mesh, "texcoord", (2,), "vertex", "corner")
-    if found is None or formats.components_in_file(mesh.metadata, found):
+    texcoord = formats.first(mesh, "texcoord", (2,), "vertex", "corner")
+    if texcoord is None or formats.components_in_file(mesh.metadata, texcoord):
         return None
-    if mesh.metadata.get(f"{formats.CALLED}{found.name}") == _WEDGES:
-        return found
-    has_seams = formats.without_seams(found, mesh).domain == "corner"
-    return found if textured and (several or has_seams) else None
+    if mesh.metadata.get(f"{formats.CALLED}{texcoord.name}") == _WEDGES:
+        return texcoord
+    has_seams = formats.without_seams(texcoord, mesh).domain == "corner"
+    return texcoord if textured and (several or has_seams) else None
 
 
-def _property_names(attribute: Attribute, metadata: Metadata, taken: list[str]) -> list[str]:
+def _property_names(attribute: Attribute, metadata: Metadata, names_taken: list[str]) -> list[str]:
     """The names of an attribute's properties: those of its file, those that everybody knows, or its own."""
     usual = (names for meaning, names in _USUAL if meaning == attribute.semantic)
-    known = next((names for names in usual if len(names) == attribute.components), ())
+    usual_names = next((names for names in usual if len(names) == attribute.components), ())
     in_file = [re.sub(r"\s", "_", name) for name in formats.components_in_file(metadata, attribute)]
-    for names in (in_file, list(known)):
-        if names and not {*names} & {*taken}:
+    for names in (in_file, list(usual_names)):
+        if names and not {*names} & {*names_taken}:
             return names
-    own = re.sub(r"\s", "_", formats.name_in_file(metadata, attribute))
-    found: list[str] = []
+    file_name = re.sub(r"\s", "_", formats.name_in_file(metadata, attribute))
+    property_names: list[str] = []
     for place in range(attribute.components):
-        wanted = own if attribute.components == 1 else f"{own}_{place}"
-        found.append(unused_name(wanted, attribute.domain, [*taken, *found]))
-    return found
+        wished_name = file_name if attribute.components == 1 else f"{file_name}_{place}"
+        property_names.append(unused_name(wished_name, attribute.domain, [*names_taken, *property_names]))
+    return property_names

@@ -32,7 +32,7 @@ _TEXCOORDS = ("texture coordinates", "uv", "tcoords")
 class Column:
     """A value for each point, each polygon, or each corner of the polygons; it may be wrong.
 
-    `called` and `components` are names in the file that the name and the meaning do not tell.
+    `file_name` and `components` are names in the file that the name and the meaning do not tell.
     """
 
     name: str
@@ -40,7 +40,7 @@ class Column:
     domain: Domain = "vertex"
     semantic: Semantic = "generic"
     indices: Ints | None = None
-    called: str = ""
+    file_name: str = ""
     components: tuple[str, ...] = ()
 
     def of_triangles(self, name: str, places: Ints, owner: Ints) -> Attribute:
@@ -65,11 +65,11 @@ def attributes_of(
 ) -> tuple[tuple[Attribute, ...], dict[str, str], dict[str, str]]:
     """The attributes that columns are, their names in the file as metadata, and why the others are none, by name."""
     rows = {"vertex": vertices, "face": polygons}
-    found: dict[str, Attribute] = {}
+    attributes: dict[str, Attribute] = {}
     file_names: dict[str, str] = {}
     refused: dict[str, str] = {}
     for column in columns:
-        distinct = _distinct(column, found)
+        distinct = _distinct(column, attributes)
         try:
             if rows.get(column.domain, len(column.values)) != len(column.values):
                 raise MeshError(f"there are {len(column.values)} of them for {rows[column.domain]}")
@@ -77,16 +77,16 @@ def attributes_of(
         except MeshError as error:
             refused[PLURALS.get(column.name, column.name)] = str(error)
             continue
-        found[distinct.name] = attribute
-        names = {CALLED: distinct.called, COMPONENTS: "\n".join(distinct.components)}
+        attributes[distinct.name] = attribute
+        names = {CALLED: distinct.file_name, COMPONENTS: "\n".join(distinct.components)}
         file_names |= {f"{kind}{attribute.name}": words for kind, words in names.items() if words}
-    return tuple(found.values()), file_names, refused
+    return tuple(attributes.values()), file_names, refused
 
 
-def _distinct(column: Column, taken: Collection[str]) -> Column:
+def _distinct(column: Column, names_taken: Collection[str]) -> Column:
     """Return a column under a name that no other one has; what its file calls it is kept."""
-    name = unused_name(column.name, column.domain, taken)
-    return column if name == column.name else replace(column, name=name, called=column.called or column.name)
+    name = unused_name(column.name, column.domain, names_taken)
+    return column if name == column.name else replace(column, name=name, file_name=column.file_name or column.name)
 
 
 def joined_columns(parts: Sequence[Part]) -> tuple[list[Column], list[str]]:
@@ -96,35 +96,37 @@ def joined_columns(parts: Sequence[Part]) -> tuple[list[Column], list[str]]:
         for column in part.columns:
             distinct = _distinct(column, named_so)
             named_so[distinct.name] = distinct
-    found: list[Column] = []
+    columns: list[Column] = []
     notes: list[str] = []
     for name in dict.fromkeys(name for named_so in by_name for name in named_so):
         alike = _made_alike(parts, [named_so.get(name) for named_so in by_name], notes)
-        found.append(_concatenated(parts, alike))
+        columns.append(_concatenated(parts, alike))
         if lacking := alike.count(None):
-            filled = "white" if found[-1].semantic == "color" else "zeros"
+            filled = "white" if columns[-1].semantic == "color" else "zeros"
             notes.append(f"parts without {PLURALS.get(name, name)} were given {filled}: {lacking}")
-    return found, notes
+    return columns, notes
 
 
-def _made_alike(parts: Sequence[Part], given: list[Column | None], notes: list[str]) -> list[Column | None]:
+def _made_alike(parts: Sequence[Part], columns: list[Column | None], notes: list[str]) -> list[Column | None]:
     """Return the columns of one name in the meaning, the width and the domain that hold those of all parts."""
-    every = [column for column in given if column is not None]
+    every = [column for column in columns if column is not None]
     name, meanings, most = every[0].name, {c.semantic for c in every}, max(c.values.shape[1] for c in every)
     if len(meanings) > 1:
-        given = [c and replace(c, semantic="generic") for c in given]
+        columns = [c and replace(c, semantic="generic") for c in columns]
     if any(c.values.shape[1] < most for c in every):
-        more = [((0, 0), (0, most - c.values.shape[1])) if c else () for c in given]
-        given = [c and replace(c, values=np.pad(c.values, m, constant_values=_blank(c))) for c, m in zip(given, more)]
+        more = [((0, 0), (0, most - c.values.shape[1])) if c else () for c in columns]
+        columns = [
+            c and replace(c, values=np.pad(c.values, m, constant_values=_blank(c))) for c, m in zip(columns, more)
+        ]
         if meanings - {"color", "texcoord"}:
             notes.append(f"parts whose {name} has fewer than {most} numbers were given zeros after them")
     # Zeros would be black holes in every viewer.
-    if meanings == {"normal"} and None in given:
-        notes.append(f"parts without normals were given those of their faces: {given.count(None)}")
-        given = [c or Column(name, part.normals(), "face", "normal") for part, c in zip(parts, given, strict=True)]
-    if len({column.domain for column in given if column}) > 1:
-        given = [column and part.at_corners(column) for part, column in zip(parts, given, strict=True)]
-    return given
+    if meanings == {"normal"} and None in columns:
+        notes.append(f"parts without normals were given those of their faces: {columns.count(None)}")
+        columns = [c or Column(name, part.normals(), "face", "normal") for part, c in zip(parts, columns, strict=True)]
+    if len({column.domain for column in columns if column}) > 1:
+        columns = [column and part.at_corners(column) for part, column in zip(parts, columns, strict=True)]
+    return columns
 
 
 def _blank(column: Column) -> int:
@@ -132,14 +134,14 @@ def _blank(column: Column) -> int:
     return {"uint8": 255, "uint16": 65535}.get(column.values.dtype.name, 1) if column.semantic == "color" else 0
 
 
-def _concatenated(parts: Sequence[Part], given: list[Column | None]) -> Column:
+def _concatenated(parts: Sequence[Part], columns: list[Column | None]) -> Column:
     """Return the columns of parts as one; parts that have none get zeros, or white."""
-    there = [column for column in given if column is not None]
+    there = [column for column in columns if column is not None]
     if there[0].semantic == "color" and len({c.values.dtype for c in there}) > 1:  # bytes here, floats there
-        given = [c and replace(c, values=shares_of(c.values).astype(np.float32)) for c in given]
-    model = next(filter(None, given))
+        columns = [c and replace(c, values=shares_of(c.values).astype(np.float32)) for c in columns]
+    model = next(filter(None, columns))
     tables, places, begin = [], [], 0
-    for part, column in zip(parts, given, strict=True):
+    for part, column in zip(parts, columns, strict=True):
         if column is None:
             count = {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)}[model.domain]
             size = min(count, 1) if model.domain == "corner" else count
@@ -170,8 +172,8 @@ def polygon_normals(positions: Doubles, sizes: Ints, corners: Ints) -> Doubles:
 def unit_rows(vectors: Doubles, blank: Sequence[float] = (0.0, 0.0, 0.0)) -> Doubles:
     """Return vectors at length one; those without a length become `blank`."""
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    found: Doubles = np.divide(vectors, lengths, out=np.broadcast_to(blank, vectors.shape).copy(), where=lengths > 0)
-    return found
+    units: Doubles = np.divide(vectors, lengths, out=np.broadcast_to(blank, vectors.shape).copy(), where=lengths > 0)
+    return units
 
 
 def turned_normals(normals: Doubles, linear: Doubles) -> Doubles:
@@ -193,10 +195,10 @@ def grouped(what: str, names: Sequence[str], of_face: Ints) -> tuple[list[Column
     return columns, named(list(numbers), what) if any(numbers) else {}
 
 
-def unused_name(name: str, domain: str, taken: Collection[str]) -> str:
+def unused_name(name: str, domain: str, names_taken: Collection[str]) -> str:
     longer = name if name.startswith(domain) else f"{domain}_{name}"
     candidates = chain((name, longer), (f"{name}{number}" for number in count(2)))
-    return next(candidate for candidate in candidates if candidate not in taken)
+    return next(candidate for candidate in candidates if candidate not in names_taken)
 
 
 def compact(values: Array) -> Array:
@@ -207,11 +209,11 @@ def compact(values: Array) -> Array:
 
 def color_column(values: Array, domain: Domain, *, written_whole: bool = False) -> Column:
     """Colors as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known."""
-    whole = np.isfinite(values).all(axis=1) if values.dtype.kind == "f" else np.ones(len(values), np.bool_)
-    if whole.any() and not whole.all():  # some have no color, and the others tell what they are
-        known = color_column(values[whole], domain, written_whole=written_whole)
-        is_bytes = known.values.dtype == np.uint8 and (written_whole or values[whole].max() > 1)
-        return replace(known, values=compact(values / 255 if is_bytes else values))
+    has_color = np.isfinite(values).all(axis=1) if values.dtype.kind == "f" else np.ones(len(values), np.bool_)
+    if has_color.any() and not has_color.all():  # some have no color, and the others tell what they are
+        known_colors = color_column(values[has_color], domain, written_whole=written_whole)
+        is_bytes = known_colors.values.dtype == np.uint8 and (written_whole or values[has_color].max() > 1)
+        return replace(known_colors, values=compact(values / 255 if is_bytes else values))
     if values.dtype.kind == "f" and values.size and np.isfinite(values).all():
         exact = values if written_whole or values.max() > 1 else values * 255
         bytes_ = np.rint(exact)
@@ -228,8 +230,8 @@ def named_column(
     """Values as libraries name them, shape (k, c), and their components; None: their name gives their meaning."""
     lower = name.lower()
     if meaning is None:
-        known = "color" if lower in _COLORS else "texcoord" if lower in _TEXCOORDS else name
-        meaning = meaning_of(known, values.shape[1])
+        kind = "color" if lower in _COLORS else "texcoord" if lower in _TEXCOORDS else name
+        meaning = meaning_of(kind, values.shape[1])
     column = color_column(values, domain) if meaning == "color" else Column(name, values, domain, meaning)
     return Column(name, column.values, domain, column.semantic, components=tuple(components))
 
@@ -237,8 +239,8 @@ def named_column(
 def meaning_of(name: str, components: int = 3) -> Semantic:
     """Return the meaning of values by their name, if as many components can mean that."""
     widths: dict[Semantic, tuple[int, ...]] = {"color": (3, 4), "normal": (3,), "texcoord": (2, 3)}
-    found = re.match(r"(?:(?:vertex|corner|face)_)?(color|normal|texcoord)s?(?![a-z])", name.lower())
-    fits = (meaning for meaning in widths if found and found[1] == meaning and components in widths[meaning])
+    match = re.match(r"(?:(?:vertex|corner|face)_)?(color|normal|texcoord)s?(?![a-z])", name.lower())
+    fits = (meaning for meaning in widths if match and match[1] == meaning and components in widths[meaning])
     return next(fits, "generic")
 
 
@@ -308,8 +310,8 @@ class Polygons:
         # Before any triangle is made.
         limits.check_memory(memory * triangles + PER_CORNER * len(corners), len(positions), received)
         if not (sizes > 0).any():
-            found = f"; it has {', '.join(self.dropped)}" if self.dropped else "; point clouds are not supported"
-            raise NoFacesError(f"the file has no faces that can be read{found}")
+            reason = f"; it has {', '.join(self.dropped)}" if self.dropped else "; point clouds are not supported"
+            raise NoFacesError(f"the file has no faces that can be read{reason}")
         outside = (corners < 0) | (corners >= len(positions))
         if outside.any():
             index = int(corners[np.argmax(outside)])
@@ -377,23 +379,23 @@ class Part:
     def at_corners(self, column: Column) -> Column:
         """Return a column as values of corners."""
         faces = np.repeat(np.arange(len(self.sizes)), self.sizes)
-        known = {"vertex": self.corners, "face": faces, "corner": column.indices}
-        return replace(column, domain="corner", indices=known[column.domain])
+        indices_by_domain = {"vertex": self.corners, "face": faces, "corner": column.indices}
+        return replace(column, domain="corner", indices=indices_by_domain[column.domain])
 
     def normals(self) -> Array:
         return compact(polygon_normals(self.positions, self.sizes, self.corners))
 
     def without(self, faces: Ints) -> Part:
         """Return the part without some of its polygons."""
-        kept = np.ones(len(self.sizes), np.bool_)
-        kept[faces] = False
-        of_corners = np.repeat(kept, self.sizes)
+        is_kept = np.ones(len(self.sizes), np.bool_)
+        is_kept[faces] = False
+        of_corners = np.repeat(is_kept, self.sizes)
         columns = [
-            c if c.domain == "vertex" else replace(c, values=c.values[kept]) if c.domain == "face"
+            c if c.domain == "vertex" else replace(c, values=c.values[is_kept]) if c.domain == "face"
             else replace(c, indices=(np.arange(len(of_corners)) if c.indices is None else c.indices)[of_corners])
             for c in self.columns
         ]  # fmt: skip
-        sizes, corners, materials = self.sizes[kept], self.corners[of_corners], self.materials[kept]
+        sizes, corners, materials = self.sizes[is_kept], self.corners[of_corners], self.materials[is_kept]
         return replace(self, sizes=sizes, corners=corners, materials=materials, columns=columns)
 
     def placed(self, matrix: Doubles) -> Part:
@@ -411,14 +413,14 @@ class Part:
         return replace(self, positions=positions, corners=self.corners[order], columns=columns)
 
 
-def without_hidden(part: Part, left: dict[str, None]) -> Part:
+def without_hidden(part: Part, losses: dict[str, None]) -> Part:
     """Return a part without the cells that VTK hides, and without their marks."""
     of_faces = (column.values[:, 0] for column in part.columns if (column.name, column.domain) == (GHOSTS, "face"))
     marks = next(of_faces, np.zeros(0, np.uint8))
     part = replace(part, columns=[column for column in part.columns if column.name != GHOSTS])
     if len(marks) != len(part.sizes) or not (hidden := np.flatnonzero(marks.astype(np.int64) & _HIDDEN)).size:
         return part
-    left[f"hidden cells ({len(hidden)})"] = None
+    losses[f"hidden cells ({len(hidden)})"] = None
     return part.without(hidden)
 
 
@@ -429,19 +431,19 @@ def part_of(polygons: Polygons, name: str) -> Part:
 
 
 def joined_parts(
-    given: Iterable[Part], counts: Sequence[tuple[int, int]] | None, limits: Limits, received: int
+    parts_given: Iterable[Part], counts: Sequence[tuple[int, int]] | None, limits: Limits, received: int
 ) -> Polygons:
     """Join the parts of a scene; `counts`, the vertices and triangles of each, are checked before a part is made."""
     if counts is None:  # the parts are there already
-        given = list(given)
-        counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for part in given]
+        parts_given = list(parts_given)
+        counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for part in parts_given]
     vertices, triangles = (sum(count[place] for count in counts) for place in range(2))
     require_counts(limits, vertices=vertices, faces=triangles)
     memory = PER_JOINED * triangles + PER_PART * len(counts)
     limits.check_memory(memory, vertices, received)
     parts: list[Part] = []
     kinds: set[tuple[str, Domain]] = set()
-    for part in given:
+    for part in parts_given:
         if len(part.corners) and not 0 <= part.corners.min() <= part.corners.max() < len(part.positions):
             raise MeshError(f"a face of {part.name or 'a part'} refers to a vertex that it does not have")
         parts.append(part)
@@ -484,12 +486,12 @@ def joined_files(files: Sequence[MeshFile], names: Sequence[str], limits: Limits
             for a in mesh.attributes
         ]
         corners = mesh.faces.ravel().astype(np.int64)
-        whole = Polygons(mesh.positions, np.full(len(mesh.faces), 3), corners, (), (), tuple(columns))
-        parts.append(part_of(whole, Path(name).stem))
-    found = joined_parts(parts, None, limits, 1 << 62)
+        polygons = Polygons(mesh.positions, np.full(len(mesh.faces), 3), corners, (), (), tuple(columns))
+        parts.append(part_of(polygons, Path(name).stem))
+    joined = joined_parts(parts, None, limits, 1 << 62)
     notes = dict.fromkeys(note for file in files for note in file.notes)
-    metadata = {**files[0].mesh.metadata, **found.metadata}
-    return replace(found, notes=(*notes, *found.notes), metadata=metadata).checked(limits)
+    metadata = {**files[0].mesh.metadata, **joined.metadata}
+    return replace(joined, notes=(*notes, *joined.notes), metadata=metadata).checked(limits)
 
 
 _MOST_NARROW = 32
@@ -527,7 +529,7 @@ def _finite(column: Column, dropped: list[str]) -> list[Column]:
     usual = column.values.dtype.type(np.median(column.values[~lost]))
     rows = np.asarray(lost.any(axis=1))
     marks = replace(column, name=f"{column.name}{NONE}", values=rows.astype(np.uint8)[:, None])
-    marks = replace(marks, semantic="generic", called="", components=())
+    marks = replace(marks, semantic="generic", file_name="", components=())
     return [replace(column, values=np.where(lost, usual, column.values)), marks]
 
 
@@ -570,11 +572,11 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, I
         return places, owner, 0
     rows = np.flatnonzero(np.isin(np.repeat(np.arange(len(sizes)), sizes), bad))
     cuts = _ears(scaled[corners[rows]], sizes[bad], normals[bad])
-    whole = [place for place, cut in enumerate(cuts) if len(cut) == pieces[bad[place]]]
-    for place in whole:
+    complete = [place for place, cut in enumerate(cuts) if len(cut) == pieces[bad[place]]]
+    for place in complete:
         polygon = bad[place]
         places[starts[polygon] : starts[polygon] + pieces[polygon]] = first[polygon] + cuts[place]
-    return places, owner, len(bad) - len(whole)
+    return places, owner, len(bad) - len(complete)
 
 
 Cut = Callable[[Doubles, Ints, Ints], tuple[Ints, Ints, int]]
@@ -616,9 +618,9 @@ def _flattened(points: Doubles, normals: Doubles) -> Doubles:
     """Return points without the axis along which their normals are longest, counterclockwise as seen from there."""
     # Leaving out one axis rounds nothing, where a projection on the plane would.
     axis = np.argmax(np.abs(normals), axis=1)[:, None]
-    kept = np.array([[1, 2], [0, 2], [0, 1]])[axis[:, 0]]
+    axes = np.array([[1, 2], [0, 2], [0, 1]])[axis[:, 0]]
     sign = np.where((np.take_along_axis(normals, axis, 1) < 0) != (axis == 1), -1.0, 1.0)
-    return np.ascontiguousarray(np.take_along_axis(points, kept, 1) * np.column_stack([sign, np.ones_like(sign)]))
+    return np.ascontiguousarray(np.take_along_axis(points, axes, 1) * np.column_stack([sign, np.ones_like(sign)]))
 
 
 def _clipper() -> Callable[[Doubles, Sequence[int]], Ints]:
@@ -628,19 +630,19 @@ def _clipper() -> Callable[[Doubles, Sequence[int]], Ints]:
     return lambda flat, ends: cut(flat, np.array(ends, np.uint32)).reshape(-1, 3).astype(np.int64)
 
 
-def _filled(found: Ints, size: int) -> Ints:
+def _filled(triangles: Ints, size: int) -> Ints:
     """Add the corners on a straight line between others, which are left out: faces beside it may have them."""
-    if len(found) >= size - 2:
-        return found
+    if len(triangles) >= size - 2:
+        return triangles
     # In the order of the triangles, which JavaScript has, too: that of a set is Python's own.
-    sides = dict.fromkeys(side for i, j, k in found.tolist() for side in ((i, j), (j, k), (k, i)))
+    sides = dict.fromkeys(side for i, j, k in triangles.tolist() for side in ((i, j), (j, k), (k, i)))
     more = [
         (i, (i + k) % size, (i + k + 1) % size)
         for i, j in sides
         if (j, i) not in sides
         for k in range(1, (j - i) % size)
     ]
-    return np.concatenate([found, np.array(more, np.int64).reshape(-1, 3)])
+    return np.concatenate([triangles, np.array(more, np.int64).reshape(-1, 3)])
 
 
 def _area_vectors(positions: Doubles, triangles: Ints) -> Doubles:

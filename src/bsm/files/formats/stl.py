@@ -43,15 +43,15 @@ def binary_triangles(head: bytes, size: int | None) -> tuple[int, str]:
     claimed = int.from_bytes(head[HEAD - 4 : HEAD], "little")
     if size is None:
         return claimed, ""
-    held, rest = divmod(size - HEAD, RECORD.itemsize)
-    if held < claimed and claimed not in _UNKNOWN and (kind := other_kind(head, "stl")):
+    records, rest = divmod(size - HEAD, RECORD.itemsize)
+    if records < claimed and claimed not in _UNKNOWN and (kind := other_kind(head, "stl")):
         raise FormatError(f"this is not an STL file: it is {kind}; give it the right name, or name its format")
-    if held < claimed and claimed not in _UNKNOWN:
-        raise TruncatedError(f"the STL file is cut short (or is not one): it has {held} of {claimed} triangles")
-    if held == claimed or (claimed not in _UNKNOWN and rest):
+    if records < claimed and claimed not in _UNKNOWN:
+        raise TruncatedError(f"the STL file is cut short (or is not one): it has {records} of {claimed} triangles")
+    if records == claimed or (claimed not in _UNKNOWN and rest):
         beyond = size - HEAD - RECORD.itemsize * claimed
         return claimed, f"{beyond} bytes after the last triangle" if beyond else ""
-    return held, f"the number of triangles in the header ({claimed}; by its size, the file has {held})"
+    return records, f"the number of triangles in the header ({claimed}; by its size, the file has {records})"
 
 
 def read_stl(data: bytes, limits: Limits) -> Polygons:
@@ -68,8 +68,8 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
         with np.errstate(invalid="ignore"):  # a later check refuses NaN
             soup = records["corners"].reshape(-1, 3).astype(np.float64)
         header = data[: HEAD - 4].rstrip(b"\0 ")
-        said = "provenance" if header.startswith(b"bsm ") else _HEADER
-        metadata = {said: header.decode("latin-1")} if header.strip(b"\0 ") else {}
+        key = "provenance" if header.startswith(b"bsm ") else _HEADER
+        metadata = {key: header.decode("latin-1")} if header.strip(b"\0 ") else {}
         if records["attribute"].any():
             columns = [Column(_ATTRIBUTE, records["attribute"][:, None], "face")]
     # Only exactly equal corners: a tolerance would close slits that somebody has drawn.
@@ -99,11 +99,11 @@ def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str], str]:
             raise FormatError(f"{len(facets)} facets have {len(lines)} corners; cut them into triangles")
         raise TruncatedError(f"the STL file is cut short: {len(lines)} corners in {len(facets)} finished triangles")
     used, of_facet = np.unique(np.array(facets, np.int64), return_inverse=True)
-    called = [("", *names)[solid] for solid in used.tolist()]
+    solid_names = [("", *names)[solid] for solid in used.tolist()]
     columns = [Column("group", of_facet.astype(np.int32), "face")] if len(used) > 1 else []
     others = re.findall(rb"(?im)^[ \t]*(?!(?:(?:end)?(?:solid|facet|loop)|outer|vertex)\b)(\S+)", data)
     wrong = f"lines that begin with {', '.join(sorted({text_of(word) for word in others}))}"[:200] if others else ""
-    return Rows(lines, "corner").columns(0, 3), columns, named(called, "group") if any(called) else {}, wrong
+    return Rows(lines, "corner").columns(0, 3), columns, named(solid_names, "group") if any(solid_names) else {}, wrong
 
 
 def write_stl(mesh: TriangleMesh, stem: str) -> Written:
@@ -112,11 +112,11 @@ def write_stl(mesh: TriangleMesh, stem: str) -> Written:
     triangles = np.zeros(len(mesh.faces), RECORD)
     triangles["normal"], triangles["corners"] = face_normals(mesh.positions, mesh.faces), mesh.positions[mesh.faces]
     attribute = face_numbers(mesh, _ATTRIBUTE)
-    held = [attribute] if attribute is not None and attribute.values.dtype == np.uint16 else []
-    for own in held:
-        triangles["attribute"] = own.values[:, 0]
-    said = _HEADER if _HEADER in mesh.metadata else "provenance"
-    header = str(mesh.metadata.get(said, "")).encode("latin-1", "replace")
+    colors_held = [attribute] if attribute is not None and attribute.values.dtype == np.uint16 else []
+    for color in colors_held:
+        triangles["attribute"] = color.values[:, 0]
+    key = _HEADER if _HEADER in mesh.metadata else "provenance"
+    header = str(mesh.metadata.get(key, "")).encode("latin-1", "replace")
     fits = len(header) < HEAD - 3 and not header.startswith(b"solid")  # which would be a text
     data = (header if fits else b"").ljust(HEAD - 4, b"\0") + len(triangles).to_bytes(4, "little") + triangles.tobytes()
-    return Written(data, left_out(mesh, held, [n for n in mesh.metadata if n != said or not fits]))
+    return Written(data, left_out(mesh, colors_held, [n for n in mesh.metadata if n != key or not fits]))

@@ -39,17 +39,19 @@ def read_3mf(data: bytes, limits: Limits) -> Polygons:
     library = imported("lib3mf", "3MF is read with lib3mf", "formats")
     model = library.get_wrapper().CreateModel()
     reader = model.QueryReader("3mf")
-    given = ctypes.cast(ctypes.c_char_p(data), ctypes.POINTER(ctypes.c_uint8))
+    buffer = ctypes.cast(ctypes.c_char_p(data), ctypes.POINTER(ctypes.c_uint8))
     with as_library_error("lib3mf", "this 3MF file"):
-        _call(reader, "reader_readfrombuffer", ctypes.c_uint64(len(data)), given)
-        found = (read := _Model(library, model, limits)).joined(len(data))
+        _call(reader, "reader_readfrombuffer", ctypes.c_uint64(len(data)), buffer)
+        joined = (read := _Model(library, model, limits)).joined(len(data))
     # lib3mf does not tell what it passes over, so the names in the package are looked at once more.
     with as_library_error("zipfile", "this 3MF file"), zipfile.ZipFile(io.BytesIO(data)) as package:
         names = package.namelist()
         models = (package.read(name) for name in names if name.lower().endswith(".model"))
         others = [name for name in names if f"/{name}" not in read.files and not _FILES.fullmatch(name)]
-        left = _TAKEN.left(chain(*map(_TAKEN.in_xml, models), (("", f"the file {name}", "") for name in others)))
-    return replace(found, dropped=(*found.dropped, *left))
+        unread = _TAKEN.unread_names(
+            chain(*map(_TAKEN.in_xml, models), (("", f"the file {name}", "") for name in others))
+        )
+    return replace(joined, dropped=(*joined.dropped, *unread))
 
 
 def _call(owner: Any, name: str, *arguments: Any) -> None:
@@ -66,9 +68,9 @@ def _table(owner: Any, name: str, kind: Any) -> Array:
     return np.frombuffer(table, np.dtype(kind))
 
 
-def _items(found: Any) -> Iterator[Any]:
-    while found.MoveNext():
-        yield found.GetCurrent()
+def _items(iterator: Any) -> Iterator[Any]:
+    while iterator.MoveNext():
+        yield iterator.GetCurrent()
 
 
 class _Model:
@@ -94,21 +96,21 @@ class _Model:
 
     def joined(self, size: int) -> Polygons:
         placed = [*_items(self._model.GetBuildItems())]
-        shown = [found for item in placed for found in self._below(item)]
+        visible = [joined for item in placed for joined in self._below(item)]
         if not placed:
             raise MeshError("this 3MF file places no object: its build has no item")
-        counts = [((mesh := self._objects[n]).GetVertexCount(), mesh.GetTriangleCount()) for n, *_ in shown]
-        parts = (self._part(number, name).placed(matrix) for number, matrix, name in shown)
-        found = joined_parts(parts, counts, self._limits, size)
+        counts = [((mesh := self._objects[n]).GetVertexCount(), mesh.GetTriangleCount()) for n, *_ in visible]
+        parts = (self._part(number, name).placed(matrix) for number, matrix, name in visible)
+        joined = joined_parts(parts, counts, self._limits, size)
         group = self._model.GetMetaDataGroup()
-        said = [group.GetMetaData(i) for i in range(group.GetMetaDataCount())]
+        entries = [group.GetMetaData(i) for i in range(group.GetMetaDataCount())]
         metadata: dict[str, formats.Value] = {"up": "z", "unit": unit_named(_SIZES[int(self._model.GetUnit())])}
-        metadata |= {str(entry.GetName()): str(entry.GetValue()) for entry in said}
+        metadata |= {str(entry.GetName()): str(entry.GetValue()) for entry in entries}
         if str(metadata.get("Application")).startswith("bsm "):
             metadata["provenance"] = metadata.pop("Application")
-        known = any(self._words.values())
-        metadata |= {**(formats.described(self._words) if known else {}), **self._images, **found.metadata}
-        return replace(found, dropped=tuple(self._left), metadata=metadata)
+        has_words = any(self._words.values())
+        metadata |= {**(formats.described(self._words) if has_words else {}), **self._images, **joined.metadata}
+        return replace(joined, dropped=tuple(self._left), metadata=metadata)
 
     def _below(self, item: Any) -> Iterator[tuple[int, Doubles, str]]:
         """The meshes of an item of the build, each with its place and its name."""
@@ -140,8 +142,8 @@ class _Model:
 
     def _painted(self, item: Any, count: int) -> tuple[list[Column], Ints]:
         """The colors and texture coordinates of the corners of an object, and the materials of its triangles."""
-        given = _table(item, "meshobject_getalltriangleproperties", self._library.TriangleProperties)
-        owners, places = given["ResourceID"].astype(np.int64), given["PropertyIDs"].astype(np.int64)
+        properties = _table(item, "meshobject_getalltriangleproperties", self._library.TriangleProperties)
+        owners, places = properties["ResourceID"].astype(np.int64), properties["PropertyIDs"].astype(np.int64)
         usual, its, has = item.GetObjectLevelProperty()
         if has:
             places = np.where((owners == 0)[:, None], its, places)
@@ -227,7 +229,7 @@ def write_3mf(mesh: TriangleMesh, stem: str) -> formats.Written:
 def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     model = library.get_wrapper().CreateModel()
     place, size = placement(mesh.metadata, "3mf"), metres(str(mesh.metadata.get("unit", "")))
-    unit = next((number for number, known in enumerate(_SIZES) if size and math.isclose(known, size)), None)
+    unit = next((number for number, unit_size in enumerate(_SIZES) if size and math.isclose(unit_size, size)), None)
     scale = size / _SIZES[1] if unit is None and size else 1.0
     model.SetUnit(library.ModelUnit(1 if unit is None else unit))
     if not single_suffices(positions := scale * mesh.positions @ place.turn.T):
@@ -235,12 +237,12 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     # lib3mf would refuse the whole mesh with a number in place of a reason.
     if repeated := int((mesh.faces == np.roll(mesh.faces, 1, axis=1)).any(axis=1).sum()):
         raise MeshError(f"{counted(faces=repeated)} with one vertex twice, which 3MF does not have; {_ELSE}")
-    held = {"up", "unit"} & ({*place.held} | ({"unit"} if size else set()))
+    metadata_held = {"up", "unit"} & ({*place.held} | ({"unit"} if size else set()))
     numbers, materials = formats.face_numbers(mesh, "material"), formats.materials_in(mesh.metadata)
     which = np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
     sorting, objects = _objects(mesh)
-    held |= {f"{sorting.name}.names", *(f"{sorting.name}.{n}.name" for n in objects)} if sorting else {"name"}
-    painted = _colored(library, model, which, materials, held) if materials else None
+    metadata_held |= {f"{sorting.name}.names", *(f"{sorting.name}.{n}.name" for n in objects)} if sorting else {"name"}
+    painted = _colored(library, model, which, materials, metadata_held) if materials else None
     color = formats.first(mesh, "color", (3, 4), "vertex", "corner", "face")
     shades = None if color is None else _bytes_of(at_corners(color, mesh.faces))
     looks = [number for number, words in materials.items() if words.keys() - {"name"}]
@@ -261,19 +263,19 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
             _call(item, "meshobject_setalltriangleproperties", *_counted(painted[rows], library.TriangleProperties))
         item.SetName(one_line(name))
         model.AddBuildItem(item, library.get_wrapper().GetIdentityTransform())
-    said = {"Application": mesh.metadata.get("provenance"), **mesh.metadata}
+    entries = {"Application": mesh.metadata.get("provenance"), **mesh.metadata}
     for name in _KNOWN:
-        if isinstance(value := said.get(name), str):
+        if isinstance(value := entries.get(name), str):
             model.GetMetaDataGroup().AddMetaData("", name, value.encode(errors="replace").decode(), "xs:string", True)
-            held |= {key for key in (name, "provenance") if mesh.metadata.get(key) == value}
+            metadata_held |= {key for key in (name, "provenance") if mesh.metadata.get(key) == value}
     writer = model.QueryWriter("3mf")
     largest = max(float(np.abs(positions).max(initial=0)), 1e-30)
     # Coordinates become text. As many decimals as single precision has digits, counted from the largest coordinate.
     writer.SetDecimalPrecision(int(np.clip(8 - math.floor(math.log10(largest)), 0, 15)))  # more of them go wrong
     data = _table(writer, "writer_writetobuffer", ctypes.c_uint8).tobytes()
-    shown = [numbers if materials else None, sorting, color]
+    attributes_written = [numbers if materials else None, sorting, color]
     finer = () if color is None or color.values.dtype == np.uint8 else (f"{color.name} beyond 8 bits",)
-    lost = formats.left_out(mesh, shown, [name for name in mesh.metadata if name not in held])
+    lost = formats.left_out(mesh, attributes_written, [name for name in mesh.metadata if name not in metadata_held])
     return formats.Written(data, (*lost, *finer))
 
 
@@ -305,12 +307,17 @@ def _tinted(library: Any, model: Any, colors: Array) -> Array | None:
         return None
     group = model.AddColorGroup()
     places = [group.AddColor(library.Color(*rgba)) for rgba in used.view(np.uint8).reshape(-1, 4).tolist()]
-    given = np.zeros(len(colors), np.dtype(library.TriangleProperties))
-    given["ResourceID"], given["PropertyIDs"] = group.GetUniqueResourceID(), np.array(places)[where].reshape(-1, 3)
-    return given
+    properties = np.zeros(len(colors), np.dtype(library.TriangleProperties))
+    properties["ResourceID"], properties["PropertyIDs"] = (
+        group.GetUniqueResourceID(),
+        np.array(places)[where].reshape(-1, 3),
+    )
+    return properties
 
 
-def _colored(library: Any, model: Any, numbers: Ints, materials: Mapping[int, Material], held: set[str]) -> Array:
+def _colored(
+    library: Any, model: Any, numbers: Ints, materials: Mapping[int, Material], fields_held: set[str]
+) -> Array:
     """Return the color of each triangle by its material; `held` gets the metadata that this holds."""
     used, where = np.unique(numbers, return_inverse=True)
     group = model.AddBaseMaterialGroup()
@@ -321,7 +328,7 @@ def _colored(library: Any, model: Any, numbers: Ints, materials: Mapping[int, Ma
         shares = conventions.to_srgb(np.array([*look.color, look.opacity]))
         rgba = library.Color(*np.rint(255 * shares).astype(int).tolist())
         places[place] = group.AddMaterial(one_line(str(words.get("name") or f"material {number}")), rgba)
-        held |= {f"material.{number}.{word}" for word in words.keys() - {*lost(words, held_by("3MF"))}}
-    given = np.zeros(len(numbers), np.dtype(library.TriangleProperties))
-    given["ResourceID"], given["PropertyIDs"] = group.GetUniqueResourceID(), places[where][:, None]
-    return given
+        fields_held |= {f"material.{number}.{word}" for word in words.keys() - {*lost(words, held_by("3MF"))}}
+    properties = np.zeros(len(numbers), np.dtype(library.TriangleProperties))
+    properties["ResourceID"], properties["PropertyIDs"] = group.GetUniqueResourceID(), places[where][:, None]
+    return properties

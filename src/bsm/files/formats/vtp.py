@@ -127,34 +127,34 @@ class _Document:
         """The header of an array and its numbers, base64 undone: headers may be coded apart from the numbers."""
         if array.get("format") == "appended":
             begin = _count(array.attrib, "offset", 0)
-            given = self._appended[begin : self._ends[begin]]
+            encoded = self._appended[begin : self._ends[begin]]
             if self._raw:
-                return given
+                return encoded
         else:
-            given = "".join((array.text or "").split()).encode("ascii", "replace")
-        self._require(len(given))
-        found = bytearray()
+            encoded = "".join((array.text or "").split()).encode("ascii", "replace")
+        self._require(len(encoded))
+        decoded = bytearray()
         try:
             # VTK codes a header and the blocks apart, so that "=" may stand in the middle, where base64.b64decode would
             # stop.
-            for part in _PADDED.finditer(given.split(b"<", 1)[0]):
-                found += base64.b64decode(part[0][: len(part[0]) // 4 * 4])
+            for part in _PADDED.finditer(encoded.split(b"<", 1)[0]):
+                decoded += base64.b64decode(part[0][: len(part[0]) // 4 * 4])
         except binascii.Error as error:
             raise CorruptError(f"what should be base64 is not: {error}") from error
-        return bytes(found)
+        return bytes(decoded)
 
-    def _bytes(self, given: bytes) -> bytes:
-        count = int(self._head_of(given, 1)[0])
+    def _bytes(self, encoded: bytes) -> bytes:
+        count = int(self._head_of(encoded, 1)[0])
         if not self._compressor:
-            return self._taken(given, self._head.itemsize, count)
+            return self._taken(encoded, self._head.itemsize, count)
         if self._compressor != "vtkZLibDataCompressor":
             raise FormatError(f"{self._compressor} is not known here; save it with zlib, or uncompressed")
-        if count > len(given):
+        if count > len(encoded):
             raise TruncatedError("the blocks of an array are not there")
-        head = self._head_of(given, 3 + count)
+        head = self._head_of(encoded, 3 + count)
         sizes, size = head[3:].tolist(), int(head[1])
         self._require(count * size)
-        packed = self._taken(given, head.nbytes, sum(sizes))
+        packed = self._taken(encoded, head.nbytes, sum(sizes))
         blocks, at = list[bytes](), 0
         for length in sizes:
             unpacker = zlib.decompressobj()
@@ -168,11 +168,11 @@ class _Document:
             at += length
         return b"".join(blocks)
 
-    def _head_of(self, given: bytes, count: int) -> Array:
-        return np.frombuffer(self._taken(given, 0, count * self._head.itemsize), self._head)
+    def _head_of(self, encoded: bytes, count: int) -> Array:
+        return np.frombuffer(self._taken(encoded, 0, count * self._head.itemsize), self._head)
 
-    def _taken(self, given: bytes, begin: int, size: int) -> bytes:
-        data = given[begin : begin + size]
+    def _taken(self, encoded: bytes, begin: int, size: int) -> bytes:
+        data = encoded[begin : begin + size]
         if len(data) < size:
             raise TruncatedError(f"an array should take {size} bytes, and {len(data)} are there")
         self._require(size)
@@ -194,9 +194,9 @@ def _count(attrs: dict[str, str], name: str, default: int) -> int:
 def read_vtp(data: bytes, limits: Limits) -> Polygons:
     at = data.find(b"<AppendedData")
     end = data.find(b">", at) if at >= 0 else -1
-    found = _UNDERSCORE.match(data, end + 1) if end >= 0 else None
+    match = _UNDERSCORE.match(data, end + 1) if end >= 0 else None
     # The bytes after the XML are not XML. The parser gets the part before them, closed by hand.
-    text, appended = (data, b"") if found is None else (data[:at] + b"</VTKFile>", data[found.end() :])
+    text, appended = (data, b"") if match is None else (data[:at] + b"</VTKFile>", data[match.end() :])
     require_inflated(8 * len(text) + 2 * TAG * text.count(b"<"), len(data), limits)
     document = _Document(text, appended, b"raw" in data[at : end + 1], limits, len(data))
     piece = document.tags.get("Piece")
@@ -226,9 +226,9 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     sizes, flat = np.append(sizes, np.full(len(triangles), 3)), np.append(flat, triangles.ravel())
     with np.errstate(invalid="ignore"):  # as above
         positions = coordinates.astype(np.float64)
-    left = dict.fromkeys((*dropped, *omitted, *others))
-    part = without_hidden(Part(positions, sizes, flat, columns, np.zeros(len(sizes), np.int64), ""), left)
-    return Polygons(positions, part.sizes, part.corners, (), tuple(left), tuple(part.columns), metadata)
+    losses = dict.fromkeys((*dropped, *omitted, *others))
+    part = without_hidden(Part(positions, sizes, flat, columns, np.zeros(len(sizes), np.int64), ""), losses)
+    return Polygons(positions, part.sizes, part.corners, (), tuple(losses), tuple(part.columns), metadata)
 
 
 def _cells(document: _Document, arrays: Mapping[tuple[str, str], Any], around: str, count: int) -> tuple[Ints, Ints]:
@@ -250,7 +250,7 @@ def _cells(document: _Document, arrays: Mapping[tuple[str, str], Any], around: s
 def _columns(document: _Document, cells: Ints, count: int) -> tuple[list[Column], list[str]]:
     """Values of points and of polygons, each of which is one of the cells, and the names of others."""
     domains: dict[str, Domain] = {"PointData": "vertex", "CellData": "face"}
-    found, dropped = [], []
+    columns, dropped = [], []
     for around, array in document.arrays:
         domain, name = domains.get(around), array.get("Name", "")
         if domain and array.get("type") not in _TYPES:
@@ -260,11 +260,11 @@ def _columns(document: _Document, cells: Ints, count: int) -> tuple[list[Column]
             if domain == "face" and len(values) == count:
                 values = values[cells]
             active = document.tags.get(around, {})
-            shown: dict[str | None, Semantic] = {active.get("TCoords"): "texcoord", active.get("Normals"): "normal"}
-            given = [array.get(f"ComponentName{place}", "") for place in range(values.shape[1])]
-            components = given if all(given) and len(given) > 1 else ()
-            found.append(named_column(name, values, domain, shown.get(name), components))
-    return found, dropped
+            meanings: dict[str | None, Semantic] = {active.get("TCoords"): "texcoord", active.get("Normals"): "normal"}
+            names_given = [array.get(f"ComponentName{place}", "") for place in range(values.shape[1])]
+            components = names_given if all(names_given) and len(names_given) > 1 else ()
+            columns.append(named_column(name, values, domain, meanings.get(name), components))
+    return columns, dropped
 
 
 def _field(values: Array, array: ElementTree.Element) -> Array:
@@ -299,10 +299,12 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
         nonlocal at
         data = np.ascontiguousarray(values.astype(values.dtype.newbyteorder("<"))).tobytes()
         components = values.shape[1] if values.ndim == 2 else 1
-        called = "".join(f"ComponentName{place}={_quoted(one)} " for place, one in enumerate(component_names))
+        component_attributes = "".join(
+            f"ComponentName{place}={_quoted(one)} " for place, one in enumerate(component_names)
+        )
         tag = (
             f'<{"Array" if kind == "String" else "DataArray"} type="{kind or _NAMES[values.dtype.str[1:]]}" '
-            f"Name={_quoted(name)} {called}"
+            f"Name={_quoted(name)} {component_attributes}"
             f'NumberOf{"Tuples" if kind else "Components"}="{components}" format="appended" offset="{at}"/>'
         )
         blocks.append(len(data).to_bytes(8, "little") + data)
@@ -333,19 +335,19 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
 def _arrays(mesh: TriangleMesh, domain: Domain) -> Iterator[tuple[str, Array, str, list[str]]]:
     """The names, values and components of attributes, those together that were one array of many components."""
     values = with_none(attribute for attribute in mesh.attributes if attribute.domain == domain)
-    held = {attribute.name: attribute for attribute in mesh.attributes if attribute.name in values}
+    attributes_by_name = {attribute.name: attribute for attribute in mesh.attributes if attribute.name in values}
     for key, words in mesh.metadata.items():
         components = str(words).split("\n")
         name = key.removeprefix(COMPONENTS)
-        members = [held.get(f"{name}.{component}") for component in components]
-        if key.startswith(COMPONENTS) and name not in held and None not in members:
+        members = [attributes_by_name.get(f"{name}.{component}") for component in components]
+        if key.startswith(COMPONENTS) and name not in attributes_by_name and None not in members:
             yield (
                 name,
-                np.hstack([values[held.pop(one.name).name] for one in members if one is not None]),
+                np.hstack([values[attributes_by_name.pop(one.name).name] for one in members if one is not None]),
                 "",
                 components,
             )
-    for attribute in held.values():
+    for attribute in attributes_by_name.values():
         components = components_in_file(mesh.metadata, attribute)
         yield name_in_file(mesh.metadata, attribute), values[attribute.name], "", components
 
@@ -362,5 +364,5 @@ def _active(mesh: TriangleMesh, domain: Domain) -> str:
     if domain == "vertex":
         chosen["Normals"] = first(mesh, "normal", (3,), domain)
         chosen["TCoords"] = first(mesh, "texcoord", (2,), domain)
-    named = [(tag, name_in_file(mesh.metadata, one)) for tag, one in chosen.items() if one is not None]
-    return "".join(f" {tag}={_quoted(name)}" for tag, name in named)
+    active_names = [(tag, name_in_file(mesh.metadata, one)) for tag, one in chosen.items() if one is not None]
+    return "".join(f" {tag}={_quoted(name)}" for tag, name in active_names)

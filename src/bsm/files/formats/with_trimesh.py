@@ -28,9 +28,9 @@ def joined(scene: Any, limits: Limits = DEFAULT_LIMITS, received: int = 1 << 62)
     places = sorted((scene.graph[node] for node in scene.graph.nodes_geometry), key=lambda place: order[place[1]])
     every = [(matrix, scene.geometry[name], name) for matrix, name in places]
     surfaces = [one for one in every if hasattr(one[1], "faces")]
-    found = _polygons(surfaces, scene.metadata, limits, received)
+    polygons = _polygons(surfaces, scene.metadata, limits, received)
     lost = len(places) - len(surfaces)
-    return replace(found, dropped=(*found.dropped, *([f"curves and point clouds ({lost})"] if lost else [])))
+    return replace(polygons, dropped=(*polygons.dropped, *([f"curves and point clouds ({lost})"] if lost else [])))
 
 
 def polygons_of(mesh: Any) -> Polygons:
@@ -38,22 +38,22 @@ def polygons_of(mesh: Any) -> Polygons:
 
 
 def _columns(mesh: Any) -> list[Column]:
-    visual, found = mesh.visual, []
+    visual, columns = mesh.visual, []
     if "vertex_normals" in mesh._cache:
-        found.append(Column("normal", np.asarray(mesh.vertex_normals, np.float64), semantic="normal"))
+        columns.append(Column("normal", np.asarray(mesh.vertex_normals, np.float64), semantic="normal"))
     if visual.kind == "texture":
         uv = visual.uv
         if uv is not None and np.shape(uv) == (len(mesh.vertices), 2):
-            found.append(Column("texcoord", compact(np.asarray(uv, np.float64)), semantic="texcoord"))
+            columns.append(Column("texcoord", compact(np.asarray(uv, np.float64)), semantic="texcoord"))
         colors = visual.vertex_attributes.get("color")
         if colors is not None and np.shape(colors)[0] == len(mesh.vertices):
-            found.append(color_column(np.array(colors), "vertex"))
+            columns.append(color_column(np.array(colors), "vertex"))
     elif visual.kind == "vertex":
-        found.append(color_column(np.array(visual.vertex_colors), "vertex"))
+        columns.append(color_column(np.array(visual.vertex_colors), "vertex"))
     elif visual.kind == "face":
-        found.append(color_column(np.array(visual.face_colors), "face"))
-    found += [_column(name.removeprefix("_"), values, "vertex") for name, values in mesh.vertex_attributes.items()]
-    return [*found, *(_column(name, values, "face") for name, values in mesh.face_attributes.items())]
+        columns.append(color_column(np.array(visual.face_colors), "face"))
+    columns += [_column(name.removeprefix("_"), values, "vertex") for name, values in mesh.vertex_attributes.items()]
+    return [*columns, *(_column(name, values, "face") for name, values in mesh.face_attributes.items())]
 
 
 def _materials_of(mesh: Any) -> tuple[list[Any], Array]:
@@ -75,44 +75,44 @@ def _column(name: str, values: Any, domain: Domain) -> Column:
 
 
 def _polygons(
-    given: list[tuple[Doubles, Any, str]], of_scene: dict[str, Any], limits: Limits, received: int
+    surfaces: list[tuple[Doubles, Any, str]], of_scene: dict[str, Any], limits: Limits, received: int
 ) -> Polygons:
     """Meshes of trimesh with their places and names as one."""
-    meshes = [mesh for _, mesh, _ in given]
+    meshes = [mesh for _, mesh, _ in surfaces]
     of_materials, numbers = _materials(meshes)
 
     def made() -> Iterator[Part]:
-        for (matrix, mesh, name), materials in zip(given, numbers, strict=True):
+        for (matrix, mesh, name), materials in zip(surfaces, numbers, strict=True):
             faces = np.asarray(mesh.faces, np.int64)
             points, sizes = np.asarray(mesh.vertices, np.float64), np.full(len(faces), 3)
             yield Part(points, sizes, faces.reshape(-1), _columns(mesh), materials, name).placed(matrix)
 
     counts = [(len(mesh.vertices), len(mesh.faces)) for mesh in meshes]
-    whole = joined_parts(made(), counts, limits, received)
-    metadata, left = _metadata(meshes, of_scene)
-    named = {} if _NO_NAMES.fullmatch(str(whole.metadata.get("name", ""))) else whole.metadata
-    return replace(whole, metadata={**named, **metadata, **of_materials}, dropped=tuple(left))
+    joined = joined_parts(made(), counts, limits, received)
+    metadata, losses = _metadata(meshes, of_scene)
+    names = {} if _NO_NAMES.fullmatch(str(joined.metadata.get("name", ""))) else joined.metadata
+    return replace(joined, metadata={**names, **metadata, **of_materials}, dropped=tuple(losses))
 
 
 def _metadata(meshes: list[Any], of_scene: dict[str, Any]) -> tuple[dict[str, Value], dict[str, None]]:
     """What trimesh knows of a scene and its parts, and the names of what metadata cannot hold."""
-    found: dict[str, Value] = {}
-    left: dict[str, None] = {}
+    entries: dict[str, Value] = {}
+    losses: dict[str, None] = {}
     for source in (of_scene, *(mesh.metadata for mesh in meshes)):
         for name, value in source.items():
             plain = isinstance(value, str | int | float | bytes)
             if name and name not in _OF_TRIMESH and plain and not (isinstance(value, str) and not value.strip("\0 ")):
-                found.setdefault(str(name), int(value) if isinstance(value, bool) else value)
+                entries.setdefault(str(name), int(value) if isinstance(value, bool) else value)
             elif name and name not in _OF_TRIMESH and not plain and value is not None:
-                left[f"metadata {name}"] = None
+                losses[f"metadata {name}"] = None
     units = dict.fromkeys(mesh.units for mesh in meshes)
     if len(units) == 1 and isinstance(unit := next(iter(units)), str):
-        found.setdefault("unit", unit)
-    return found, left
+        entries.setdefault("unit", unit)
+    return entries, losses
 
 
 def _materials(meshes: list[Any]) -> tuple[dict[str, Value], list[Array]]:
-    known: dict[frozenset[tuple[str, Value]], tuple[int, Material]] = {}
+    numbered: dict[frozenset[tuple[str, Value]], tuple[int, Material]] = {}
     images: list[bytes] = []
     numbers = []
     for mesh in meshes:
@@ -120,21 +120,26 @@ def _materials(meshes: list[Any]) -> tuple[dict[str, Value], list[Array]]:
         places = np.zeros(max(len(several), 1), np.int32)
         for place, material in enumerate(several or [None]):
             words = {} if material is None else _words_of(material, images)
-            places[place], _ = known.setdefault(frozenset(words.items()), (len(known), words))
+            places[place], _ = numbered.setdefault(frozenset(words.items()), (len(numbered), words))
         numbers.append(places[of_faces])
-    metadata = described(dict(known.values()))
+    metadata = described(dict(numbered.values()))
     metadata |= {f"image.{number}.data": data for number, data in enumerate(images)}
     return metadata, numbers
 
 
 def _words_of(material: Any, images: list[bytes]) -> Material:
     """A material of trimesh in the words of glTF, or of MTL; new images are added to `images`."""
-    given = dict(getattr(material, "_data", None) or {})
-    if not given and hasattr(material, "diffuse"):  # one with the words of MTL
-        given = {"Kd": material.diffuse, "Ka": material.ambient, "Ks": material.specular, "Ns": material.glossiness}
-        given |= {"map_Kd": material.image, "name": material.name, **getattr(material, "kwargs", {})}
-    found: Material = {}
-    for name, value in given.items():
+    properties = dict(getattr(material, "_data", None) or {})
+    if not properties and hasattr(material, "diffuse"):  # one with the words of MTL
+        properties = {
+            "Kd": material.diffuse,
+            "Ka": material.ambient,
+            "Ks": material.specular,
+            "Ns": material.glossiness,
+        }
+        properties |= {"map_Kd": material.image, "name": material.name, **getattr(material, "kwargs", {})}
+    words: Material = {}
+    for name, value in properties.items():
         if hasattr(value, "save"):
             if value.format is None and value.size == (1, 1):
                 continue  # that of the material that trimesh gives to what has none
@@ -147,13 +152,13 @@ def _words_of(material: Any, images: list[bytes]) -> Material:
                 data = buffer.getvalue()
             if data not in images:
                 images.append(data)
-            found[name] = images.index(data)
+            words[name] = images.index(data)
         elif isinstance(value, str | int | float | np.bool_):
-            found[name] = int(value) if isinstance(value, bool | np.bool_) else value
+            words[name] = int(value) if isinstance(value, bool | np.bool_) else value
         elif isinstance(value, np.ndarray | list | tuple) and np.asarray(value).dtype.kind in "iuf":
             numbers = np.asarray(value).reshape(-1)
             if numbers.dtype == np.uint8:
                 numbers = numbers / 255
-            found[name] = as_text(numbers[:3] if name.startswith("K") else numbers)
-    finite = {name: value for name, value in found.items() if not isinstance(value, float) or np.isfinite(value)}
+            words[name] = as_text(numbers[:3] if name.startswith("K") else numbers)
+    finite = {name: value for name, value in words.items() if not isinstance(value, float) or np.isfinite(value)}
     return {} if finite == {"doubleSided": 0} else finite  # the default

@@ -55,7 +55,7 @@ def read_vtk(
     path: str, kind: str, limits: Limits, step: int | None = None, *, with_sets: bool = True
 ) -> tuple[Polygons, tuple[float, ...]]:
     """The surfaces of a file as the frame of a step, or at rest at the first time; and its times."""
-    vtkOutputWindow.SetInstance(said := vtkStringOutputWindow())
+    vtkOutputWindow.SetInstance(output := vtkStringOutputWindow())
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     vtkSMPTools.SetBackend("Sequential")  # a process that reads files from strangers may start no thread
     size = Path(path).stat().st_size
@@ -68,84 +68,84 @@ def read_vtk(
         is_exodus = name == "vtkExodusIIReader"
         if is_exodus and step is not None:
             reader.SetApplyDisplacements(1)  # frames move as the displacements say
-        left = _show_sets(reader, shown=with_sets) if is_exodus else {}
+        losses = _show_sets(reader, with_sets=with_sets) if is_exodus else {}
         if times:
             reader.UpdateTimeStep(times[step or 0])
         reader.Update()
-        if with_sets and is_exodus and "ERROR" in said.GetOutput():
+        if with_sets and is_exodus and "ERROR" in output.GetOutput():
             return read_vtk(path, kind, limits, step, with_sets=False)  # VTK fails at some sets
-        data, words = reader.GetOutputDataObject(0), _SAID.split(said.GetOutput())
+        data, words = reader.GetOutputDataObject(0), _SAID.split(output.GetOutput())
         if "ERROR" in words or data is None:
             why = words[words.index("ERROR") + 1] if "ERROR" in words else "there is nothing in it"
             raise FormatError(f"VTK cannot read this file, or one that it names: {' '.join(why.split())}")
-        left |= dict.fromkeys(" ".join(text.split()) for text in words[2::2])
-        sets = _Sets(data, left) if is_exodus else None
+        losses |= dict.fromkeys(" ".join(text.split()) for text in words[2::2])
+        sets = _Sets(data, losses) if is_exodus else None
         leaves = [*_leaves(data, "")]
-        parts = [part for leaf, name in leaves if (part := _part(leaf, name, left)) is not None]
-        parts = parts if sets is None else sets.mark(parts, left)
-    whole = joined_parts(parts, None, limits, size)
-    known, others = plain_fields(_fields([*(leaf for leaf, _ in leaves), data], len(times), left))
-    return replace(whole, dropped=(*left, *others), metadata={**whole.metadata, **known}), times
+        parts = [part for leaf, name in leaves if (part := _part(leaf, name, losses)) is not None]
+        parts = parts if sets is None else sets.mark(parts, losses)
+    joined = joined_parts(parts, None, limits, size)
+    plain, others = plain_fields(_fields([*(leaf for leaf, _ in leaves), data], len(times), losses))
+    return replace(joined, dropped=(*losses, *others), metadata={**joined.metadata, **plain}), times
 
 
-def _show_sets(reader: Any, *, shown: bool) -> dict[str, None]:
+def _show_sets(reader: Any, *, with_sets: bool) -> dict[str, None]:
     """Let a reader of Exodus read the sets, or name them; return the names of its contents that have no place here."""
-    left = dict[str, None]()
+    losses = dict[str, None]()
     for kind in ("Node", "Side", "Elem", "Edge", "Face"):
         number = getattr(reader, f"{kind.upper()}_SET")
         for place in range(reader.GetNumberOfObjects(number)):
-            reader.SetObjectStatus(number, place, int(shown))
+            reader.SetObjectStatus(number, place, int(with_sets))
             name = _UNNAMED.sub(rf"{kind.lower()} set \1", _text(reader.GetObjectName(number, place)))
-            left |= {} if shown else {f"the {kind.lower()} set {name}": None}
+            losses |= {} if with_sets else {f"the {kind.lower()} set {name}": None}
         for place in range(reader.GetNumberOfObjectArrays(number)):
-            left[f"{_text(reader.GetObjectArrayName(number, place))} of {kind.lower()} sets"] = None
+            losses[f"{_text(reader.GetObjectArrayName(number, place))} of {kind.lower()} sets"] = None
     for kind in ("Edge", "Face"):
         number = getattr(reader, f"{kind.upper()}_BLOCK")
         names = (_text(reader.GetObjectName(number, place)) for place in range(reader.GetNumberOfObjects(number)))
-        left |= {f"the {kind.lower()} block {name}": None for name in names}
-    return left
+        losses |= {f"the {kind.lower()} block {name}": None for name in names}
+    return losses
 
 
-def _fields(every: Sequence[Any], steps: int, left: dict[str, None]) -> dict[str, Any]:
+def _fields(every: Sequence[Any], steps: int, losses: dict[str, None]) -> dict[str, Any]:
     """The field data of sets of data: the numbers of all steps as a text, and a line for each number that differs."""
-    found = dict[str, Any]()
+    fields = dict[str, Any]()
     lines = dict[str, dict[str, None]]()
-    for name, values in (field for data in every for field in _arrays(data.GetFieldData(), left)):
-        found[name] = values
+    for name, values in (field for data in every for field in _arrays(data.GetFieldData(), losses)):
+        fields[name] = values
         if 1 < steps == values.size and values.dtype.kind in "iuf":
-            found[name] = np.array(" ".join(map(repr, values.ravel().tolist())))
+            fields[name] = np.array(" ".join(map(repr, values.ravel().tolist())))
         elif values.size == 1:
             lines.setdefault(name, {})[str(values.item())] = None
     differing = {name: np.array("\n".join(texts)) for name, texts in lines.items() if len(texts) > 1}
-    return found | differing
+    return fields | differing
 
 
 class _Sets:
     """The sets of a file of Exodus, which become marks of faces or points; its data keep the blocks."""
 
-    def __init__(self, data: Any, left: dict[str, None]) -> None:
+    def __init__(self, data: Any, losses: dict[str, None]) -> None:
         self._faces, self._points = dict[str, Any](), dict[str, Any]()
         for place in range(data.GetNumberOfBlocks()):
             kind = data.GetMetaData(place).Get(data.NAME())
             if not kind.endswith(" Sets"):
                 continue
             for leaf, name in _leaves(data.GetBlock(place), ""):
-                self._add(kind[:-1].lower(), leaf, name, left)
+                self._add(kind[:-1].lower(), leaf, name, losses)
             data.SetBlock(place, None)
 
-    def _add(self, kind: str, leaf: Any, name: str, left: dict[str, None]) -> None:
-        called = _UNNAMED.sub(rf"{kind} \1", name)
+    def _add(self, kind: str, leaf: Any, name: str, losses: dict[str, None]) -> None:
+        set_name = _UNNAMED.sub(rf"{kind} \1", name)
         part = _part(leaf, name, {}) if kind == "side set" else None
         if len(self._faces) + len(self._points) >= _MOST_SETS:
-            left[f"the {kind} {called}"] = None
+            losses[f"the {kind} {set_name}"] = None
         elif kind == "node set":
-            self._points[called] = _FINE * vtk_to_numpy(leaf.GetPointData().GetArray("GlobalNodeId"))
+            self._points[set_name] = _FINE * vtk_to_numpy(leaf.GetPointData().GetArray("GlobalNodeId"))
         elif part is not None:
-            self._faces[called] = _nodes_of_faces(part)
+            self._faces[set_name] = _nodes_of_faces(part)
         else:
-            left[f"the {kind} {called}"] = None
+            losses[f"the {kind} {set_name}"] = None
 
-    def mark(self, parts: Sequence[Part], left: dict[str, None]) -> list[Part]:
+    def mark(self, parts: Sequence[Part], losses: dict[str, None]) -> list[Part]:
         """Return the parts with a column for each set, one where a face or point is in it."""
         tables = [*map(_nodes_of_faces, parts), *self._faces.values()]
         numbers = row_numbers(np.concatenate([np.zeros((0, MOST_CORNERS), np.int64), *tables]))
@@ -156,14 +156,14 @@ class _Sets:
             is_in[of_set] = 1
             marks = [is_in[of_part][:, None] for of_part in pieces[: len(parts)]]
             inside = len(of_set) - sum(int(mark.sum()) for mark in marks)
-            left |= {f"faces of the side set {name} inside of volumes ({inside})": None} if inside > 0 else {}
-            for own, mark in zip(columns, marks, strict=True):
-                own.append(Column(name, mark, "face"))
-        for own, part in zip(columns, parts, strict=True):
+            losses |= {f"faces of the side set {name} inside of volumes ({inside})": None} if inside > 0 else {}
+            for columns_of_part, mark in zip(columns, marks, strict=True):
+                columns_of_part.append(Column(name, mark, "face"))
+        for columns_of_part, part in zip(columns, parts, strict=True):
             points = _nodes_of_points(part)
             marked = ((name, np.isin(points, nodes)) for name, nodes in self._points.items())
-            own += [Column(name, is_in.astype(np.uint8)[:, None]) for name, is_in in marked]
-        return [replace(part, columns=own) for part, own in zip(parts, columns, strict=True)]
+            columns_of_part += [Column(name, is_in.astype(np.uint8)[:, None]) for name, is_in in marked]
+        return [replace(part, columns=columns_of_part) for part, columns_of_part in zip(parts, columns, strict=True)]
 
 
 def _nodes_of_points(part: Part) -> Ints:
@@ -215,20 +215,20 @@ def _leaves(data: Any, name: str) -> Iterator[tuple[Any, str]]:
     what = next((what for kind, what in below.items() if data.IsA(kind)), of_one)
     for place in range(getattr(data, f"GetNumberOf{what}s")() if what else 0):
         about = data.GetMetaData(place) if data.HasMetaData(place) else None
-        called = _text(about.Get(data.NAME())) if about is not None and about.Has(data.NAME()) else name
+        block_name = _text(about.Get(data.NAME())) if about is not None and about.Has(data.NAME()) else name
         if (one := getattr(data, f"Get{what}")(place)) is not None:
-            yield from _leaves(one, called)
+            yield from _leaves(one, block_name)
     if not what:
         yield data, name
 
 
-def _part(data: Any, name: str, left: dict[str, None]) -> Part | None:
+def _part(data: Any, name: str, losses: dict[str, None]) -> Part | None:
     """The surface of a set of data; None if it has none."""
     if not data.IsA("vtkDataSet"):
-        left[f"a {data.GetClassName().removeprefix('vtk')}"] = None
+        losses[f"a {data.GetClassName().removeprefix('vtk')}"] = None
         return None
     if data.IsA("vtkImageData") and min(data.GetDimensions()) > 1:
-        left["images in three dimensions"] = None
+        losses["images in three dimensions"] = None
         return None
     surface, points = data, data.GetPointData()
     if (nodes := points.GetArray("GlobalNodeId")) is not None:
@@ -242,19 +242,19 @@ def _part(data: Any, name: str, left: dict[str, None]) -> Part | None:
         data.GetCellData().AddArray(numbers)
         surface = _through(vtkDataSetSurfaceFilter(), data)
     hidden = np.count_nonzero(_marks(data) & _HIDDEN_CELL)
-    left |= {f"hidden cells ({hidden})": None} if hidden else {}
+    losses |= {f"hidden cells ({hidden})": None} if hidden else {}
     surface.RemoveGhostCells()  # those of other pieces, which close the skin of this one
     before = surface.GetNumberOfVerts() + surface.GetNumberOfLines()
-    left |= {"points and lines": None} if before else {}
+    losses |= {"points and lines": None} if before else {}
     if surface.GetNumberOfStrips():
         surface, before = _through(vtkTriangleFilter(), surface), 0
     if not surface.GetNumberOfPolys():
         return None
-    return Part(*_polygons(data, surface, before, left), name)
+    return Part(*_polygons(data, surface, before, losses), name)
 
 
 def _polygons(
-    data: Any, surface: Any, before: int, left: dict[str, None]
+    data: Any, surface: Any, before: int, losses: dict[str, None]
 ) -> tuple[Doubles, Ints, Ints, list[Column], Ints]:
     """The positions, sizes, corners, columns and materials of a surface, whose cells follow so many points and lines.
 
@@ -263,28 +263,36 @@ def _polygons(
     positions = np.array(vtk_to_numpy(surface.GetPoints().GetData()), np.float64)
     corners = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).astype(np.int64)
     sizes = np.diff(vtk_to_numpy(surface.GetPolys().GetOffsetsArray()).astype(np.int64))
-    kept: Any = slice(None)
+    rows_kept: Any = slice(None)
     if not data.IsA("vtkPolyData"):
         cells = vtk_to_numpy(surface.GetCellData().GetArray(_CELL))[before:]
         solid = _of_volumes(data, cells)
         few = sizes <= MOST_CORNERS
         rows = np.full((few.sum(), MOST_CORNERS), -1)
         rows[np.arange(MOST_CORNERS) < sizes[few, None]] = corners[np.repeat(few, sizes)]
-        numbers, kept = row_numbers(np.sort(rows, axis=1)), np.ones(len(sizes), np.bool_)
-        kept[few] = ~(solid[few] & np.isin(numbers, numbers[~solid[few]]))
-        corners, sizes, cells, solid = corners[np.repeat(kept, sizes)], sizes[kept], cells[kept], solid[kept]
-        left |= {INSIDE: None} if solid.any() else {}
+        numbers, rows_kept = row_numbers(np.sort(rows, axis=1)), np.ones(len(sizes), np.bool_)
+        rows_kept[few] = ~(solid[few] & np.isin(numbers, numbers[~solid[few]]))
+        corners, sizes, cells, solid = (
+            corners[np.repeat(rows_kept, sizes)],
+            sizes[rows_kept],
+            cells[rows_kept],
+            solid[rows_kept],
+        )
+        losses |= {INSIDE: None} if solid.any() else {}
         corners = corners[turned_corners(sizes, solid & _inward(data, cells, positions, sizes, corners))]
     columns: list[Column] = []
     domains: tuple[tuple[Any, Domain, slice, Any], ...] = (
         (surface.GetPointData(), "vertex", slice(None), slice(None)),
-        (surface.GetCellData(), "face", slice(before, None), kept),
+        (surface.GetCellData(), "face", slice(before, None), rows_kept),
     )
-    for given, domain, those, rows in domains:
-        shown: tuple[tuple[Any, Semantic], ...] = ((given.GetTCoords(), "texcoord"), (given.GetNormals(), "normal"))
-        active = {array.GetName(): meaning for array, meaning in shown if array is not None}
-        values = {name: v[those][rows] for name, v in _arrays(given, left)}
-        columns += columns_of(values, domain, left, active, _components(given))
+    for attributes, domain, those, rows in domains:
+        meanings: tuple[tuple[Any, Semantic], ...] = (
+            (attributes.GetTCoords(), "texcoord"),
+            (attributes.GetNormals(), "normal"),
+        )
+        active = {array.GetName(): meaning for array, meaning in meanings if array is not None}
+        values = {name: v[those][rows] for name, v in _arrays(attributes, losses)}
+        columns += columns_of(values, domain, losses, active, _components(attributes))
     return positions, sizes, corners, columns, np.zeros(len(sizes), np.int64)
 
 
@@ -306,8 +314,8 @@ def _of_volumes(data: Any, cells: Ints) -> Any:
 
 def _inward(data: Any, cells: Ints, positions: Doubles, sizes: Ints, corners: Ints) -> Any:
     """Return which polygons look into their cells: writers order the corners of wedges in either way."""
-    for given in (data.GetPointData(), data.GetCellData()):
-        given.RemoveArray("vtkGhostType")  # cells that are hidden have middles, too
+    for attributes in (data.GetPointData(), data.GetCellData()):
+        attributes.RemoveArray("vtkGhostType")  # cells that are hidden have middles, too
     middles = vtk_to_numpy(_through(vtkCellCenters(), data).GetPoints().GetData())[cells]
     centers = np.add.reduceat(positions[corners], np.cumsum(sizes) - sizes) / sizes[:, None]
     return (polygon_normals(positions, sizes, corners) * (centers - middles)).sum(axis=1) < 0
@@ -324,25 +332,25 @@ def _marks(data: Any) -> Any:
     return np.zeros(0, np.uint8) if marks is None else vtk_to_numpy(marks)
 
 
-def _components(given: Any) -> dict[str, list[str]]:
+def _components(attributes: Any) -> dict[str, list[str]]:
     """The names of the components of arrays, of those that name all."""
-    arrays = (given.GetAbstractArray(place) for place in range(given.GetNumberOfArrays()))
-    named = (array for array in arrays if array.GetName() and array.HasAComponentName())
-    found = {
+    arrays = (attributes.GetAbstractArray(place) for place in range(attributes.GetNumberOfArrays()))
+    arrays_named = (array for array in arrays if array.GetName() and array.HasAComponentName())
+    components = {
         _text(a.GetName()): [_text(a.GetComponentName(n) or "") for n in range(a.GetNumberOfComponents())]
-        for a in named
+        for a in arrays_named
     }
-    return {name: words for name, words in found.items() if all(words) and len(words) > 1}
+    return {name: words for name, words in components.items() if all(words) and len(words) > 1}
 
 
-def _arrays(given: Any, left: dict[str, None]) -> Iterator[tuple[str, Any]]:
+def _arrays(attributes: Any, losses: dict[str, None]) -> Iterator[tuple[str, Any]]:
     """The arrays of data that VTK holds, by their names."""
-    for place in range(given.GetNumberOfArrays()):
-        array = given.GetAbstractArray(place)
+    for place in range(attributes.GetNumberOfArrays()):
+        array = attributes.GetAbstractArray(place)
         name = _text(array.GetName() or f"array {place}")
         if isinstance(array, vtkStringArray):
             yield name, np.array([array.GetValue(row) for row in range(array.GetNumberOfValues())])
         elif not array.IsA("vtkDataArray"):
-            left[name] = None
+            losses[name] = None
         elif not _OWN.fullmatch(name):
             yield name, vtk_to_numpy(array)

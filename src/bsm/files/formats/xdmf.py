@@ -70,11 +70,11 @@ class _Grids:
             element.extend(self._copies(self._found(pointer)))
             element.remove(include)
         if reference := element.get("Reference"):
-            found = self._found((element.text or "").strip() if reference == "XML" else reference)
-            if len(found) != 1 or found[0].get("Reference"):
+            element_found = self._found((element.text or "").strip() if reference == "XML" else reference)
+            if len(element_found) != 1 or element_found[0].get("Reference"):
                 raise FormatError(f"the reference {reference[:80]} does not lead to one element")
-            element[:], element.text = self._copies(found[0]), found[0].text
-            element.attrib.update({**found[0].attrib, **element.attrib})
+            element[:], element.text = self._copies(element_found[0]), element_found[0].text
+            element.attrib.update({**element_found[0].attrib, **element.attrib})
 
     def _found(self, pointer: str) -> Any:
         """Return the elements that a path leads to; paths in paths may take longer than any file is worth."""
@@ -84,13 +84,13 @@ class _Grids:
 
     def _copies(self, elements: Iterable[Any]) -> list[Any]:
         """Return copies of elements, which may not take much more memory than the file."""
-        made = []
+        copies = []
         for element in elements:
             for one in element.iter():
                 self._copied += TAG + len(one.text or "")
             self._limits.check_memory(self._copied, 0, self._present)
-            made.append(element.__deepcopy__({}))
-        return made
+            copies.append(element.__deepcopy__({}))
+        return copies
 
     def numbers(self, parent: Any) -> Any:
         """The numbers of the data item in an element."""
@@ -141,27 +141,27 @@ class _Grids:
         if not series:
             return [(0.0, grids)]
         others = [grid for grid in grids if grid not in series and grid.find("Attribute") is not None]
-        found = [[*zip(self._times(grid), grid.findall("Grid"), strict=True)] for grid in series]
-        times = [[time for time, _ in steps] for steps in found]
-        if others or any(other != times[0] for other in times):
+        series_steps = [[*zip(self._times(grid), grid.findall("Grid"), strict=True)] for grid in series]
+        times = [[time for time, _ in steps] for steps in series_steps]
+        if others or any(times_of_other != times[0] for times_of_other in times):
             name = (others or [s for s, t in zip(series, times) if t != times[0]])[0].get("Name", "")
             raise FormatError(
                 f"the grid {name} does not have the times of the others; {_WAY}, or write one file for each"
             )
-        whole = next((grid for grid in self.root.iter("Grid") if grid.find("Topology") is not None), None)
-        for _, grid in (step for steps in found for step in steps):
+        grid_whole = next((grid for grid in self.root.iter("Grid") if grid.find("Topology") is not None), None)
+        for _, grid in (step for steps in series_steps for step in steps):
             for tag in ("Topology", "Geometry"):
-                if whole is not None and grid.get("GridType", "Uniform") == "Uniform" and grid.find(tag) is None:
-                    grid.append(whole.find(tag).__deepcopy__({}))
-        together = zip(times[0], *([grid for _, grid in steps] for steps in found), strict=True)
+                if grid_whole is not None and grid.get("GridType", "Uniform") == "Uniform" and grid.find(tag) is None:
+                    grid.append(grid_whole.find(tag).__deepcopy__({}))
+        together = zip(times[0], *([grid for _, grid in steps] for steps in series_steps), strict=True)
         return sorted(((time, grids) for time, *grids in together), key=lambda step: step[0])
 
     def _times(self, series: Any) -> list[float]:
         """When the steps of a series are."""
         steps, time = series.findall("Grid"), series.find("Time")
         if time is None:
-            given = [step.find("Time") for step in steps]
-            return [float(place) if one is None else float(one.get("Value")) for place, one in enumerate(given)]
+            time_elements = [step.find("Time") for step in steps]
+            return [float(place) if one is None else float(one.get("Value")) for place, one in enumerate(time_elements)]
         kind = time.get("TimeType", "Single")
         if kind not in _TIMES:
             raise FormatError(f"this XDMF has times of the kind {kind}; {_WAY}")
@@ -173,8 +173,8 @@ class _Grids:
             raise FormatError(f"there are {count} times for {len(steps)} steps")
         if kind == "HyperSlab":
             values = values[0] + values[1] * np.arange(count)
-        found: list[float] = np.asarray(values, np.float64).tolist()
-        return found
+        times: list[float] = np.asarray(values, np.float64).tolist()
+        return times
 
     def surface(self, grids: Sequence[Any], size: int) -> Polygons:
         """The surfaces of grids; those over the same mesh are one."""
@@ -189,9 +189,9 @@ class _Grids:
         if len(parts) == 1:
             return parts[0]
         names = [str(every[places[0]].get("Name", "")) for places in alike]
-        made = [part_of(*one) for one in zip(parts, names, strict=True)]
+        surfaces = [part_of(*one) for one in zip(parts, names, strict=True)]
         lost = dict.fromkeys(name for part in parts for name in part.dropped)
-        return replace(joined_parts(made, None, self._limits, size), dropped=tuple(lost))
+        return replace(joined_parts(surfaces, None, self._limits, size), dropped=tuple(lost))
 
     def _leaves(self, grid: Any) -> list[Any]:
         if unknown := next((str(child.tag) for child in grid if child.tag not in _KNOWN), None):
@@ -209,46 +209,46 @@ class _Grids:
         kind = geometry.get("GeometryType", geometry.get("Type", "XYZ")).upper()
         if kind not in ("XYZ", "XY", "X_Y_Z", "X_Y"):
             raise FormatError(f"this XDMF has a geometry {kind}; {_WAY}")
-        given = [self._item(item) for item in geometry.findall("DataItem")]
+        tables = [self._item(item) for item in geometry.findall("DataItem")]
         width = kind.replace("_", "").count("X") + kind.count("Y") + kind.count("Z")
-        points = np.column_stack([axis.ravel() for axis in given]) if "_" in kind else given[0].reshape(-1, width)
+        points = np.column_stack([axis.ravel() for axis in tables]) if "_" in kind else tables[0].reshape(-1, width)
         name = topology.get("TopologyType", topology.get("Type", "")).lower().replace("_", "")
         flat = self.numbers(topology).astype(np.int64)
         base = int(topology.get("BaseOffset", 0))
         if name == "mixed":
             return points, [(kind, rows - base) for kind, rows in _mixed(flat.ravel())]
-        known = {
+        layouts = {
             word.rstrip("0123456789") if number < 10 else word: word
             for number, words in _CELLS.items()
             for word in words.split()
         }
         if topology.get("Order"):
             raise FormatError(f"this XDMF has an order of nodes of its own; {_WAY}")
-        if name not in known:
+        if name not in layouts:
             raise FormatError(f"this XDMF has cells of the kind {name}; {_WAY}")
-        width = int(re.sub(r"\D", "", known[name]) or topology.get("NodesPerElement", flat.shape[-1]))
-        return points, [(_shape_of(known[name]), flat.reshape(-1, width) - base)]
+        width = int(re.sub(r"\D", "", layouts[name]) or topology.get("NodesPerElement", flat.shape[-1]))
+        return points, [(_shape_of(layouts[name]), flat.reshape(-1, width) - base)]
 
     def _part(self, shape: tuple[Any, list[tuple[str, Any]]], grids: Sequence[Any]) -> Polygons:
         points, blocks = shape
         counts = {"Node": len(points), "Cell": sum(len(rows) for _, rows in blocks)}
-        found: dict[str, dict[str, Any]] = {"Node": {}, "Cell": {}}
-        left = []
+        columns: dict[str, dict[str, Any]] = {"Node": {}, "Cell": {}}
+        losses = []
         for attribute in (attribute for grid in grids for attribute in grid.findall("Attribute")):
             center, name = attribute.get("Center", "Node"), attribute.get("Name", "")
-            if center not in found:
-                left.append(f"{name} (Center={center})")
+            if center not in columns:
+                losses.append(f"{name} (Center={center})")
                 continue
             values = self.numbers(attribute)
             if values.size % counts[center] or not counts[center]:
                 raise MeshError(f"{name} has {values.size} numbers for {counts[center]} rows")
-            if name in found[center]:
+            if name in columns[center]:
                 raise FormatError(f"two grids have values called {name}; {_WAY}")
             table = values.reshape(counts[center], -1)
             # Rows of XDMF are xx xy xz yy yz zz; those of VTK, by which components are named, xx yy zz xy yz xz.
             is_symmetric = attribute.get("AttributeType", attribute.get("Type", "")) == "Tensor6"
-            found[center][name] = table[:, [0, 3, 5, 1, 4, 2]] if is_symmetric and table.shape[1] == 6 else table
-        return skin(points, blocks, found["Node"], found["Cell"], left)
+            columns[center][name] = table[:, [0, 3, 5, 1, 4, 2]] if is_symmetric and table.shape[1] == 6 else table
+        return skin(points, blocks, columns["Node"], columns["Cell"], losses)
 
 
 def _shape_of(word: str) -> str:
@@ -285,11 +285,11 @@ def read_xdmf_mesh(data: bytes, path: str | None, limits: Limits) -> Polygons:
     with as_library_error("lxml"):
         document = _Grids(data, path, limits)
         steps = document.steps()
-        found = document.surface(steps[0][1], len(data))
-    return replace(found, dropped=(*found.dropped, *([f"later steps ({len(steps) - 1})"] if steps[1:] else [])))
+        polygons = document.surface(steps[0][1], len(data))
+    return replace(polygons, dropped=(*polygons.dropped, *([f"later steps ({len(steps) - 1})"] if steps[1:] else [])))
 
 
-def read_xdmf(path: str, wanted: Wanted, limits: Limits) -> Frames | None:
+def read_xdmf(path: str, request: Wanted, limits: Limits) -> Frames | None:
     """The steps of an XDMF as frames; None if it has none."""
     data = Path(path).read_bytes()
     with as_library_error("lxml"):
@@ -300,4 +300,4 @@ def read_xdmf(path: str, wanted: Wanted, limits: Limits) -> Frames | None:
         with as_library_error("lxml"):
             return document.surface(steps[step][1], len(data))
 
-    return read_steps(surface, [time for time, _ in steps], len(data), wanted, limits)
+    return read_steps(surface, [time for time, _ in steps], len(data), request, limits)

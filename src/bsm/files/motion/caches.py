@@ -39,11 +39,11 @@ class Cache:
     timing: dict[str, float | str] | None = None  # as metadata; None: the times in the file are invalid
 
 
-def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
+def read_cache(path: str, kind: str, request: Wanted, limits: Limits) -> Frames:
     """The frames of a cache, each read when it is asked for, and the faces of the mesh that it moves."""
     size = os.path.getsize(path)
     with open(path, "rb") as file:
-        cache = _head_of_pc2(file) if kind == "pc2" else _head_of_mdd(file, size, wanted.rate)
+        cache = _head_of_pc2(file) if kind == "pc2" else _head_of_mdd(file, size, request.rate)
     what = f"the {kind.upper()} file claims {cache.frames} frames of {cache.points} points"
     if cache.frames < 1 or cache.points < 1:
         raise FormatError(what)
@@ -51,7 +51,7 @@ def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
         raise TruncatedError(f"{what}, which take {needed} bytes; it has {size}")
     require_counts(limits, vertices=cache.points, frames=cache.frames)
     # A cache only holds points. Animators keep the mesh beside it under the same name.
-    beside = mesh_beside(path) if wanted.mesh is None else os.fspath(wanted.mesh)
+    beside = mesh_beside(path) if request.mesh is None else os.fspath(request.mesh)
     with about(beside):
         mesh = read_mesh(beside, limits=limits, isolated=False).mesh
     if len(mesh.positions) != cache.points:
@@ -60,11 +60,11 @@ def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
             "mesh that it was made for with --mesh"
         )
     # Asked with the same positions, only to learn which attributes a motion would make wrong.
-    kept, normals = mesh.moved(mesh.positions)
+    kept_mesh, normals = mesh.moved(mesh.positions)
     notes = [f"faces and attributes are those of {beside}"]
     notes += [f"left out, for they move: {', '.join(normals)}"] if normals else []
     notes += ["the times of frames are not numbers that grow, and are left out"] if cache.timing is None else []
-    shared = kept.attributes, tuple(notes), cache.rate, {**mesh.metadata, **(cache.timing or {})}
+    shared = kept_mesh.attributes, tuple(notes), cache.rate, {**mesh.metadata, **(cache.timing or {})}
     return Frames(mesh.faces, cache.frames, _samples(path, cache), *shared, rigged=cache.points)
 
 
@@ -77,8 +77,8 @@ def _head_of_pc2(file: BinaryIO) -> Cache:
         raise FormatError(f"PC2 of version {version} is not known; 1 is")
     timing = {START: start} if start else {}
     timing |= {STEP: step} if step != 1.0 else {}
-    known = np.isfinite([start, step]).all() and step > 0.0
-    return Cache(points, frames, _PC2.size, "<f4", timing=timing if known else None)
+    timing_is_valid = np.isfinite([start, step]).all() and step > 0.0
+    return Cache(points, frames, _PC2.size, "<f4", timing=timing if timing_is_valid else None)
 
 
 def _head_of_mdd(file: BinaryIO, size: int, rate: float) -> Cache:
@@ -110,11 +110,13 @@ def _doubles(data: bytes, kind: str) -> Doubles:
 
 def mesh_beside(path: str) -> str:
     candidates = [str(Path(path).with_suffix(suffix)) for suffix in MESH_SUFFIXES]
-    found = next((name for name in candidates if os.path.isfile(name)), None)
-    if found is None:
-        wanted = Path(path).with_suffix(".obj").name
-        raise MeshError(f"a cache holds points and no faces: put the mesh beside it ({wanted}), or name it with --mesh")
-    return found
+    mesh_path = next((name for name in candidates if os.path.isfile(name)), None)
+    if mesh_path is None:
+        usual_name = Path(path).with_suffix(".obj").name
+        raise MeshError(
+            f"a cache holds points and no faces: put the mesh beside it ({usual_name}), or name it with --mesh"
+        )
+    return mesh_path
 
 
 def write_cache(
@@ -122,16 +124,16 @@ def write_cache(
 ) -> None:
     """Write a cache of frames with these time codes, at a frame rate."""
     single, count = "<f4" if kind == "pc2" else ">f4", len(codes)
-    for taken, frame in enumerate(frames):
-        if taken == 0 and kind == "pc2":
+    for number, frame in enumerate(frames):
+        if number == 0 and kind == "pc2":
             step = codes[1] - codes[0] if count > 1 else 1.0
             file.write(_PC2.pack(_SIGNATURE, 1, len(frame), codes[0], step, count))
-        elif taken == 0:
+        elif number == 0:
             file.write(_MDD.pack(count, len(frame)))
             file.write((np.array(codes) / (rate or USUAL_RATE)).astype(">f4").tobytes())
         # Beyond it a coordinate would become infinite without a word.
         if np.abs(frame).max() > np.finfo(np.float32).max:
-            raise MeshError(f"a coordinate of frame {taken} is beyond single precision, which {kind.upper()} has")
+            raise MeshError(f"a coordinate of frame {number} is beyond single precision, which {kind.upper()} has")
         file.write(np.ascontiguousarray(frame, single).tobytes())
 
 

@@ -54,13 +54,13 @@ def mesh_files(path: str) -> list[str]:
 
 def frame_files(path: str, *, follow: bool = True) -> list[str]:
     """The mesh files of a folder or pattern, by the numbers in their names; `follow` links to other folders."""
-    if not (found := mesh_files(path)):
+    if not (names := mesh_files(path)):
         raise FormatError(f"no mesh files in {path} ({', '.join(MESH_SUFFIXES)}); -r looks in the folders below, too")
     # A process that reads files from strangers could open the folders of links, too.
-    for name in found if not follow else ():
+    for name in names if not follow else ():
         with about(name):
             refuse_link_out(os.path.dirname(name), name)
-    return in_order(found)
+    return in_order(names)
 
 
 def frame_range(text: str) -> tuple[int, int]:
@@ -157,29 +157,31 @@ def _require_clear(ordered: Sequence[str]) -> None:
     """Refuse names whose numbers can be read in two ways, with another order each."""
     bases, stems = _differing(ordered), _stems(ordered)
     shapes = [_NUMBERS.sub("#", base) for base in bases]
-    other = next((place for place, shape in enumerate(shapes) if shape != shapes[0]), 0)
+    differing = next((place for place, shape in enumerate(shapes) if shape != shapes[0]), 0)
     why = ""
     if len(set(shapes)) > len({_SIGNED.sub("#", base) for base in bases}):
         why = 'the "-" may be a sign or a hyphen; write _- before negative numbers'
     alike = len({*map(len, stems)}) == 1 and sum(len({*letters}) > 1 for letters in zip(*stems)) <= 1
     if not alike and not any(map(_NUMBERS.search, stems)):
-        other, why = len(ordered) - 1, "nothing in their names tells it; add their times"
+        differing, why = len(ordered) - 1, "nothing in their names tells it; add their times"
     if len({re.sub("[#.]+", "#", shape) for shape in shapes}) < len({*shapes}):
         why = "some have a point ahead of the number"
     _, words = _varying(stems)
     decimals = [*map(float, words)]
     falls = next((place for place in range(1, len(decimals)) if decimals[place] < decimals[place - 1]), 0)
     if falls and len({number.partition(".")[0] for number in words}) > 1:
-        other, why = falls, "as decimal numbers they are the other way round"
+        differing, why = falls, "as decimal numbers they are the other way round"
     units = [unit for stem in stems for unit in _UNITS.findall(stem)]
     if falls := next((place for place, unit in enumerate(units) if unit != units[0]), 0):
-        other, why = falls, "their units differ"
+        differing, why = falls, "their units differ"
     for keys in zip(*(map(_natural, base.split(os.sep)) for base in bases)):
         if falls := next((place for place in range(1, len(keys)) if keys[place] < keys[place - 1]), 0):
-            other, why = falls, "folders and names both count"
+            differing, why = falls, "folders and names both count"
     if why:
-        first = ordered[other - 1 if other else 0]
-        raise MeshError(f"the order of {first} and {ordered[other]} is unclear: {why}, or number the files from 0 on")
+        first = ordered[differing - 1 if differing else 0]
+        raise MeshError(
+            f"the order of {first} and {ordered[differing]} is unclear: {why}, or number the files from 0 on"
+        )
 
 
 def look_like_frames(names: Sequence[str]) -> bool:
@@ -192,7 +194,7 @@ def look_like_frames(names: Sequence[str]) -> bool:
 def common_name(names: Sequence[str]) -> str:
     """Return one name for many files: their common beginning and end."""
     first, last = min(names), max(names)
-    same = [letter == other for letter, other in zip(first, last)]
+    same = [letter == last_letter for letter, last_letter in zip(first, last)]
     head = len(same) if all(same) else same.index(False)
     return f"{first[:head]}*{Path(first).suffix}"
 
@@ -213,17 +215,17 @@ def _numbers(ordered: Sequence[str]) -> list[int]:
     return [int(of_one[differing[0]]) for of_one in parts]
 
 
-def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], wanted: Wanted) -> Frames:
+def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], request: Wanted) -> Frames:
     """The frames in files, each read when asked for; with `runs`, faces change. Times: wanted, in files, or numbers."""
-    runs, rate, times = wanted.runs, wanted.rate, wanted.times
+    runs, rate, times = request.runs, request.rate, request.times
     read_once, notes = lru_cache(maxsize=1)(read_named), list[str]()  # a list may name one file for many times
 
     def read(number: int) -> TriangleMesh:
         with about(f"{names[number]} (frame {number})"):
             try:
-                found = read_once(names[number])
-                notes.extend(note for note in found.notes if number == 0 and note not in notes)
-                return found.mesh
+                mesh_file = read_once(names[number])
+                notes.extend(note for note in mesh_file.notes if number == 0 and note not in notes)
+                return mesh_file.mesh
             except NoFacesError as error:
                 if runs:
                     return empty_frame()
@@ -234,40 +236,45 @@ def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], want
     if TIME_VALUE in first.metadata and not times:
         times = [float(read(number).metadata.get(TIME_VALUE, "nan")) for number in range(count)]
     times = times or times_in(names)
-    known = rate_of_times(np.array(times, np.float64))
-    if rate and times and known != rate:
-        notes.append(
-            f"the times of frames are replaced by the frame rate {rate:g}{f'; theirs is {known:g}' * (known > 0)}"
-        )
+    rate_of_names = rate_of_times(np.array(times, np.float64))
+    if rate and times and rate_of_names != rate:
+        replaced_rate = f"; theirs is {rate_of_names:g}" if rate_of_names > 0 else ""
+        notes.append(f"the times of frames are replaced by the frame rate {rate:g}{replaced_rate}")
     rate, timing = timing_of(np.array(times, np.float64), rate) if times else (rate, _numbering(names))
     notes += ["the times of frames are not numbers that grow, and are left out"] if timing is None else []
     # An attribute that moves differs most between the first and the last frame; looking at all frames would read the
     # folder twice.
     last = read(count - 1) if first.attributes and not runs else first
-    own = [attribute for attribute in first.attributes if attribute.name != EMPTY]
-    kept = tuple(attribute for attribute in own if _as_in(last, attribute) is not None)
-    left = [attribute for attribute in own if attribute not in kept]
-    normals, others = ([a.name for a in left if (a.semantic == "normal") is normal] for normal in (True, False))
+    attributes = [attribute for attribute in first.attributes if attribute.name != EMPTY]
+    kept_attributes = tuple(attribute for attribute in attributes if _as_in(last, attribute) is not None)
+    dropped_attributes = [attribute for attribute in attributes if attribute not in kept_attributes]
+    normals, others = (
+        [a.name for a in dropped_attributes if (a.semantic == "normal") is normal] for normal in (True, False)
+    )
     notes += (
         [f"left out: {', '.join(normals)}; a sequence has no normals, which follow from positions"] if normals else []
     )
     notes += [f"left out, for they move or change: {', '.join(others)}"] if others else []
-    same = [attribute.name for attribute in kept if not can_move(attribute)]
+    same = [attribute.name for attribute in kept_attributes if not can_move(attribute)]
     notes += [f"{', '.join(same)}: as the first frame {'of each run ' * runs}has them"] if count > 1 and same else []
-    changes = runs or len(same) < len(kept) or any(name.startswith(SHOWN) for name in first.metadata)
+    changes = runs or len(same) < len(kept_attributes) or any(name.startswith(SHOWN) for name in first.metadata)
 
     def meshes() -> Iterator[TriangleMesh]:
-        yield first if runs else replace(first, attributes=kept)
+        yield first if runs else replace(first, attributes=kept_attributes)
         for number in range(1, count):
             mesh = read(number)
-            yield mesh if runs else _with_faces_of(first, names[0], kept, mesh, f"{names[number]} (frame {number})")
+            yield (
+                mesh
+                if runs
+                else _with_faces_of(first, names[0], kept_attributes, mesh, f"{names[number]} (frame {number})")
+            )
 
-    shared = kept, tuple(notes), rate, {**metadata, **(timing or {})}
+    shared = kept_attributes, tuple(notes), rate, {**metadata, **(timing or {})}
     return Frames(first.faces, count, (mesh.positions for mesh in meshes()), *shared, meshes() if changes else None)
 
 
 def read_steps(
-    surface: Callable[[int], Polygons], times: Sequence[float], size: int, wanted: Wanted, limits: Limits
+    surface: Callable[[int], Polygons], times: Sequence[float], size: int, request: Wanted, limits: Limits
 ) -> Frames | None:
     """The steps in a file of so many bytes as frames; None if it has fewer than two."""
     cut = CutAlike()
@@ -275,11 +282,11 @@ def read_steps(
     def read(step: str) -> MeshFile:
         return surface(int(step)).checked(limits, size, cut)
 
-    return read_files([*map(str, range(len(times)))], read, replace(wanted, times=times)) if times[1:] else None
+    return read_files([*map(str, range(len(times)))], read, replace(request, times=times)) if times[1:] else None
 
 
 def _with_faces_of(
-    first: TriangleMesh, of_first: str, kept: Sequence[Attribute], mesh: TriangleMesh, name: str
+    first: TriangleMesh, of_first: str, attributes: Sequence[Attribute], mesh: TriangleMesh, name: str
 ) -> TriangleMesh:
     """A frame with the attributes that are kept; an error if its faces are not those of the first one."""
     if difference := other_faces(first, mesh):
@@ -288,7 +295,7 @@ def _with_faces_of(
             f"{difference}; if their faces change, --runs; to work on each by itself, name the files, or the folder "
             "with -r, and write to a folder, -o FOLDER/"
         )
-    now = {attribute.name: _as_in(mesh, attribute) for attribute in kept}
+    now = {attribute.name: _as_in(mesh, attribute) for attribute in attributes}
     if changed := [attribute for attribute, there in now.items() if there is None]:
         raise MeshError(
             f"{changed[0]} differs in {name} but not in the last frame; only colors and numbers of vertices may "
@@ -311,8 +318,8 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
         else:
             from bsm.files.formats.vtp import elements_of  # which loads a parser of XML
 
-            found = (element.attrib for element in elements_of(data) if element.tag == "DataSet")
-            rows = [(float(entry.get("timestep") or 0.0), entry["file"]) for entry in found]
+            entries = (element.attrib for element in elements_of(data) if element.tag == "DataSet")
+            rows = [(float(entry.get("timestep") or 0.0), entry["file"]) for entry in entries]
         if not all(math.isfinite(time) for time, _ in rows):
             raise ValueError("a time is not finite")
     # JSON may hold anything in any place, and nested lists end the recursion of its parser.

@@ -75,8 +75,8 @@ class Frames:
         # must come to the same place.
         order = np.lexsort(np.sort(faces, axis=1).T)
         corners = (np.argmin(faces, axis=1)[:, None] + np.arange(3))[order] % 3
-        given = np.where(order < len(self.faces), order, 0)
-        attributes = [attribute.taken(np.arange(self.rigged), given) for attribute in self.attributes]
+        source_faces = np.where(order < len(self.faces), order, 0)
+        attributes = [attribute.taken(np.arange(self.rigged), source_faces) for attribute in self.attributes]
         turn = partial(np.take_along_axis, indices=corners, axis=1)
         turned = (a if a.indices is None else replace(a, indices=turn(a.indices)) for a in attributes)
         return replace(self, faces=turn(faces[order]), attributes=tuple(turned))
@@ -131,8 +131,8 @@ class Shared:
 
     def timed(self, mesh: TriangleMesh, number: int) -> TriangleMesh:
         """Return a frame with its time, if that is known."""
-        known = self.metadata().keys() & {TIMES, RATE}
-        time = {TIME_VALUE: self.code(number) / (self.frame_rate or USUAL_RATE)} if known else {}
+        time_metadata = self.metadata().keys() & {TIMES, RATE}
+        time = {TIME_VALUE: self.code(number) / (self.frame_rate or USUAL_RATE)} if time_metadata else {}
         return replace(mesh, metadata={**mesh.metadata, **time})
 
     def mesh(self, positions: Positions, faces: Faces, *, with_metadata: bool = True) -> TriangleMesh:
@@ -172,14 +172,14 @@ def timing_of(times: Positions, rate: float = 0.0) -> tuple[float, dict[str, flo
         return rate, {}
     if not np.isfinite(times).all() or (np.diff(times) <= 0.0).any():
         return rate, None
-    found = rate_of_times(times)
-    even = times[:1] + np.arange(len(times)) / (found or rate or USUAL_RATE)
+    own_rate = rate_of_times(times)
+    even = times[:1] + np.arange(len(times)) / (own_rate or rate or USUAL_RATE)
     # Times of files are often floats of 32 bits: at an hour they are only known to about 0.2 ms.
-    near = 4.0 * float(np.finfo(np.float32).eps * np.abs(times).max()) + 1e-3 * float(np.diff(times[:2]).sum())
-    if np.abs(even - times).max() > near:
-        return found, {TIMES: " ".join(f"{time:.9g}" for time in times.tolist())}
-    start = round(float(times[0]) * (rate or found or USUAL_RATE), 6)
-    return rate or found, {START: start} if start else {}
+    tolerance = 4.0 * float(np.finfo(np.float32).eps * np.abs(times).max()) + 1e-3 * float(np.diff(times[:2]).sum())
+    if np.abs(even - times).max() > tolerance:
+        return own_rate, {TIMES: " ".join(f"{time:.9g}" for time in times.tolist())}
+    start = round(float(times[0]) * (rate or own_rate or USUAL_RATE), 6)
+    return rate or own_rate, {START: start} if start else {}
 
 
 def between(name: str, codes: Positions, rate: float) -> list[str]:
@@ -207,8 +207,8 @@ def rate_of_times(times: Positions) -> float:
 @lru_cache(1)
 def _times_in(text: str) -> list[float]:
     """Times in seconds; none unless they are numbers that grow."""
-    found = as_numbers(text)
-    return found if all(map(lt, found, found[1:])) else []
+    times = as_numbers(text)
+    return times if all(map(lt, times, times[1:])) else []
 
 
 def _finite(value: object, usual: float) -> float:
@@ -217,6 +217,6 @@ def _finite(value: object, usual: float) -> float:
 
 def describe_runs(starts: Sequence[int]) -> str:
     """In words, the frames before which faces change."""
-    some = ", ".join(map(str, starts[:MOST_LISTED]))
+    starts_named = ", ".join(map(str, starts[:MOST_LISTED]))
     rest = f" and {len(starts) - MOST_LISTED} more" if len(starts) > MOST_LISTED else ""
-    return f"connectivity changes at frame{'s' if len(starts) > 1 else ''} {some}{rest}"
+    return f"connectivity changes at frame{'s' if len(starts) > 1 else ''} {starts_named}{rest}"

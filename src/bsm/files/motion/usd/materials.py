@@ -86,7 +86,7 @@ class Materials:
         variable_names = [f"varname={name}" for name in sorted(self._coordinate_sets)]
         reader_row = " ".join((_TAKEN[READER], *variable_names))
         read_names = Taken({**_TAKEN, READER: reader_row})
-        return sorted(self._unsupported) + read_names.left(self._authored_names())
+        return sorted(self._unsupported) + read_names.unread_names(self._authored_names())
 
     def _authored_names(self) -> Iterator[Said]:
         shader_type = self._pxr.UsdShade.Shader
@@ -156,7 +156,7 @@ class Materials:
         stated_fields = ["metallic", "roughness"]
         if "cutoff" in fields:
             stated_fields.append("cutoff")
-        look = Appearance(name, **fields, opacity=opacity, said={"": tuple(stated_fields)})
+        look = Appearance(name, **fields, opacity=opacity, stated={"": tuple(stated_fields)})
         words: Material = {}
         texture_words: Material = {}
         for word, value in in_gltf(look).items():

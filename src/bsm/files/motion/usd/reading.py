@@ -14,14 +14,14 @@ from bsm.files.table import START
 
 
 @as_format_error("stage")
-def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames | None:
+def read_usd(path: str, request: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames | None:
     """Return the frames of a stage, sampled at its rate or the one that is wanted; None if nothing moves."""
-    stage = Stage(path, limits, runs=wanted.runs)
+    stage = Stage(path, limits, runs=request.runs)
     times = stage.times
     if len(times) < 2:
         return None
     codes_per_second = stage.codes_per_second
-    rate = wanted.rate or codes_per_second
+    rate = request.rate or codes_per_second
     first, last = stage.span or (times[0], times[-1])
     duration = (last - first) * rate / codes_per_second  # in frames
     if not np.isfinite([first, last, codes_per_second, duration]).all():
@@ -39,7 +39,7 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
         notes.append(f"{len(times) - len(times_inside)} time samples lie outside {first:g} to {last:g}")
     notes += first_frame.notes
     meshes = None
-    faces_may_change = wanted.runs and stage.changes
+    faces_may_change = request.runs and stage.changes
     if faces_may_change or any(part.shape.painted for part in stage.parts):
         meshes = (painted_like(mesh, stage.changed_mesh(time)) for time in frame_times)
     metadata = {**mesh.metadata}
