@@ -20,7 +20,7 @@ from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.choices import checked_metadata
 from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.codec.progress import PARTS, Progress, silent
+from bsm.codec.progress import Progress, Stages, silent
 from bsm.codec.sequence.attributes import Bound, MovingAttributeEncoder, with_fields
 from bsm.codec.sequence.frames import Group, next_group
 from bsm.codec.sequence.options import SequenceOptions
@@ -39,6 +39,9 @@ from bsm.codec.static.ways.block_coder import as_of_decoders
 
 # Volumetric capture comes back to the same topologies, and a decoder cannot keep all.
 KEPT_MESHES = 8  # by decoders, of the meshes so far
+# Seconds of preparing, coding and verifying, as shares of all, measured on sequences of 200 to 960 frames.
+_SEARCHED = (0.2, 0.72, 0.08)  # with a promise
+_CODED_ONCE = (0.25, 0.45, 0.3)  # with a step
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,7 +236,9 @@ class SequenceEncoder:
             if not index:
                 gops = -(-self._count // options.together(len(run.joined.first)))
                 # Without the number of frames, progress cannot be given as a fraction.
-                steps = _Rounds(progress if gops else None, gops + (options.promise is None))
+                if gops and progress is not None:
+                    searches = options.promise is not None
+                    steps = _Rounds(progress, gops + (not searches), searches=searches)
                 yield verifier.take(writer.start())
             for packet in self._run(run, index, meshes, options, steps):
                 # The verifier decodes with the limits of the target. What it refuses, the user's decoders would refuse.
@@ -447,14 +452,19 @@ def _positions(frame: Frame) -> Matrix:
 class _Rounds:
     """Reports the rounds of the first frame and of all GOPs as the progress of one task."""
 
-    def __init__(self, progress: Progress | None, rounds: int) -> None:
-        self._progress, self._rounds, self._done = progress, rounds, 0
+    def __init__(self, progress: Progress, rounds: int, *, searches: bool) -> None:
+        preparing, coding, finishing = _SEARCHED if searches else _CODED_ONCE
+        self._stages = Stages(progress, {"preparing": preparing, "coding": coding, "finishing": finishing})
+        self._rounds, self._done, self._searches = rounds, 0, searches
 
     def __call__(self, done: int, blocks: int) -> None:
-        if self._progress is not None:
-            # There may be more rounds than were foreseen, since GOPs can be cut.
-            rounds = max(self._rounds, self._done + 1)
-            self._progress(int(PARTS * (self._done + done / blocks)), PARTS * rounds)
+        # There may be more rounds than were foreseen, since GOPs can be cut.
+        rounds = max(self._rounds, self._done + 1)
+        share = done / blocks
+        # A search counts attempts, each as a part of the rest. The time of a round grows as the square of that.
+        share = share**2 if self._searches else share
+        self._stages.report("preparing", 1.0)
+        self._stages.report("coding", (self._done + share) / rounds)
         self._done += done == blocks
 
 

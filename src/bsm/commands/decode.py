@@ -21,7 +21,6 @@ from bsm.files.images import is_link, linked_images, with_linked_images
 from bsm.files.inspection import inspect_stream
 from bsm.files.libraries import as_decoded
 from bsm.files.mesh import save_written, unheard, unknown_suffix, written_mesh
-from bsm.files.motion.folder import frame_range
 from bsm.files.output import default_output, no_link, output_inside, refuse_collisions, refuse_to_overwrite
 from bsm.files.parsing import PRECISION
 from bsm.files.partial import decode_blocks, decode_what_is_left
@@ -226,7 +225,7 @@ def _saved(
 
 def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) -> Facts:
     """Decode one sequence; write each frame as soon as it is decoded."""
-    from bsm.files.motion.folder import mesh_files, names_many  # modules that meshes do without
+    from bsm.files.motion.folder import frame_range, mesh_files, names_many  # modules that meshes do without
     from bsm.files.motion.frames import Shared, describe_runs
     from bsm.files.sequence import sequence_kind, sequence_writer
 

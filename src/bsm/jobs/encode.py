@@ -5,7 +5,7 @@ import math
 import os
 import time
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field, replace
 from itertools import count
@@ -17,6 +17,7 @@ from bsm.account.images import changed, compare_images
 from bsm.bitstream.errors import HarmError, OptionError, counted
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import Metadata
+from bsm.codec.progress import Stages
 from bsm.encoding.given import Recipe, Wishes, given_frames, given_mesh
 from bsm.encoding.simplification import Chosen
 from bsm.files.formats.metadata import images_in, kind_of_image
@@ -35,6 +36,7 @@ from bsm.jobs.task import Facts, Job, Task, came_to
 
 # Only for the bar: reading takes a few percent of encoding.
 READ = 0.08  # of the time of a mesh
+_SECONDS_A_VERTEX = 2.5e-6  # of processor time in each frame, as measured; that of reading is measured on the way
 # A GLB with animations is a mesh at rest unless something asks for its motion.
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
 """Options that only sequences have; with them a GLB is read as a sequence."""
@@ -279,11 +281,14 @@ def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: F
     if job.permutation and job.options.get("runs"):
         raise OptionError("--permutation is the order of one mesh; with --runs the faces change")
     given, numbers, size = given_frames(source, wishes), count(), 0
-    # Frames are counted as they pass, because some sources do not know their number.
-    given = replace(given, frames=(frame for frame, _ in zip(given.frames, numbers)))
     encoder, chosen = given.encoder, given.encoder.options
     with _written(job, console) as (file, progress):
-        for chunk in given.chunks(progress):
+        vertices = int(source.faces.max(initial=0)) + 1
+        stages = Stages(progress, {"reading": 0.0, "encoding": _SECONDS_A_VERTEX * vertices * source.count})
+        # Frames are counted as they pass, because some sources do not know their number.
+        clocked = _clocked(iter(given.frames), source.count, stages)
+        read = (frame for frame, _ in zip(clocked, numbers))
+        for chunk in replace(given, frames=read).chunks(stages.of("encoding")):
             size += file.write(chunk)
             # A reader may follow the file while it grows, as `bsm view --follow` does.
             file.flush()
@@ -318,6 +323,24 @@ def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: F
     facts |= {"max_error_relative": relative, **({"max_error": error, "unit": unit} if unit else {})}
     facts |= {"attribute_errors": attributes} if attributes else {}
     return _finish(job, console, notes, summary, seconds, facts)
+
+
+def _clocked(
+    frames: Iterator[Any], expected: int, stages: Stages, clock: Callable[[], float] = time.process_time
+) -> Iterator[Any]:
+    """Yield frames, and report how long it takes to read them."""
+    spent = 0.0
+    for number in count(1):
+        begin = clock()
+        frame = next(frames, None)
+        spent += clock() - begin
+        if frame is None:
+            return
+        # Some sources do not know how many frames they have.
+        if expected:
+            stages.expect("reading", spent / number * expected)
+            stages.report("reading", min(number / expected, 1.0))
+        yield frame
 
 
 @contextmanager
