@@ -41,6 +41,7 @@ from bsm.codec.static.ways.block_coder import as_of_decoders
 KEPT_MESHES = 8  # by decoders, of the meshes so far
 # Seconds of preparing, coding and verifying, as shares of all, measured on sequences of 200 to 960 frames.
 _SEARCHED = (0.2, 0.72, 0.08)  # with a promise
+_LATER = 1.5  # the power of the counted share of a search that gives the share of its time
 _CODED_ONCE = (0.25, 0.45, 0.3)  # with a step
 
 
@@ -461,8 +462,8 @@ class _Rounds:
         # There may be more rounds than were foreseen, since GOPs can be cut.
         rounds = max(self._rounds, self._done + 1)
         share = done / blocks
-        # A search counts attempts, each as a part of the rest. The time of a round grows as the square of that.
-        share = share**2 if self._searches else share
+        # A search counts attempts, each as a part of the rest, but later ones take longer.
+        share = share**_LATER if self._searches else share
         self._stages.report("preparing", 1.0)
         self._stages.report("coding", (self._done + share) / rounds)
         self._done += done == blocks

@@ -17,9 +17,11 @@ import pytest
 import bsm
 from bsm import Paper
 from bsm.cli import main
+from bsm.codec.progress import Stages
 from bsm.encoding import options
 from bsm.files.mesh import write_mesh
 from bsm.ground.console import Console, printable
+from bsm.jobs.encode import clocked
 from bsm.viewer.contents import Content, uploaded
 from tests.bsm.program import process
 from tools.noise import gaussian_along_normals
@@ -250,3 +252,50 @@ def test_programs_are_reported_in_lines_of_json(monkeypatch, capsys):
     with Console(quiet=True, json=True).progress("encoding") as progress:
         progress(3, 4)
     assert not capsys.readouterr().err
+
+
+def test_stages_count_by_the_seconds_that_they_are_expected_to_take():
+    heard = []
+    stages = Stages(lambda done, total: heard.append(done / total), {"reading": 1.0, "encoding": 3.0})
+    stages.report("reading", 0.5)
+    stages.report("reading", 1.0)
+    stages.of("encoding")(1, 3)
+    stages.expect("reading", 5.0)
+    stages.report("encoding", 0.2)  # a stage does not go back
+    stages.report("encoding", 1.0)
+    assert heard == [0.125, 0.25, 0.5, 0.75, 1.0]
+
+
+@pytest.mark.parametrize("seconds_a_frame", [0.001, 0.02, 0.5])
+def test_the_estimate_of_frames_that_are_read_and_encoded_is_near(seconds_a_frame):
+    """The clock is a list, and encoding takes three quarters of what was expected of it."""
+    frames, expected, really = 300, 4.0, 3.0
+    now = [0.0]
+    estimates = []
+
+    def read():
+        for number in range(frames):
+            now[0] += seconds_a_frame
+            yield number
+
+    total = frames * seconds_a_frame + really
+
+    def report(done, parts):
+        if now[0] >= 0.2 * total and done:
+            estimates.append(now[0] * parts / done)
+
+    stages = Stages(report, {"reading": 0.0, "encoding": expected})
+    for number in clocked(read(), frames, stages, lambda: now[0]):
+        # Groups of a hundred frames are encoded once they are read.
+        if number % 100 == 99:
+            for step in range(1, 11):
+                now[0] += really / 30
+                stages.report("encoding", (number // 100 + step / 10) / 3)
+    assert len(estimates) > 20
+    assert all(total / 1.5 < estimate < 1.5 * total for estimate in estimates)
+
+
+def test_frames_of_unknown_number_pass_without_an_estimate():
+    heard = []
+    stages = Stages(lambda *done: heard.append(done), {"reading": 0.0, "encoding": 0.0})
+    assert list(clocked(iter("abc"), 0, stages)) == ["a", "b", "c"] and heard == []

@@ -18,7 +18,7 @@ from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.targets import TRIES
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
-from bsm.codec.static.ways.in_cells import SPREADS, InCells
+from bsm.codec.static.ways.in_cells import MOST_STEPS, SPREADS, InCells
 
 BROADEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost decoders more time than their bytes are worth."""
@@ -28,6 +28,7 @@ UNFOLDED = 4  # rounds in which edges that fold over are mended
 SMOOTH, ROUGHER = 0.42, 0.25
 """Bytes of blocks with levels over those of a usual grid, where vertices are a step from the mean of their neighbors;
 and the power by which they grow with that."""
+TIME = 0.4  # what all steps of cells take, of the time that is left, as measured
 VAIN = 1.5  # times the bytes of another way, from which on a rough estimate is enough
 CODED = 0.72  # bytes by the sizes of levels, over those of the stream
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
@@ -42,16 +43,19 @@ class OnCells:
 
     def below(self, step: float) -> RefinementBase:
         """Return the blocks for levels of about a step."""
-        within, layer = self._measures.near.within(), Layer(single(step), RATIO)
+        layer = Layer(single(step), RATIO)
         many = step > 2.0 * SEEN * self._measures.shaper.mean_edge  # most levels are 0
         spreads = self._spreads if many else self._spreads[:1]
+        within, tried = self._measures.near.within(TIME), 0
         best: RefinementBase | None = None
         least = math.inf
         for spread in spreads:
             before = math.inf
             # One after another, and only the best is kept: each holds arrays as large as several meshes.
-            for base in spread.bases(step, within):
+            for base in spread.bases(step):
                 end_phase(len(base.positions))
+                tried += 1
+                within(tried, MOST_STEPS * len(spreads))
                 size = base.about(layer)
                 if size < least:
                     best, least = base, size

@@ -12,7 +12,6 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Matrix
 from bsm.codec.blocks.cells import CellMesh, Fit, cells_of, prolonged
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
-from bsm.codec.progress import Progress
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared
@@ -25,6 +24,7 @@ CHAIN = 4  # blocks that depend on each other: a lost one loses at most so many,
 RATIO = 3.0  # of the steps of cells along tangents, over those along normals
 FARTHEST, LEAST = 2.0**18, 1e-9  # steps that levels may be away, and bends of surfaces some more; and places may be
 APART = 2.83  # steps of cells that may be best, over the usual one, up and down: three powers of two
+MOST_STEPS = 3  # in this range
 
 
 @dataclass(frozen=True)
@@ -83,11 +83,11 @@ class InCells:
     def _fit(self) -> Fit:
         return Fit(self.cells, self._prepared.graph, self._prepared.positions, self._spread.rounds)
 
-    def bases(self, step: float, progress: Progress | None = None) -> Iterator[RefinementBase]:
+    def bases(self, step: float) -> Iterator[RefinementBase]:
         """The cells for levels at about a step, and their places prolonged, for all steps of cells, finest first."""
         coarse, cells = self._coarse, self._spread.levels * step
         rough = max(self._spread.coefficients * step, 1.01 * smallest_step(coarse.size))
-        blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5), progress)
+        blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5))
         farthest = float(np.abs(blocks.offsets).max(initial=0.0))
         finest, coarsest = (math.ceil(-math.log2(cells * apart)) for apart in (1.0 / APART, APART))
         for halvings in reversed(range(coarsest, finest)):

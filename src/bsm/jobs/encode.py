@@ -286,8 +286,7 @@ def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: F
         vertices = int(source.faces.max(initial=0)) + 1
         stages = Stages(progress, {"reading": 0.0, "encoding": _SECONDS_A_VERTEX * vertices * source.count})
         # Frames are counted as they pass, because some sources do not know their number.
-        clocked = _clocked(iter(given.frames), source.count, stages)
-        read = (frame for frame, _ in zip(clocked, numbers))
+        read = (frame for frame, _ in zip(clocked(iter(given.frames), source.count, stages), numbers))
         for chunk in replace(given, frames=read).chunks(stages.of("encoding")):
             size += file.write(chunk)
             # A reader may follow the file while it grows, as `bsm view --follow` does.
@@ -325,7 +324,7 @@ def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: F
     return _finish(job, console, notes, summary, seconds, facts)
 
 
-def _clocked(
+def clocked(
     frames: Iterator[Any], expected: int, stages: Stages, clock: Callable[[], float] = time.process_time
 ) -> Iterator[Any]:
     """Yield frames, and report how long it takes to read them."""
