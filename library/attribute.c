@@ -3,6 +3,9 @@
 
 #include "codec/geometry/geometry.h"
 
+enum { FARTHEST_EDGE = 1 << 24 };
+static const double LEAST_SQUARE = 0x1p-20; /* of a gradient beside the normal */
+
 bool take_values(Arena *arena, const Attribute *attribute, void **values) {
     return is_there(*values = find_zeros(arena, attribute->rows * attribute->declaration.components,
                         kind_size(attribute->declaration.kind)));
@@ -69,6 +72,88 @@ void unfold_direction(const int64_t *word, int64_t size, double *direction) {
     direction[2] = (double)w / length;
 }
 
+/* The gradient of u on a face, of length 1, and in which sense the face is turned on the texture; 0: it has none. */
+static int find_gradient(const TangentPlaces *all, int64_t f, double *gradient) {
+    const int32_t *row = all->faces.data + 3 * f, *corner = all->coordinates.data + 3 * f;
+    int64_t edge[2][3], side[2][2], across[3];
+    for (int k = 0; k < 2; k++) {
+        const int32_t *end = all->places.data + 3 * (int64_t)all->vertices[row[k + 1]];
+        const int32_t *start = all->places.data + 3 * (int64_t)all->vertices[row[0]];
+        for (int j = 0; j < 3; j++)
+            edge[k][j] = largest(least((int64_t)end[j] - start[j], FARTHEST_EDGE), -FARTHEST_EDGE);
+        for (int j = 0; j < 2; j++)
+            side[k][j] = (int64_t)all->words.data[2 * (int64_t)corner[k + 1] + j]
+                - all->words.data[2 * (int64_t)corner[0] + j];
+    }
+    int64_t turned = side[0][0] * side[1][1] - side[1][0] * side[0][1];
+    int sense = (turned > 0) - (turned < 0);
+    for (int j = 0; j < 3; j++) across[j] = sense * (edge[0][j] * side[1][1] - edge[1][j] * side[0][1]);
+    if (across[0] == 0 && across[1] == 0 && across[2] == 0) return 0;
+    for (int j = 0; j < 3; j++) gradient[j] = (double)across[j];
+    double length = __builtin_sqrt(dot3(gradient, gradient));
+    for (int j = 0; j < 3; j++) gradient[j] /= length;
+    return sense;
+}
+
+bool plan_tangents(Arena *arena, const TangentPlaces *places, TangentPlan *plan) {
+    if (!zero_doubles2(arena, places->rows, 3, &plan->gradients) || !zero_ints(arena, places->rows, &plan->turns)
+        || !take_ints(arena, places->rows, &plan->normals))
+        return false;
+    for (int64_t r = 0; r < places->rows; r++) plan->normals.data[r] = -1;
+    for (int64_t f = 0; f < places->faces.rows; f++) {
+        double gradient[3];
+        int sense = find_gradient(places, f, gradient);
+        for (int k = 0; k < 3; k++) {
+            int32_t row = places->faces.data[3 * f + k];
+            if (plan->normals.data[row] < 0) plan->normals.data[row] = places->normals.data[3 * f + k];
+            plan->turns.data[row] += sense;
+            for (int j = 0; j < 3 && sense != 0; j++) plan->gradients.data[3 * (int64_t)row + j] += gradient[j];
+        }
+    }
+    return true;
+}
+
+TangentAxes tangent_axes(const TangentPlan *plan, int64_t row, const double *normal) {
+    const double *gradient = plan->gradients.data + 3 * row, *n = normal;
+    TangentAxes axes = {.hand = plan->turns.data[row] >= 0 ? 1.0 : -1.0};
+    double height = dot3(gradient, n), *along = axes.along;
+    for (int j = 0; j < 3; j++) along[j] = gradient[j] - height * n[j];
+    double square = dot3(along, along);
+    if (square < LEAST_SQUARE) { /* any direction that is not the normal's */
+        int axis = 0;
+        for (int j = 1; j < 3; j++)
+            if (__builtin_fabs(n[j]) < __builtin_fabs(n[axis])) axis = j;
+        for (int j = 0; j < 3; j++) along[j] = (j == axis ? 1.0 : 0.0) - n[axis] * n[j];
+        square = dot3(along, along);
+    }
+    double length = __builtin_sqrt(square);
+    for (int j = 0; j < 3; j++) along[j] /= length;
+    for (int j = 0; j < 3; j++)
+        axes.aside[j] = n[(j + 1) % 3] * along[(j + 2) % 3] - n[(j + 2) % 3] * along[(j + 1) % 3];
+    return axes;
+}
+
+void turn_axes(const TangentAxes *axes, const int64_t *word, int64_t size, double *tangent) {
+    int64_t turn = word[0] - 2 * size, far = turn < 0 ? -turn : turn, across = least(far, 2 * size - far);
+    double ahead = (double)(size - far), aside = (double)(turn < 0 ? -across : across);
+    for (int j = 0; j < 3; j++) tangent[j] = ahead * axes->along[j] + aside * axes->aside[j];
+    double length = __builtin_sqrt(dot3(tangent, tangent));
+    for (int j = 0; j < 3; j++) tangent[j] /= length;
+    tangent[3] = word[1] > 0 ? -axes->hand : axes->hand;
+}
+
+static void restore_tangent(const Attribute *attribute, const int64_t *word, int64_t row) {
+    const Declaration *d = &attribute->declaration;
+    int32_t of_normal = attribute->tangents.normals.data[row];
+    double normal[3] = {0.0, 0.0, 1.0}, tangent[4];
+    for (int j = 0; j < 3 && of_normal >= 0; j++)
+        normal[j] = load_number(attribute->normals->values, 3 * (int64_t)of_normal + j,
+            attribute->normals->declaration.kind);
+    TangentAxes axes = tangent_axes(&attribute->tangents, row, normal);
+    turn_axes(&axes, word, d->largest[0] / 4, tangent);
+    for (int j = 0; j < 4; j++) store_number(attribute->values, 4 * row + j, d->kind, tangent[j]);
+}
+
 /* The number of the bits that ascend with it, one or two words (D 4.3). */
 static double number_of_bits(const int64_t *word, const double *offset, bool is_double) {
     uint64_t bits = 0, top = UINT64_C(1) << (is_double ? 63 : 31);
@@ -116,7 +201,9 @@ bool restore_values(Context *context, Attribute *attribute, int64_t first, int64
             if (d->largest[w] > MOST_WHOLE) word[w] = word[w] << PIECE_BITS | piece[at++];
             if (word[w] > d->largest[w]) return FAIL(context, CORRUPT, "a level is above #", d->largest[w]);
         }
-        restore(d, word, row, attribute->values);
+        for (int w = 0; w < 2 && attribute->words.rows > 0; w++) attribute->words.data[2 * row + w] = (int32_t)word[w];
+        if (d->coding == TANGENTS) restore_tangent(attribute, word, row);
+        else restore(d, word, row, attribute->values);
     }
     return true;
 }

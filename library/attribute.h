@@ -24,7 +24,14 @@ typedef struct {
     int columns;
 } Group;
 
+/* What tangents are turned from (A 9.9): for each row the sum of the gradients around it, how many more of its faces
+ * are turned like their texture than against it, and the row of its normal, -1 for none. */
 typedef struct {
+    Doubles2 gradients;
+    Ints turns, normals;
+} TangentPlan;
+
+typedef struct Attribute {
     Declaration declaration;
     const Joins *joins;    /* of corners, NULL for others */
     bool own_joins, whole;
@@ -33,6 +40,10 @@ typedef struct {
     Ints vertices;         /* the vertex of each row, -1 for loose ones; none for faces */
     void *values;          /* rows times components, of the kind */
     void *moved;           /* the same in the frame reported last, if it moves; NULL: in the first one */
+    bool is_base;          /* of tangents, with its words */
+    Ints2 words;           /* of a base of tangents that is on a texture */
+    TangentPlan tangents;
+    const struct Attribute *normals; /* of tangents */
     double coding;         /* bytes that are kept while values come */
     int64_t coded;
     bool begun;
@@ -48,6 +59,22 @@ bool recompute(Attribute *attribute, ConstDoubles2 positions, Arena *scratch);
 /* First values less those of vertex 0; the values of a frame, given its change from the first (S 10). */
 void relative_values(const Attribute *attribute, Doubles2 beyond);
 bool move_values(Context *context, Attribute *attribute, ConstDoubles2 change, void *moved);
+
+/* Where tangents are: the rows of each corner, the vertex of each row, and the place of each vertex on a grid. */
+typedef struct {
+    ConstInts2 faces, normals, coordinates; /* the rows of corners: of tangents, of their normals, on their texture */
+    const int32_t *vertices;
+    ConstInts2 places, words; /* words: of coordinates */
+    int64_t rows;
+} TangentPlaces;
+MUST_CHECK bool plan_tangents(Arena *arena, const TangentPlaces *places, TangentPlan *plan);
+/* Directions at right angles to a normal and to each other, the first along the texture; and 1 or -1 for the hand. */
+typedef struct {
+    double along[3], aside[3], hand;
+} TangentAxes;
+TangentAxes tangent_axes(const TangentPlan *plan, int64_t row, const double *normal);
+/* The tangent of words, on a diamond of a size (A 9.10). */
+void turn_axes(const TangentAxes *axes, const int64_t *word, int64_t size, double *tangent);
 
 /* Values of rows from their pieces (D 3.2, D 4). */
 /* Store the value of a row of levels. */

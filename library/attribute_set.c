@@ -79,6 +79,17 @@ static bool find_joins(Attributes *attributes, int64_t index, Attribute *attribu
     return true;
 }
 
+static bool find_bases(const Attributes *attributes, Attribute *tangents) {
+    const Declaration *d = &tangents->declaration;
+    Attribute *coordinates = attributes->list[d->bases[1] - 1];
+    tangents->normals = attributes->list[d->bases[0] - 1];
+    if (tangents->normals == NULL || coordinates == NULL)
+        return FAIL(attributes->context, CORRUPT, "the normals or texture coordinates of '$' are missing",
+            .name = d->name);
+    coordinates->is_base = true;
+    return true;
+}
+
 bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams,
     Arena *scratch) {
     Context *context = attributes->context;
@@ -91,6 +102,7 @@ bool declare_attribute(Attributes *attributes, int64_t index, const Declaration 
     attribute->declaration = *declaration;
     if (!find_joins(attributes, index, attribute, seams, scratch)) return false;
     attributes->numbers = numbers;
+    if (declaration->coding == TANGENTS && !find_bases(attributes, attribute)) return false;
     attributes->list[index] = attribute;
     attributes->count++;
     return true;
@@ -152,11 +164,13 @@ bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scr
         attribute->rows = expected_rows(attributes, attribute, numbering);
         double rows = (double)attribute->rows;
         double numbers = 2.0 * (double)kind_size(d->kind) * d->components, own = attribute->joins ? 12 * m : 0;
+        if (attribute->is_base) numbers += 8;
         bool done = reserve(context, (numbers + 12) * rows + own, 0)
             && (d->coding != RECOMPUTED || fits_memory(context, 200 * m + 100 * rows))
             && charge(context, ATTRIBUTE_WORK + 150 * rows + 60 * m, 0)
             && lay_out(attributes, attribute, numbering, scratch);
-        done = done && take_values(attributes->arena, attribute, &attribute->values);
+        done = done && take_values(attributes->arena, attribute, &attribute->values)
+            && (!attribute->is_base || take_ints2(attributes->arena, attribute->rows, 2, &attribute->words));
         release_to(scratch, mark);
         if (!done) return false;
     }
@@ -292,7 +306,7 @@ static bool begin_group(Attributes *attributes, Attribute *attribute, Group *gro
 /* Where rows are, in whole numbers (D 5); nothing if values do not lean on that. */
 static bool find_geometry(Attributes *attributes, const Attribute *attribute, ConstInts2 places, ConstInts2 *geometry) {
     *geometry = (ConstInts2){NULL, 0, 3};
-    if (!attribute->declaration.leans) return true;
+    if (!attribute->declaration.leans || attribute->declaration.coding == TANGENTS) return true;
     if (places.rows == 0)
         return FAIL(attributes->context, CORRUPT, "positions are missing that attributes are predicted from");
     Ints2 found;
@@ -332,6 +346,17 @@ bool start_attribute(Attributes *attributes, Attribute *attribute, ConstInts2 pl
     return true;
 }
 
+/* What tangents are turned from, once that is complete (A 9.8). */
+static bool begin_tangents(Attributes *attributes, Attribute *attribute, ConstInts2 places) {
+    const Declaration *d = &attribute->declaration;
+    const Attribute *normals = attribute->normals, *coordinates = attributes->list[d->bases[1] - 1];
+    if (places.rows == 0 || !normals->whole || !coordinates->whole)
+        return FAIL(attributes->context, CORRUPT, "positions, normals or texture coordinates of tangents are missing");
+    TangentPlaces all = {attribute->faces, normals->faces, coordinates->faces, attribute->vertices.data, places,
+        const_ints2(coordinates->words), attribute->rows};
+    return plan_tangents(&attributes->coding, &all, &attribute->tangents);
+}
+
 bool code_group(Context *context, const Attribute *attribute, Group *group, Span payload, int64_t first,
     int64_t count) {
     Coding coding;
@@ -367,7 +392,10 @@ static bool decode_chunk(Attributes *attributes, Attribute *attribute, const Pac
     Context *context = attributes->context;
     double bytes = (double)packet->data.size;
     if (attribute->whole) return FAIL(context, CORRUPT, "its values are complete already");
-    if (!attribute->begun && !start_attribute(attributes, attribute, places, scratch)) return false;
+    if (!attribute->begun) {
+        if (!start_attribute(attributes, attribute, places, scratch)) return false;
+        if (attribute->declaration.coding == TANGENTS && !begin_tangents(attributes, attribute, places)) return false;
+    }
     double rows = (double)attribute->rows;
     bool swift = is_swift(attributes, &attribute->declaration);
     double work = swift ? swift_chunk_work(bytes, rows) : chunk_work(bytes, rows);

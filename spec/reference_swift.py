@@ -1,7 +1,8 @@
 """The extension `swift` in plain Python: rows of values that are quick to decode, beside reference_integers.py.
 
-It decodes payloads of VALUES (A 9), given the faces of the rows; declarations and seams it leaves to others. The rules
-stand beside what follows them (extension-swift.md, and of extension-attributes.md A 2.3, A 5 and A 6).
+It decodes payloads of VALUES (A 9), given the faces of the rows, and tangents from their words; declarations and seams
+it leaves to others. The rules stand beside what follows them (extension-swift.md, and of extension-attributes.md A 2.3,
+A 5 and A 6).
 """
 
 import math
@@ -247,3 +248,56 @@ class Rows:  # A 9: of one group of components
 
 def few(x):  # A 9.5: f
     return min(size_class(abs(x) >> 3), 7)
+
+
+def plus(p, q):
+    return [a + b for a, b in zip(p, q)]
+
+
+def of_length_1(x):
+    length = math.sqrt(dot(x, x))
+    return [each / length for each in x]
+
+
+def tangents(faces, bases, at, coordinates, normals, largest, words):
+    """The values of tangents (A 9.9, A 9.10), of rows with the faces `faces`.
+
+    `bases` are the faces of the rows of normals and of texture coordinates, `at` is the place of each tangent's row on
+    the grid, `coordinates` are words and `normals` values, `largest` is the greatest first word.
+    """
+    turned, gradients = [0] * len(words), [[0.0, 0.0, 0.0] for _ in words]
+    of_normals = [[0.0, 0.0, 1.0] for _ in words]
+    seen = set()
+    for rows, of_normal, of_coordinates in zip(faces, *bases):
+        h, gradient = gradient_of([at[row] for row in rows], [coordinates[row] for row in of_coordinates])
+        for row, normal in zip(rows, of_normal):
+            if row not in seen:
+                seen.add(row)
+                of_normals[row] = normals[normal]
+            turned[row] += h
+            gradients[row] = plus(gradients[row], gradient)
+    k = largest // 4
+    return [tangent(k, *row) for row in zip(gradients, [1.0 if h >= 0 else -1.0 for h in turned], of_normals, words)]
+
+
+def gradient_of(at, words):  # A 9.9: H, and G over its length
+    b, c = ([clamp(x, -(1 << 24), 1 << 24) for x in less(at[k], at[0])] for k in (1, 2))
+    (u_b, v_b), (u_c, v_c) = less(words[1], words[0]), less(words[2], words[0])
+    h = sign(u_b * v_c - u_c * v_b)
+    gradient = [float(h * (v_c * p - v_b * q)) for p, q in zip(b, c)]
+    if not any(gradient):
+        return 0, [0.0, 0.0, 0.0]
+    return h, of_length_1(gradient)
+
+
+def tangent(k, s, hand, n, word):
+    height = dot(s, n)
+    x = [each - height * across for each, across in zip(s, n)]
+    if dot(x, x) < 2.0**-20:
+        i = min(range(3), key=lambda j: (abs(n[j]), j))
+        x = [float(j == i) - n[i] * n[j] for j in range(3)]
+    g = of_length_1(x)
+    b = cross(n, g)
+    t = word[0] - 2 * k
+    p, q = k - abs(t), sign(t) * min(abs(t), 2 * k - abs(t))
+    return [*of_length_1([p * along + q * aside for along, aside in zip(g, b)]), -hand if word[1] else hand]

@@ -93,7 +93,7 @@ BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
 # The kernels of `bitstream`, writers that it calls, and the words of the public header: statuses, limits, memory.
 OF_BYTES = ("bsm._core.bitstream", "bsm._core.GivenMesh", "library.bsmdec")
 # What encoders call of the library.
-OF_ENCODERS = ("Chain", "Cut", "Field", "GivenMesh", "Track", "gop_memory", "rounded")
+OF_ENCODERS = ("Chain", "Cut", "Field", "GivenMesh", "Track", "gop_memory", "rounded", "turned_tangents")
 CODEC_LIBRARIES = {"numpy": "bsm.codec", "scipy": "bsm.codec.denoise", "pymetis": "bsm.codec.blocks.overlap"}
 
 

@@ -149,7 +149,7 @@ INLINE int64_t chain_length(const Header *header) {
     return header->key_interval > 0 ? header->key_interval : header->blocks;
 }
 
-enum { LEVELS, OCTAHEDRAL, BITS, RECOMPUTED };
+enum { LEVELS, OCTAHEDRAL, BITS, RECOMPUTED, UNKNOWN_CODING, TANGENTS }; /* 4 stays unknown, as vectors have it */
 enum { MOST_ATTRIBUTES = 256, MOST_WORDS = 8 };
 
 /* By the kind of numbers: the least of integers; what a fraction of 1 is, the largest of integers. */
@@ -161,6 +161,7 @@ typedef struct {
     char name[MOST_NAME + 1];
     int name_size, domain, origin, semantic, kind, components, coding, words;
     int64_t rows, seams_of;
+    int64_t bases[2]; /* of tangents: 1 more than the attributes that are their normals and texture coordinates */
     uint32_t largest[MOST_WORDS];
     double offset[MOST_WORDS], step[MOST_WORDS]; /* one of each for every word */
     bool leans, moves;

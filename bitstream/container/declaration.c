@@ -3,7 +3,7 @@
 
 enum {
     NAME = 1, DOMAIN_KEY, ORIGIN, SEMANTIC, KIND, COMPONENTS, CODING, ROWS, LARGEST, OFFSET, STEP, LEANS, MOVES,
-    SEAMS_OF = 15,
+    SEAMS_OF = 15, BASES_KEY,
 };
 
 static const Field FIELDS[] = {
@@ -13,7 +13,7 @@ static const Field FIELDS[] = {
     {.key = SEMANTIC, .type = METHOD_FIELD, .high = 3},
     {.key = KIND, .type = METHOD_FIELD, .high = 7, .fallback = BSMDEC_FLOAT32},
     {.key = COMPONENTS, .type = INT_FIELD, .low = 1, .high = 4, .fallback = 1},
-    {.key = CODING, .type = METHOD_FIELD, .high = 3},
+    {.key = CODING, .type = METHOD_FIELD, .high = TANGENTS},
     {.key = ROWS, .type = INT_FIELD, .high = 2147483647.0},
     {.key = LARGEST, .type = INTS_FIELD, .high = UINT32_MAX, .most = MOST_WORDS},
     {.key = OFFSET, .type = FLOATS_FIELD, .low = -1e300, .high = 1e300, .most = MOST_WORDS},
@@ -21,12 +21,13 @@ static const Field FIELDS[] = {
     {.key = LEANS, .type = METHOD_FIELD, .high = 1},
     {.key = MOVES, .type = METHOD_FIELD, .high = 1},
     {.key = SEAMS_OF, .type = INT_FIELD, .high = 65535},
+    {.key = BASES_KEY, .type = INTS_FIELD, .low = 1, .high = 65535, .most = 2},
 };
 INSIDE const Fields DECLARATION_FIELDS = {FIELDS, sizeof FIELDS / sizeof *FIELDS};
 enum { MOST_DECLARATION = 1 << 16 };
 
 static int words_of(const Declaration *d) {
-    if (d->coding == OCTAHEDRAL) return 2;
+    if (d->coding == OCTAHEDRAL || d->coding == TANGENTS) return 2;
     if (d->coding == RECOMPUTED) return 0;
     return d->coding == BITS && d->kind == BSMDEC_FLOAT64 ? 2 * d->components : d->components;
 }
@@ -40,6 +41,7 @@ static void set_declaration(const Record *record, Declaration *d) {
         .moves = number[MOVES][0] > 0, .seams_of = (int64_t)number[SEAMS_OF][0],
     };
     memcpy(d->name, record->text.data, (size_t)record->text.size);
+    for (int i = 0; i < record->count[BASES_KEY]; i++) d->bases[i] = (int64_t)number[BASES_KEY][i];
     d->words = words_of(d);
     for (int i = 0; i < d->words; i++) {
         d->largest[i] = (uint32_t)number[LARGEST][i];
@@ -63,6 +65,8 @@ Record declaration_record(const Declaration *d) {
         .text = {(const uint8_t *)d->name, d->name_size},
     };
     for (int key = NAME; key <= SEAMS_OF; key++) record.count[key] = 1;
+    record.count[BASES_KEY] = d->coding == TANGENTS ? 2 : 0;
+    for (int i = 0; i < 2; i++) record.number[BASES_KEY][i] = (double)d->bases[i];
     record.count[LARGEST] = d->words;
     record.count[OFFSET] = count_unless(d->offset, d->words, 0.0);
     record.count[STEP] = count_unless(d->step, d->words, 1.0);
@@ -76,6 +80,14 @@ Record declaration_record(const Declaration *d) {
 }
 #endif
 
+/* A 9.8, but for what the header and other attributes have to do with it. */
+static bool are_tangents(const Record *record, const Declaration *d) {
+    uint32_t turns = d->largest[0];
+    return d->components == 4 && d->kind >= BSMDEC_FLOAT32 && d->leans && !d->moves
+        && record->count[OFFSET] + record->count[STEP] == 0 && record->count[BASES_KEY] == 2 && turns >= 4
+        && turns <= 4 * 65535 && turns % 4 == 0 && d->largest[1] <= 1;
+}
+
 /* D 1.4. */
 static bool agrees_with_itself(const Record *record, const Declaration *d) {
     const int *count = record->count;
@@ -86,6 +98,8 @@ static bool agrees_with_itself(const Record *record, const Declaration *d) {
     if (turned && (!unit || count[OFFSET] + count[STEP] > 0)) return false;
     if (d->coding == RECOMPUTED && (d->domain == BSMDEC_FACE || d->rows > 0 || d->leans)) return false;
     if (d->coding != RECOMPUTED && d->rows == 0) return false;
+    if (d->coding == TANGENTS && !are_tangents(record, d)) return false;
+    if (d->coding != TANGENTS && count[BASES_KEY] > 0) return false;
     if (d->coding == BITS && (d->kind < BSMDEC_FLOAT32 || count[STEP] > 0)) return false;
     if (count[LARGEST] != d->words || (count[OFFSET] != 0 && count[OFFSET] != d->words)) return false;
     if (count[STEP] > 1 && count[STEP] != d->words) return false;
@@ -121,6 +135,8 @@ bool parse_declaration(Context *context, Span payload, Arena *scratch, Declarati
         return FAIL(context, CORRUPT, "a declaration of # bytes is too long", payload.size);
     if (!parse_record(context, payload, DECLARATION_FIELDS, scratch, &record)) return false;
     set_declaration(&record, declaration);
+    if (declaration->coding == UNKNOWN_CODING)
+        return FAIL(context, UNSUPPORTED, "coding # is unknown to this decoder", declaration->coding);
     if (agrees_with_itself(&record, declaration) && in_kind(declaration)) return true;
     return FAIL(context, CORRUPT, "an attribute contradicts itself, or has values that are not of its kind");
 }

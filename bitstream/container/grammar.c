@@ -95,6 +95,22 @@ static bool check_run(Context *context, const Grammar *grammar, const Header *he
     return grammar->lossy || check_values_before(context, grammar, MOST_ATTRIBUTES);
 }
 
+/* Whether an attribute can be a base of tangents: their normals, or their texture coordinates (A 9.8). */
+static bool is_base(const Declaration *d, bool normals) {
+    if (d == NULL || d->domain == BSMDEC_FACE) return false;
+    if (normals) return d->coding == OCTAHEDRAL;
+    return d->coding == LEVELS && d->words == 2 && d->largest[0] < 1 << 20 && d->largest[1] < 1 << 20;
+}
+
+static bool check_tangents(Context *context, const Grammar *grammar, const Declaration *d) {
+    if (grammar->header->swift == 0 || grammar->header->gop_frames > 0)
+        return FAIL(context, CORRUPT, "tangents where the header does not allow them");
+    for (int i = 0; i < 2; i++)
+        if (d->bases[i] > MOST_ATTRIBUTES || !is_base(grammar->declared[d->bases[i] - 1], i == 0))
+            return FAIL(context, CORRUPT, "tangents of attribute #, which cannot be their base", d->bases[i] - 1);
+    return true;
+}
+
 static bool check_attribute(Context *context, const Grammar *grammar, const Packet *packet) {
     const Declaration *d = packet->declaration;
     int64_t index = packet->index;
@@ -115,6 +131,7 @@ static bool check_attribute(Context *context, const Grammar *grammar, const Pack
     }
     if (d->leans && !grammar->header->on_grid)
         return FAIL(context, CORRUPT, "an attribute is predicted from positions that are on no grid");
+    if (d->coding == TANGENTS && !check_tangents(context, grammar, d)) return false;
     if (d->moves && grammar->header->gop_frames == 0)
         return FAIL(context, CORRUPT, "an attribute of one mesh that moves");
     if (grammar->header->gop_frames > 0 && d->coding == RECOMPUTED)

@@ -210,7 +210,8 @@ def entries_of(record: Any) -> list[tuple[int, Any]]:
 VERTEX, CORNER, FACE = range(3)  # what has a value in the stream
 AS_CODED, OTHERWISE = range(2)
 """Whether it is given back so; or coded by vertices and given by corners, or the other way round."""
-LEVELS, OCTAHEDRAL, BITS, RECOMPUTED = range(4)  # codings; see A 5
+LEVELS, OCTAHEDRAL, BITS, RECOMPUTED = range(4)  # codings; see D 4
+TANGENTS = 5  # see A 9.8
 GENERIC, COLOR, NORMAL, TEXCOORD = range(4)
 
 
@@ -224,7 +225,7 @@ class Declaration:
     semantic: int = _DECLARATION[4]  # GENERIC, COLOR, NORMAL or TEXCOORD
     kind: int = _DECLARATION[5]  # uint8, int8, uint16, int16, uint32, int32, float32 or float64
     components: int = _DECLARATION[6]
-    coding: int = _DECLARATION[7]  # LEVELS, OCTAHEDRAL, BITS or RECOMPUTED
+    coding: int = _DECLARATION[7]  # LEVELS, OCTAHEDRAL, BITS, RECOMPUTED or TANGENTS
     rows: int = _DECLARATION[8]  # how many values are coded
     largest: tuple[int, ...] = _DECLARATION[9]
     """Largest level of each coded number."""
@@ -237,3 +238,5 @@ class Declaration:
     """1: the values are those of the first frame of a sequence, and each GOP tells how they change."""
     seams_of: int = _DECLARATION[15]
     """0: the seams follow; otherwise they are those of attribute `seams_of` - 1."""
+    bases: tuple[int, ...] = _DECLARATION[16]
+    """Of tangents: 1 more than the numbers of the attributes that are their normals and their texture coordinates."""

@@ -20,6 +20,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference, decibel
 from bsm.codec.progress import Nearing, Progress
 from bsm.codec.signal.transform import smallest_step
+from bsm.codec.static.attributes.encoding import with_turns
 from bsm.codec.static.choice.attributes import Sent, smallest
 from bsm.codec.static.choice.bounds import LEAST
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
@@ -113,6 +114,7 @@ class Encoder:
         self.binding = ""
         self.unseen = ""
         self._kept_exactly = False
+        self._attribute_notes: tuple[str, ...] = ()
         promise, unit = self.options.promise, mesh.metadata.get("unit")
         size = mesh.without_isolated_vertices()[0].diagonal
         self._doubt = "" if promise is None else promise.doubt(size, unit if isinstance(unit, str) else "")
@@ -129,7 +131,8 @@ class Encoder:
         exact = [KEPT_EXACTLY] if self._kept_exactly else []
         one = [ONE_BLOCK] if self.options.paper.bits is not None and self._input.prepared.blocks.count == 1 else []
         left = [attribute.name for attribute in self._input.given.attributes if attribute.name not in sent]
-        notes = (*(p.note for p in self._input.carried), *([f"left out: {', '.join(left)}"] if left else []))
+        carried = self._attribute_notes or tuple(attribute.note for attribute in self._input.carried)
+        notes = (*carried, *([f"left out: {', '.join(left)}"] if left else []))
         return (*self._input.joined.notes, *notes, *one, *exact, *self.losses[len(self._input.joined.losses) :])
 
     @property
@@ -335,7 +338,9 @@ class Encoder:
         end_phase(draft.header.vertices)
         with as_of_decoders(self.options.limits):
             limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
-            self.decoded = verify(draft, original, self._input.carried, self._input.given.metadata, limits, threads)
+            carried = with_turns(self._input.carried, draft.places)
+            self._attribute_notes = tuple(attribute.note for attribute in carried)
+            self.decoded = verify(draft, original, carried, self._input.given.metadata, limits, threads)
         require(not broken, f"{contract} was promised, and the decoded mesh has {broken}")
         self._kept_exactly = contract is not None and draft.header.light == EXACT
         near.to(1.0)

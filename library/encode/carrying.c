@@ -116,6 +116,12 @@ static bool carry(PayloadWriter *writer, const CodedMesh *coded, const bsmenc_at
         return false;
     for (int64_t i = 0; i < carried->rows.size; i++)
         carried->rows.data[i] = row.data[given_row(coded, a, i / width, (int)(i % width))];
+    Table table = {values, used, d->components, d->kind};
+    if (width == 3 && may_turn(&table, d->semantic, a->quality, a->amount)) {
+        carried->turn_bits = (int)a->amount;
+        if (!take_doubles2(arena, used, 4, &carried->tangents)) return false;
+        for (int64_t i = 0; i < 4 * used; i++) carried->tangents.data[i] = load_number(values, i, d->kind);
+    }
     int64_t most = 3 * coded->faces.rows + coded->given->vertices;
     if (!take_ints(scratch, most, &chosen)) return false;
     count = coded->faces.rows;

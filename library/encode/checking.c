@@ -244,6 +244,7 @@ static bool is_near(const bsmenc_attribute *a, const Quantized *q, int64_t row, 
     }
     if (q->outcome.bits == 0) return true;
     double unit[3];
+    if (q->declaration.coding == TANGENTS && own[3] != back[3]) return false;
     if (direction_of(own, unit) == 0.0) return back[0] == 0.0 && back[1] == 0.0 && back[2] == 0.0;
     return degrees_between(back, unit) <= q->outcome.error + 1e-6;
 }

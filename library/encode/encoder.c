@@ -201,6 +201,9 @@ static bool code_attribute(Encoder *encoder, int index, Chunks *chunks) {
     chunks->bytes = leaning.bytes;
     int64_t count = (d->rows + VALUES_CHUNK - 1) / VALUES_CHUNK;
     if (d->coding == RECOMPUTED) return true;
+    if (encoder->coded.swift > 0
+        && !turn_carried(writer, &encoder->coded, encoder->rounded.places.data, index, encoder->carried))
+        return false;
     if (!take_longs(&writer->arena, count, &chunks->ends) || !take_longs(&writer->arena, count, &leaning.ends)
         || !code_carried(writer, &encoder->coded, carried, NULL, &chunks->bytes, chunks->ends))
         return false;

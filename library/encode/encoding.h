@@ -166,6 +166,8 @@ typedef struct {
     int64_t joins;         /* the number of the attribute with its seams, -1: none */
     Ints2 faces;           /* the coded row of each corner */
     Ints vertices;         /* of each coded row, -1 for one of a loose vertex */
+    Doubles2 tangents;     /* values of the rows that are used, if they may be tangents */
+    int turn_bits;
 } Carried;
 
 /* Carry attribute `index`; those before it are carried. */
@@ -182,6 +184,22 @@ bool code_carried(PayloadWriter *writer, const CodedMesh *coded, const Carried *
     Buffer *payloads, Longs ends);
 /* The numbers that are coded of levels: large ones are in two pieces. */
 bool take_pieces(Arena *arena, const Carried *carried, Ints2 *pieces);
+/* Whether values have the form of tangents: a direction, and 1 or -1 for the hand. */
+bool may_turn(const Table *table, int semantic, bsmenc_quality quality, double amount);
+/* Tangents of the rows of corners, with the decoded normals of theirs, and the size of the diamond of their turns. */
+typedef struct {
+    TangentPlaces places;
+    const double *normals, *tangents;
+    const int32_t *rows;
+    int64_t size;
+} GivenTangents;
+/* The words of tangents, their decoded values, and the largest error in degrees. */
+bool turn_tangents(Arena *scratch, const GivenTangents *given, Longs2 words, double *values, double *error);
+bool is_turn_near(double error, int64_t size);
+/* Declare words of tangents that are turned from the numbered attributes. */
+void declare_turns(Declaration *d, int normals, int coordinates, int64_t size, const Longs2 *words);
+/* Make turns of a carried attribute, should it be tangents that are near enough then; `at`: vertices on a grid. */
+bool turn_carried(PayloadWriter *writer, const CodedMesh *coded, const int32_t *at, int index, Carried *all);
 /* Whether values are predicted from positions, should these be on a grid. */
 bool can_lean(const Declaration *declaration);
 

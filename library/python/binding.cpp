@@ -398,11 +398,15 @@ class OrderedMesh : public Shared, Output {
         Made<void> decoded = made_of<void>(whole.rows, (int64_t)values.shape(1), KINDS[kind]);
         carried_values(encoding, decoded.data);
         const bsmenc_outcome &outcome = whole.outcome;
+        auto tangents = whole.tangents.rows == 0 ? std::nullopt
+                                                 : std::optional(std::make_tuple(
+                                                     copy_of(whole.tangents.data, whole.tangents.rows, 4),
+                                                     copied(whole.tangent_rows)));
         return std::make_tuple(numbers_by_key((const Encoding *)encoding, carried_field),
             nb::bytes(seams.data, (size_t)seams.size), copy_of(whole.pieces, whole.rows, whole.columns), decoded,
             whole.faces == nullptr ? std::nullopt : std::optional(copy_of(whole.faces, coded, 3)),
             copy_of(whole.vertices, whole.vertices_count), whole.leans,
-            std::make_tuple(outcome.error, outcome.step, outcome.bits, outcome.zeros, outcome.scaled != 0));
+            std::make_tuple(outcome.error, outcome.step, outcome.bits, outcome.zeros, outcome.scaled != 0), tangents);
     }
 
   private:
@@ -410,6 +414,25 @@ class OrderedMesh : public Shared, Output {
     ConstInts places;
     int64_t coded = 0;
 };
+
+// Tangents as turns: words, decoded values and the largest error in degrees; nothing if that is too large.
+auto turned_tangents(ConstInts2 faces, ConstInts2 normal_faces, ConstInts2 coordinate_faces, ConstInts2 places,
+    ConstInts2 coordinates, ConstInts vertices, ConstInts rows, ConstDoubles2 normals, ConstDoubles2 tangents,
+    int64_t size) -> std::optional<std::tuple<Made<int32_t>, Made<double>, double>> {
+    if (faces.columns != 3 || normal_faces.columns != 3 || coordinate_faces.columns != 3 || places.columns != 3
+        || coordinates.columns != 2 || normals.columns != 3 || tangents.columns != 4)
+        throw nb::value_error("arrays of tangents have other columns");
+    Output output;
+    Made<int32_t> words = made_of<int32_t>(vertices.size, 2);
+    Made<double> values = made_of<double>(vertices.size, 4);
+    TangentArrays all = {faces, normal_faces, coordinate_faces, places, coordinates, vertices, rows, normals, tangents,
+        size};
+    double error = 0.0;
+    bool near = false;
+    output.run([&] { return encode_turns(output.encoding, &all, words.data, values.data, &error, &near); });
+    if (!near) return std::nullopt;
+    return std::make_tuple(words, values, error);
+}
 
 // Positions on a grid: its origin, step and largest places, and the places.
 auto places_on_grid(Rows<double, 3> positions, int bits, double cell, Row<double> origin) {
@@ -686,6 +709,8 @@ NB_MODULE(_core, m) {
     bind_codec(codec);
     bind_bsm(m);
     m.def("rounded", places_on_grid, "positions"_a, "bits"_a, "cell"_a, "origin"_a);
+    m.def("turned_tangents", turned_tangents, "faces"_a, "normal_faces"_a, "coordinate_faces"_a, "places"_a,
+        "coordinates"_a, "vertices"_a, "rows"_a, "normals"_a, "tangents"_a, "size"_a);
     nb::class_<OrderedMesh>(m, "GivenMesh")
         .def(nb::init<ConstInts2, ConstInts>(), "faces"_a, "places"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
         .def("join", in_turn(&OrderedMesh::join), "keep"_a, "keeps"_a)

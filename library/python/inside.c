@@ -172,8 +172,30 @@ bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool firs
     encoding->declared = declaration_record(d);
     *whole = (CarriedOutcome){carried->quantized.outcome, pieces.data,
         d->domain == BSMDEC_CORNER ? carried->faces.data : NULL, carried->vertices.data, d->rows, pieces.columns,
-        carried->vertices.size, d->words > 0 && can_lean(d)};
+        carried->vertices.size, d->words > 0 && can_lean(d), const_doubles2(carried->tangents),
+        const_ints(carried->rows)};
     return true;
+}
+
+bool encode_turns(Encoding *encoding, const TangentArrays *a, int32_t *words, double *values, double *error,
+    bool *near) {
+    PayloadWriter *writer = &encoding->writer;
+    int64_t m = a->faces.rows, rows = a->vertices.size, n = a->places.rows;
+    GivenTangents given = {{a->faces, a->normal_faces, a->coordinate_faces, a->vertices.data, a->places,
+                               a->coordinates, rows},
+        a->normals.data, a->tangents.data, a->rows.data, a->size};
+    Longs2 turns;
+    if (a->normal_faces.rows != m || a->coordinate_faces.rows != m || a->rows.size != 3 * m || a->size < 1
+        || !are_below(a->faces.data, 3 * m, 0, rows) || !are_below(a->normal_faces.data, 3 * m, 0, a->normals.rows)
+        || !are_below(a->coordinate_faces.data, 3 * m, 0, a->coordinates.rows)
+        || !are_below(a->vertices.data, rows, 0, n) || !are_below(a->rows.data, 3 * m, 0, a->tangents.rows))
+        return FAIL(&writer->context, MISUSED, "tangents, normals and texture coordinates do not fit together");
+    bool done = take_longs2(&writer->scratch, rows, 2, &turns)
+        && turn_tangents(&writer->scratch, &given, turns, values, error);
+    for (int64_t i = 0; done && i < 2 * rows; i++) words[i] = (int32_t)turns.data[i];
+    *near = done && is_turn_near(*error, a->size);
+    release_all(&writer->scratch);
+    return done;
 }
 
 int carried_field(const Encoding *encoding, int key, const double **numbers) {

@@ -69,10 +69,22 @@ typedef struct {
     const int32_t *pieces, *faces, *vertices;
     int64_t rows, columns, vertices_count;
     bool leans; /* it may be predicted from positions */
+    ConstDoubles2 tangents; /* rows that are used, of what may be tangents, with the row of each corner */
+    ConstInts tangent_rows;
 } CarriedOutcome;
 /* Carry an attribute, the first or the next one; its seams are the payload. Then write the decoded values. */
 bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, CarriedOutcome *whole);
 void carried_values(const Encoding *encoding, void *values);
+/* Tangents as turns (library/encode/encoding.h), on a diamond of a size: `words` of rows, decoded `values`, the largest
+ * error in degrees, and whether that is near enough. */
+typedef struct {
+    ConstInts2 faces, normal_faces, coordinate_faces, places, coordinates;
+    ConstInts vertices, rows;
+    ConstDoubles2 normals, tangents;
+    int64_t size;
+} TangentArrays;
+bool encode_turns(Encoding *encoding, const TangentArrays *arrays, int32_t *words, double *values, double *error,
+    bool *near);
 /* The numbers of a field of its declaration, and how many there are. */
 int carried_field(const Encoding *encoding, int key, const double **numbers);
 /* With `congruence` of the header, its rows of `transforms` (V 17.2), and corners of an encoding like it, or NULL. */

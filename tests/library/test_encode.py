@@ -21,6 +21,8 @@ from tools import bsmenc
 from tools.amalgamate import ROOT
 from tools.bsmdec import Entry
 from tools.bsmenc import CELLS, LOSSLESS, PROGRESS, STOPPED, UNREACHABLE, Allocator, compiled_whole, encode, library
+from tools.vectors.good_attributes import charts, creases, with_attributes
+from tools.vectors.good_swift import tangents
 
 TOUCHING = soup(together(torus(9, 7), boxes(*np.ndindex(1, 2, 3)), soup(patch(3, 3)), boxes((1, 0, 0))))
 MIXED = TriangleMesh(TOUCHING.positions, np.random.default_rng(2).permutation(TOUCHING.faces))
@@ -73,6 +75,18 @@ def test_qualities_are_those_of_python(encoder, quality):
     mesh, (name, word, amount, text) = dressed(torus(20, 12)), quality.split()
     found = encode(encoder, mesh, {name: (word, float(amount))}, bits=11)
     assert found.data == bsm.encode(mesh, grid=11, attributes={name: text}), found.message
+
+
+@pytest.mark.parametrize("keep", [False, True])
+@pytest.mark.parametrize("effort", ["normal", "quick"])
+@pytest.mark.parametrize("bits", [4, 9, 15])
+def test_tangents_are_those_of_python(encoder, bits, effort, keep):
+    mesh = with_attributes(torus(20, 12), creases, charts, tangents)
+    asked = {"normal": ("bits", 10.0), "tangent": ("bits", float(bits))}
+    found = encode(encoder, mesh, asked, bits=11, quick=effort == "quick", keep_order=keep)
+    texts = {"normal": "10bits", "uv": "14bits", "tangent": f"{bits}bits"}
+    wanted = bsm.encode(mesh, grid=11, effort=effort, keep_order=keep, attributes=texts)
+    assert (found.message, found.data == wanted) == ("", True)
 
 
 def test_cells_fit_those_of_python(encoder):

@@ -8,9 +8,12 @@ import numpy as np
 
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.attributes.encoding import with_attributes as with_attributes_of
+from bsm.codec.static.choice.attributes import Sent
+from bsm.codec.static.choice.grids import rounded
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
-from tools.surgery import frames_of, stream_of, with_header
+from tools.surgery import frames_of, stream_of, with_declaration, with_header
 from tools.vectors.good import Bad, Good
 from tools.vectors.good_attributes import charts, colors, creases, groups, with_attributes
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, torus
@@ -27,6 +30,31 @@ def numbers(mesh: TriangleMesh) -> Attribute:
 def coarse(mesh: TriangleMesh) -> Attribute:
     """Whole numbers of vertices, which are 0 and 1."""
     return Attribute("coarse", (np.arange(len(mesh.positions)) // 3 % 2).astype(np.uint8)[:, None], "vertex")
+
+
+def tangents(mesh: TriangleMesh) -> Attribute:
+    """Directions at right angles to the normals of `creases`, turned where charts are, and hands that differ."""
+    normals = creases(mesh).values.astype(np.float64)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    at = mesh.positions[mesh.faces].reshape(-1, 3)
+    toward = np.column_stack([np.cos(3.0 * at[:, 0]), np.sin(3.0 * at[:, 0]), 0.3 * at[:, 1] + 0.1])
+    toward -= (toward * normals).sum(axis=1, keepdims=True) * normals
+    toward /= np.linalg.norm(toward, axis=1, keepdims=True)
+    hand = np.where(mesh.positions[mesh.faces].mean(axis=1)[:, 2] > 0.0, 1.0, -1.0).repeat(3)
+    return Attribute("tangent", np.column_stack([toward, hand]).astype(np.float32), "corner")
+
+
+def turned(mesh: TriangleMesh, effort: str, **options: Any) -> bytes:
+    """A mesh with normals of 10 bits, texture coordinates, and tangents of 9 bits, which are turns."""
+    return of(mesh, effort, creases, charts, tangents, attributes={"normal": "10bits", "tangent": "9bits"}, **options)
+
+
+def in_chunks(effort: str) -> bytes:
+    """Values in several frames of each attribute."""
+    mesh = with_attributes(torus(24, 16), creases, charts, colors, tangents)
+    qualities = {"normal": "10bits", "tangent": "9bits"}
+    sent = Sent(mesh, EncodeOptions(threads=1, effort=effort, grid=9, attributes=qualities))
+    return b"".join(with_attributes_of(rounded(sent.prepared, 9), sent.carried, {}, 101).frames)
 
 
 def of(mesh: TriangleMesh, effort: str, *makers: Callable[[TriangleMesh], Attribute], **options: Any) -> bytes:
@@ -61,6 +89,15 @@ _MADE: dict[str, tuple[str, Callable[[str], bytes]]] = {
         lambda effort: of(shuffled(torus(24, 16)), effort, keep_order=True),
     ),
     "pieces": ("numbers of two pieces, in groups of four", lambda effort: of(torus(12, 9), effort, numbers, coarse)),
+    "tangents": ("tangents that are turns", partial(turned, torus(24, 16))),
+    "tangents-border": ("tangents at a border", partial(turned, patch(9, 14))),
+    "tangents-hub": ("tangents around a vertex of many faces", partial(turned, hub())),
+    "tangents-tent": ("tangents where faces have no area", partial(turned, tent())),
+    "tangents-order": (
+        "tangents of faces in the given order",
+        lambda effort: turned(shuffled(torus(24, 16)), effort, keep_order=True),
+    ),
+    "chunks": ("values in several frames", in_chunks),
     "bits": ("normals of 16 bits", lambda effort: of(torus(12, 9), effort, creases, attributes={"*": "16bits"})),
 }
 SWIFTS: dict[str, Good] = {
@@ -79,6 +116,28 @@ SWIFTS_BAD: dict[str, Bad] = {
     "bad-swift-long": Bad("values that end late", "corrupt", lambda: _damaged(lambda payload: payload + b"\1\2\3\4\5")),
     "bad-swift-range": Bad(
         "a normal beyond the octahedron", "corrupt", lambda: _damaged(lambda payload: payload[:6] + b"\x7f" * 999)
+    ),
+    "bad-swift-tangents-header": Bad(
+        "tangents without `swift`", "corrupt", lambda: with_header(turned(torus(12, 9), "quick"), swift=None)
+    ),
+    "bad-swift-tangents-bases": Bad(
+        "tangents without bases", "corrupt", lambda: with_declaration(turned(torus(12, 9), "quick"), 2, bases=None)
+    ),
+    "bad-swift-tangents-later": Bad(
+        "bases that come later", "corrupt", lambda: with_declaration(turned(torus(12, 9), "quick"), 2, bases=[1, 3])
+    ),
+    "bad-swift-tangents-exchanged": Bad(
+        "bases in the other order", "corrupt", lambda: with_declaration(turned(torus(12, 9), "quick"), 2, bases=[2, 1])
+    ),
+    "bad-swift-tangents-size": Bad(
+        "a diamond of no whole size",
+        "corrupt",
+        lambda: with_declaration(turned(torus(12, 9), "quick"), 2, largest=[1026, 1]),
+    ),
+    "bad-swift-tangents-stray": Bad(
+        "bases of another attribute",
+        "corrupt",
+        lambda: with_declaration(turned(torus(12, 9), "quick"), 1, bases=[1, 1]),
     ),
     "bad-swift-mixed-range": Bad(
         "a normal beyond it", "corrupt", lambda: _damaged(lambda payload: payload[:6] + b"\x7f" * 999, "normal")

@@ -1,15 +1,26 @@
 """The attributes of a given mesh to the frames of a stream."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm._core import Field, GivenMesh
+from bsm._core import Field, GivenMesh, turned_tangents
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.header import FACE, MOST_ATTRIBUTES, RECOMPUTED, Declaration, entries_of, values_of
+from bsm.bitstream.container.header import (
+    FACE,
+    LEVELS,
+    MOST_ATTRIBUTES,
+    OCTAHEDRAL,
+    RECOMPUTED,
+    TANGENTS,
+    TEXCOORD,
+    Declaration,
+    entries_of,
+    values_of,
+)
 from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.container.wire import with_lengths, write_map
 from bsm.bitstream.errors import OptionError
@@ -48,6 +59,15 @@ def recomputed(surface: Surface, positions: Matrix) -> Matrix:
 
 
 @dataclass(frozen=True, eq=False)
+class GivenTangents:
+    """Values that have the form of tangents, shape (k, 4), and which of them each corner has, shape (3 m,)."""
+
+    values: Matrix
+    rows: Indices
+    bits: int
+
+
+@dataclass(frozen=True, eq=False)
 class PreparedAttribute:
     """An attribute in the order of coding, before positions are known."""
 
@@ -60,6 +80,7 @@ class PreparedAttribute:
     values: Values
     """As decoders have them."""
     note: str
+    tangents: GivenTangents | None = None
 
     @property
     def at_corners(self) -> Matrix:
@@ -110,13 +131,74 @@ def _carry(
     values = np.ascontiguousarray(attribute.values)
     # All in C, where the order of coding is: corners, seams and integers in one pass, as the C encoder has it, too.
     found = place.carry(first, attribute.name, values, kind, domain, semantic, attribute.indices, way, quality.amount)
-    numbers, seams, pieces, decoded, own, at, leans, outcome = found
+    numbers, seams, pieces, decoded, own, at, leans, outcome, directed = found
     declaration = Declaration(name=attribute.name, **values_of(Declaration, numbers))
     surface = Surface(faces if own is None else own, at)
     what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
     became = "recomputed from the decoded mesh" if declaration.coding == RECOMPUTED else noted(*outcome)
     note = f"{attribute.name}: {what}per {attribute.domain}, {became}"
-    return PreparedAttribute(declaration, seams, surface, pieces, swift, leans, decoded, note)
+    tangents = None
+    if swift and directed is not None:
+        tangents = GivenTangents(*directed, int(quality.amount))
+    return PreparedAttribute(declaration, seams, surface, pieces, swift, leans, decoded, note, tangents)
+
+
+def with_turns(carried: tuple[PreparedAttribute, ...], places: Levels | None) -> tuple[PreparedAttribute, ...]:
+    """The attributes as a stream has them with positions at these places of a grid, if it has one."""
+    if places is None:
+        return carried
+    return tuple(_turned(prepared, carried[:number], places) for number, prepared in enumerate(carried))
+
+
+def _turned(prepared: PreparedAttribute, before: Sequence[PreparedAttribute], places: Levels) -> PreparedAttribute:
+    """Tangents as turns about their normals, from where the texture points; others as they are."""
+    tangents, surface = prepared.tangents, prepared.surface
+    normals = _number_of(before, _is_normal)
+    coordinates = _number_of(before, _is_coordinate)
+    if tangents is None or normals is None or coordinates is None or (surface.vertices < 0).any():
+        return prepared
+    size = 1 << (tangents.bits - 1)
+    turned = turned_tangents(
+        surface.faces,
+        before[normals].surface.faces,
+        before[coordinates].surface.faces,
+        places,
+        before[coordinates].pieces,
+        surface.vertices,
+        tangents.rows,
+        before[normals].values.astype(np.float64),
+        tangents.values,
+        size,
+    )
+    if turned is None:
+        return prepared
+    words, values, error = turned
+    declaration = replace(
+        prepared.declaration,
+        coding=TANGENTS,
+        largest=(4 * size, int(words[:, 1].max(initial=0))),
+        offset=(),
+        step=(),
+        leans=1,
+        bases=(normals + 1, coordinates + 1),
+    )
+    owner = prepared.note.partition(", ")[0]
+    note = f"{owner}, {noted(error, 0.0, tangents.bits, 0, False)}"
+    kind = prepared.values.dtype
+    return replace(prepared, declaration=declaration, pieces=words, values=values.astype(kind), note=note)
+
+
+def _number_of(attributes: Sequence[PreparedAttribute], holds: Callable[[Declaration], bool]) -> int | None:
+    return next((number for number, a in enumerate(attributes) if holds(a.declaration)), None)
+
+
+def _is_normal(declaration: Declaration) -> bool:
+    return declaration.coding == OCTAHEDRAL and declaration.domain != FACE
+
+
+def _is_coordinate(declaration: Declaration) -> bool:
+    plain = declaration.coding == LEVELS and declaration.semantic == TEXCOORD and declaration.domain != FACE
+    return plain and len(declaration.largest) == 2 and max(declaration.largest) < 1 << 20
 
 
 def noted(error: float, step: float, bits: int, zeros: int, scaled: bool) -> str:
@@ -127,8 +209,10 @@ def noted(error: float, step: float, bits: int, zeros: int, scaled: bool) -> str
     return ", ".join([*note, *[f"{zeros} of no length"] * (zeros > 0), *["all of length one now"] * scaled])
 
 
-def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metadata: Metadata) -> Draft:
-    """A draft that carries attributes and metadata, too; images and other bytes come last."""
+def with_attributes(
+    draft: Draft, carried: tuple[PreparedAttribute, ...], metadata: Metadata, chunk: int = CHUNK
+) -> Draft:
+    """A draft that carries attributes, `chunk` values a frame, and metadata; images and other bytes come last."""
     shape = packets.Connectivity | packets.Labels | packets.Order
     # After the faces, which seams need, and before positions, so that a page knows what is coming.
     before = 1 + max(place for place, packet in enumerate(draft.body) if isinstance(packet, shape))
@@ -141,23 +225,24 @@ def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metada
     values: list[Packet] = []
     header = draft.header
     if carried:
-        for index, prepared in enumerate(carried):
-            declaration, chunks = cheaper(prepared, draft.places)
+        for index, prepared in enumerate(with_turns(carried, draft.places)):
+            declaration, chunks = cheaper(prepared, draft.places, chunk)
             declared.append(packets.Declared(index, declaration, prepared.seams))
-            for (first, count), data in zip(ranges(declaration.rows, CHUNK), chunks, strict=True):
+            for (first, count), data in zip(ranges(declaration.rows, chunk), chunks, strict=True):
                 values.append(packets.Values(index, first, count, data))
         header = replace(header, attributes=len(carried), swift=carried[0].swift)
     return replace(draft, header=header, body=(*early_metadata, *head, *declared, *body, *values, *images))
 
 
-def cheaper(prepared: PreparedAttribute, places: Levels | None) -> tuple[Declaration, tuple[bytes, ...]]:
+def cheaper(prepared: PreparedAttribute, places: Levels | None, chunk: int) -> tuple[Declaration, tuple[bytes, ...]]:
     """What an attribute declares, and its chunks."""
+    plain = prepared.plain if chunk == CHUNK else prepared.chunks(None, chunk)
     # Values may follow the positions on a grid, as painted-on coordinates do, or not. Both are tried; one bit tells.
-    if places is not None and prepared.leans:
-        chunks = prepared.chunks(places, CHUNK)
-        if sum(map(len, chunks)) < sum(map(len, prepared.plain)):
+    if places is not None and prepared.leans and prepared.declaration.coding != TANGENTS:
+        chunks = prepared.chunks(places, chunk)
+        if sum(map(len, chunks)) < sum(map(len, plain)):
             return replace(prepared.declaration, leans=1), chunks
-    return prepared.declaration, prepared.plain
+    return prepared.declaration, plain
 
 
 def ranges(rows: int, size: int) -> list[tuple[int, int]]:
@@ -167,7 +252,8 @@ def ranges(rows: int, size: int) -> list[tuple[int, int]]:
 
 def field_of(declaration: Declaration, surface: Surface, pieces: Levels, places: Levels | None, swift: int) -> Field:
     """The field of the numbers of an attribute, shape (k, pieces), predicted from `places`, shape (n, 3)."""
-    declared = write_map(entries_of(replace(declaration, leans=int(places is not None))))
+    leans = int(places is not None or declaration.coding == TANGENTS)
+    declared = write_map(entries_of(replace(declaration, leans=leans)))
     vertices = 1 + int(max(surface.faces.max(initial=0), surface.vertices.max(initial=0)))
     field = Field(surface.faces, pieces)
     field.attribute(declared, vertices if places is None else len(places), surface.vertices, places, swift)

@@ -10,7 +10,16 @@ from typing import Any
 import numpy as np
 
 from bsm._core import Decoder, SkimmedPacket
-from bsm.bitstream.container.header import Header, MetadataValue, values_of
+from bsm.bitstream.container.header import (
+    BITS,
+    LEVELS,
+    OCTAHEDRAL,
+    RECOMPUTED,
+    TANGENTS,
+    Header,
+    MetadataValue,
+    values_of,
+)
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import DOMAINS, KINDS, SEMANTICS
@@ -190,8 +199,13 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     )
 
 
+_CODINGS = {LEVELS: "levels", OCTAHEDRAL: "octahedral", BITS: "bits", RECOMPUTED: "recomputed", TANGENTS: "tangents"}
+
+
 def _attribute_info(packet: SkimmedPacket, size: int) -> AttributeInfo:
-    coding = "moving levels" if packet.moves else ("levels", "octahedral", "bits", "recomputed")[packet.coding]
+    coding = _CODINGS[packet.coding]
+    if packet.moves:
+        coding = "moving levels"
     meanings = DOMAINS[packet.domain], SEMANTICS[packet.semantic], KINDS[packet.kind]
     return AttributeInfo(packet.name, *meanings, packet.components, packet.rows, coding, packet.data, size)
 

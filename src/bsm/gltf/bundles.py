@@ -77,7 +77,8 @@ def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> 
     if not exact:
         arrays |= _levels({name: array for name, array in arrays.items() if name.startswith("WEIGHTS_")})
     attributes, accessors, qualities = [], {"POSITION": (FLOAT, False)}, dict[str, str]()
-    for name, array in arrays.items():
+    # Tangents are turned from the normals and texture coordinates that come before them.
+    for name, array in sorted(arrays.items(), key=lambda entry: entry[0] == "TANGENT"):
         normalized = bool(entries[name].get("normalized")) or (name.startswith("WEIGHTS_") and not exact)
         carried = _carried(name, array, normalized)
         if isinstance(carried, str):

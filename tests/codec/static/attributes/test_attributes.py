@@ -1,5 +1,7 @@
 """Attributes of meshes through whole streams."""
 
+import re
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -10,13 +12,15 @@ from hypothesis import strategies as st
 
 import bsm
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.header import RECOMPUTED
+from bsm.bitstream.container.header import LEVELS, RECOMPUTED, TANGENTS
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.codec.look.measure import AttributeLook, look, look_values
 from tests.shapes import at_corners, curved, patch, tetrahedron, torus
 from tests.streams import events_of, packets_of, without
 from tools.surgery import frames_of, stream_of
+from tools.vectors.good_attributes import charts, creases, with_attributes
+from tools.vectors.good_swift import tangents
 
 QUICK = bsm.EncodeOptions(grid=12)
 """Where the shape is not the point."""
@@ -429,3 +433,86 @@ def test_any_triangles_keep_what_they_carry(seed, vertices, faces, ordered):
     for attribute in split.attributes:
         before = next(result for result in decoded.attributes if result.name == attribute.name)
         assert (at_corners(split, attribute) == at_corners(decoded, before)).all()
+
+
+TURNS = {"normal": "10bits", "tangent": "9bits"}
+
+
+def tangential(mesh: bsm.TriangleMesh, change: Callable[[np.ndarray], np.ndarray] | None = None) -> bsm.TriangleMesh:
+    """A mesh with normals, texture coordinates and tangents, these perhaps changed."""
+    dressed_mesh = with_attributes(mesh, creases, charts, tangents)
+    *others, last = dressed_mesh.attributes
+    values = last.values if change is None else change(last.values.copy()).astype(last.values.dtype)
+    return replace(dressed_mesh, attributes=(*others, replace(last, values=values)))
+
+
+def coding_of_last(stream: bytes) -> int:
+    return packets_of(stream, packets.Declared)[-1][0].declaration.coding
+
+
+@pytest.mark.parametrize("options", [{}, {"keep_order": True}, {"effort": "quick"}], ids=str)
+def test_tangents_are_turns_about_decoded_normals(options):
+    mesh = tangential(torus())
+    encoder = bsm.Encoder(mesh, bsm.EncodeOptions(grid=12, attributes=TURNS, **options))
+    stream = encoder.encode()
+    assert coding_of_last(stream) == TANGENTS
+    decoded = bsm.decode(stream)
+    error = compared(mesh, decoded, encoder)["tangent"]
+    assert error < np.radians(0.35)  # half a step of 9 bits, and the error of normals of 10 bits
+    normal, _, tangent = (at_corners(decoded, attribute).astype(float) for attribute in decoded.attributes)
+    np.testing.assert_allclose(np.linalg.norm(tangent[..., :3], axis=-1), 1.0, atol=1e-6)
+    assert {*np.unique(tangent[..., 3])} == {-1.0, 1.0}
+    upright = np.abs((tangent[..., :3] * normal).sum(axis=-1))
+    assert np.quantile(upright, 0.5) < 1e-6  # where corners share a tangent, they may have different normals
+    note = next(note for note in encoder.notes if note.startswith("tangent"))
+    told = re.fullmatch(r"tangent: per corner, 9 bits, within ([\d.]+) degrees", note)
+    assert told and error <= np.radians(float(told[1])) * 1.06
+    plain = bsm.encode(mesh, grid=12, attributes=TURNS, effort="best")
+    assert coding_of_last(plain) == LEVELS
+
+
+def tilted(values: np.ndarray) -> np.ndarray:
+    values[5] = [0.0, 0.0, 1.0, 1.0]
+    values[7] = [0.0, 1.0, 0.0, 1.0]
+    return values
+
+
+def without_length(values: np.ndarray) -> np.ndarray:
+    values[5] = 0.0
+    return values
+
+
+@pytest.mark.parametrize("change", [tilted, without_length, lambda values: values * [1, 1, 1, 0.5]])
+def test_what_is_not_at_right_angles_or_has_no_hand_keeps_its_numbers(change):
+    mesh = tangential(torus(), change)
+    encoder = bsm.Encoder(mesh, bsm.EncodeOptions(grid=12, attributes=TURNS))
+    stream = encoder.encode()
+    assert coding_of_last(stream) == LEVELS
+    assert compared(mesh, bsm.decode(stream), encoder)["tangent"] <= 1.01 / 511
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"attributes": TURNS | {"tangent": "exact"}},
+        {"attributes": TURNS | {"tangent": "0.001"}},
+        {"attributes": TURNS | {"normal": "none"}},
+        {"attributes": TURNS | {"uv": "exact"}},
+        {"attributes": {"normal": "4bits", "tangent": "12bits"}},
+        {"attributes": TURNS, "grid": None, "coefficients": 30},
+    ],
+    ids=str,
+)
+def test_tangents_without_near_normals_a_texture_or_a_grid_keep_their_numbers(options):
+    options = {"grid": 12} | options
+    stream = bsm.Encoder(tangential(torus()), bsm.EncodeOptions(contract=None, **options)).encode()
+    assert coding_of_last(stream) != TANGENTS
+
+
+def test_tangents_are_lost_with_their_texture():
+    stream = bsm.encode(tangential(curved(patch(70, 65))), grid=12, attributes=TURNS)
+    assert coding_of_last(stream) == TANGENTS
+    names, losses, missing = tolerated(without(stream, packets.Declared, 1, "changed"))
+    assert (names, missing) == ({"normal"}, 0) and losses >= 1
+    names, losses, missing = tolerated(without(stream, packets.Grid, -1, "changed"))
+    assert names == set() and losses == 1 and missing > 0
