@@ -40,19 +40,18 @@ def sample(faces: Faces, levels: Floats) -> tuple[Order, Faces]:
 
 
 CANDIDATES = (
-    Filter("normals", 0.2, 0.35, "patches"),  # makes the first guess
-    Filter("normals", 0.2, 0.25),
+    Filter("normals", 0.2, 0.25),  # makes the first guess
     Filter("heights", 0.2, 0.4),
     Filter("heights", 0.1, 0.55),
     Filter(TGV, 1.0, 0.25),
 )
-# Noise along an axis slides vertices, which then go back along it.
-AXIAL = (*CANDIDATES[:2], *(Filter("positions", keep, width) for keep, width in ((0.4, 0.4), (0.2, 0.25), (0.1, 0.55))))
+# Noise along the surface, or along an axis, slides vertices, which then go back there.
+SLIDING = tuple(replace(each, hand_over=each.hand_over.replace("heights", "positions")) for each in CANDIDATES)
 SEEN = tuple(Filter(RAYS, keep, sigma_r) for keep, sigma_r in ((0.3, 0.4), (1.0, 0.4), (0.3, 0.25), (1.0, 0.55)))
 STEPPED = (Step(Filter(RAYS, 2.0, 0.4), 2),)
 """For scans of one view; and where depths are in steps, which hide most of the noise from fine filters."""
 FUSED = tuple(Filter(BENDS, weight, 0.3) for weight in (0.15, 0.3, 0.6))
-SPECIAL = {"view": SEEN, "axis": AXIAL, "fused": FUSED}
+SPECIAL = {"view": SEEN, "axis": SLIDING[:-1], "fused": FUSED}
 EVEN, FUSED_UNEVEN, FUSED_MOST = 0.2, 7.0, 2.5
 """For volumes, whose noise is even and as fine as their cells. Noise of cameras is uneven, and too broad to rehearse
 with: the weight of bends over the unevenness, and its bound."""
@@ -136,16 +135,16 @@ def choose(positions: Positions, finding: Finding, surface: Filters, goal: str, 
         return _by_cause(finding)
     filters = SPECIAL.get(finding.kind, CANDIDATES)
     general, large = finding.kind not in SPECIAL, len(positions) > MOST_TAUGHT
-    if general and large:
-        filters = CANDIDATES[:-1]
     learnt = not large or finding.kind not in ("white", "unsteady")
     members, part = sample(surface.topology.faces, finding.levels)
     chosen = positions
     if len(members) < len(positions):
         surface, chosen = Filters(part, len(members)), positions[members]
     level = estimate_noise(chosen, surface.smooth(chosen, filters[0]), surface.probe)
-    if level.slides:
-        filters = tuple(replace(each, hand_over=each.hand_over.replace("heights", "positions")) for each in filters)
+    if general and level.slides:
+        filters = SLIDING
+    if general and large:
+        filters = filters[:-1]
     known = finding.on(members).reaching(surface.topology, level.slides)
     mesh = surface.filtered(chosen, known)
     rehearsal = Rehearsal(mesh, surface, known, level, filters[0], named("goal", GOALS, goal))
@@ -201,8 +200,8 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
             steps = (*steps, Step(Filter("none", 0.0, 0.4), BENDS_ITERATIONS[0]))
         if not stored:
             # Stairs of thick slices are steeper.
-            width = min(CANDIDATES[1].sigma_r * flat ** (2.0 / 3.0), 1.0)
-            steps = (*steps, Step(Filter("positions", CANDIDATES[1].keep, width), CELL_ITERATIONS))
+            width = min(CANDIDATES[0].sigma_r * flat ** (2.0 / 3.0), 1.0)
+            steps = (*steps, Step(Filter("positions", CANDIDATES[0].keep, width), CELL_ITERATIONS))
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
     unknown = Forecast(0.0, 0.0, most=1.0, known=False)
     return AutomaticChoice(steps, finding.kind, finding.reason, noise, 0.0, 0.0, forecast=unknown)

@@ -1,11 +1,10 @@
 """Flat is flat: planes that explain a noisy surface, and vertices put on them.
 
 Faces of a filtered mesh are joined to regions, the most alike first, as long as their normals are alike, or one plane
-explains the noisy vertices of both as well as two planes do. Each face then takes the plane of a neighbor, or none, if
-its vertices stay nearer to where they were measured, and its filtered normal agrees. A region is a plane if its noisy
-vertices deny that it is bent: the best quadratic through them turns normals by little, even if chance has hidden some
-of it. Vertices are put on the planes of the faces around them: on one, on the edge between two, or on the corner where
-more meet. All lengths are in levels of the noise.
+explains the noisy vertices of both as well as two planes do. A region is a plane if its noisy vertices deny that it is
+bent: the best quadratic through them turns normals by little, even if chance has hidden some of it. Vertices are put on
+the planes of the faces around them: on one, on the edge between two, or on the corner where more meet. All lengths are
+in levels of the noise.
 """
 
 from collections.abc import Callable
@@ -21,9 +20,7 @@ from bsm.codec.geometry.metrics import face_geometry
 ALIKE = 0.15  # distance of the mean normals of regions up to which they are joined
 SAME_PLANE = 20.0  # what one plane may explain less well than two
 FEWEST = 30.0  # vertices of a plane
-FREE, LIKE = 4.0, 20.0  # squared ways of vertices that a face without a plane counts; and a normal that is off by one
-BENT, ROUGH = 0.05, 0.09  # how far a plane may turn normals; and how far filtered ones may differ from it in the mean
-ROUNDS = 3
+BENT = 0.05  # how far a plane may turn normals
 FIRM = 1e-3  # of a vertex's own place against planes, so that nearly equal planes have no edge far away
 
 
@@ -43,31 +40,23 @@ class Planes:
     def put(self, positions: Positions, topology: Topology) -> Positions:
         """Positions, shape (n, 3), on the planes of the faces around them."""
         owners = np.repeat(np.arange(topology.n), np.diff(topology.around.starts))
-        return self.nearest(positions, owners, self.labels[topology.around.members])
-
-    def nearest(self, points: Positions, owners: Order, labels: Order) -> Positions:
-        """Points, shape (k, 3), on the planes of the labels that they own."""
+        labels = self.labels[topology.around.members]
         count = max(len(self.heights), 1)
+        # Each plane counts once for a vertex, however many of its faces are around.
         owner, label = np.divmod(np.unique((owners * count + labels)[labels >= 0]), count)
         normals = self.normals[label]
-        off = np.einsum("ij,ij->i", normals, points[owner]) - self.heights[label]
-        square = _sums((normals[:, :, None] * normals[:, None, :]).reshape(-1, 9), owner, len(points))
-        way = _sums(off[:, None] * normals, owner, len(points))
-        return np.asarray(
-            points - np.linalg.solve(square.reshape(-1, 3, 3) + FIRM * np.eye(3), way[:, :, None])[:, :, 0]
-        )
+        off = np.einsum("ij,ij->i", normals, positions[owner]) - self.heights[label]
+        square = _sums((normals[:, :, None] * normals[:, None, :]).reshape(-1, 9), owner, topology.n)
+        way = _sums(off[:, None] * normals, owner, topology.n)
+        moves = np.linalg.solve(square.reshape(-1, 3, 3) + FIRM * np.eye(3), way[:, :, None])
+        return np.asarray(positions - moves[:, :, 0])
 
 
 def find_planes(noisy: Positions, filtered: Positions, level: float, topology: Topology) -> Planes:
     """Planes of a noisy mesh, shape (n, 3), whose noise has this level; `filtered`, shape (n, 3), shows where."""
     middle = noisy.mean(axis=0)
     search = PlaneSearch((noisy - middle) / level, filtered, topology)
-    planes = search.planes(search.regions())
-    for _ in range(ROUNDS):
-        for _ in range(ROUNDS):
-            planes = search.agreed(planes)
-        planes = search.planes(planes.labels)
-    planes = search.flat(planes)
+    planes = search.flat(search.planes(search.regions()))
     return replace(planes, heights=planes.heights * level + planes.normals @ middle)
 
 
@@ -108,44 +97,12 @@ class PlaneSearch:
         normals[back], heights[back] = -normals[back], -heights[back]
         return Planes(labels, normals, heights)
 
-    def agreed(self, planes: Planes) -> Planes:
-        """Let faces at borders take what costs less: the plane of a neighbor, or none."""
-        pairs, labels, faces = self._topology.pairs, planes.labels, self._topology.faces
-        both = np.concatenate([pairs, pairs[:, ::-1]])
-        both = both[labels[both[:, 0]] != labels[both[:, 1]]]
-        count = len(planes.heights) + 1
-        leaving = both[labels[both[:, 0]] >= 0, 0]
-        choices = np.unique(np.concatenate([both[:, 0] * count + labels[both[:, 1]] + 1, leaving * count]))
-        face, wanted = choices // count, choices % count - 1
-        gain = self._cost(planes, face, labels[face]) - self._cost(planes, face, wanted)
-        face, wanted, gain = face[gain > 0.0], wanted[gain > 0.0], gain[gain > 0.0]
-        best = np.zeros(self._topology.n)
-        np.maximum.at(best, faces[face], gain[:, None])
-        first = (gain[:, None] == best[faces[face]]).all(axis=1)  # of those around each vertex
-        labels = labels.copy()
-        labels[face[first]] = wanted[first]
-        return replace(planes, labels=labels)
-
-    def _cost(self, planes: Planes, face: Order, wanted: Order) -> Floats:
-        """What it costs if each of the faces, shape (k,), has the plane that is wanted."""
-        starts, members = self._topology.around
-        corners = self._topology.faces[face].ravel()
-        sizes = np.diff(starts)[corners]
-        owners = np.repeat(np.arange(len(corners)), sizes)
-        around = members[np.arange(len(owners)) + np.repeat(starts[corners] - np.cumsum(sizes) + sizes, sizes)]
-        labels = np.where(around == face[owners // 3], wanted[owners // 3], planes.labels[around])
-        points = self._noisy[corners]
-        ways = np.square(planes.nearest(points, owners, labels) - points).reshape(-1, 9).sum(axis=1)
-        turned = np.square(self._normals[face] - np.append(planes.normals, [[0.0] * 3], axis=0)[wanted]).sum(axis=1)
-        return np.asarray(ways + np.where(wanted >= 0, LIKE * turned, FREE))
-
     def flat(self, planes: Planes) -> Planes:
         """Return those planes that are not bent."""
         labels = planes.labels.copy()
-        for label in np.unique(planes.labels[planes.labels >= 0]):
-            chosen, normal = planes.labels == label, planes.normals[label]
-            rough = np.linalg.norm(self._normals[chosen] - normal, axis=1).mean()
-            if not (rough < ROUGH and self._bent(self._topology.faces[chosen].ravel(), normal) < BENT):
+        for label, normal in enumerate(planes.normals):
+            chosen = planes.labels == label
+            if self._bent(self._topology.faces[chosen].ravel(), normal) >= BENT:
                 labels[chosen] = -1
         return replace(planes, labels=labels)
 
