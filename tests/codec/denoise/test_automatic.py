@@ -68,11 +68,14 @@ def test_no_angle_is_estimated_where_noise_turns_faces_anywhere() -> None:
         assert choice.steps and choice.reliable == reliable
 
 
-def test_nothing_moves_where_noise_is_lower_than_what_filters_do_to_thin_triangles() -> None:
+@pytest.mark.parametrize("make", [gaussian_along_normals, gaussian_isotropic])
+def test_noise_leaves_thin_triangles_whichever_way_it_moved_them(make) -> None:  # type: ignore[no-untyped-def]
+    """Noise in all directions left nothing to rehearse with as long as it was taken for that of irregular triangles."""
     clean, faces = sphere(20)
-    noisy = gaussian_isotropic(clean * [1.0, 1.0, 30.0], faces, 0.2, seed=3)
+    noisy = make(clean * [1.0, 1.0, 30.0], faces, 0.2, seed=3)
     result, choice = denoise_automatically(noisy, faces)
-    assert not choice.steps and (result == noisy).all()
+    assert choice.steps and not choice.reliable
+    assert theta(clean * [1.0, 1.0, 30.0], result, faces) < 0.5 * theta(clean * [1.0, 1.0, 30.0], noisy, faces)
 
 
 @pytest.mark.parametrize("seed", [4, 10, 11, 16])
