@@ -35,6 +35,7 @@ const PAUSE = 30; // milliseconds, at least, before each picture of what grows, 
 const LIGHT_PAUSE = 100; // before the first one of a light grid, whose decoder is as fast as a picture
 const SHARE = 4; // times what such a picture takes
 const MOST_NORMAL = 32767;
+const USUAL = 0.766; // the cosine of the usual angle, as in library/wasm/draw.c
 
 export class Drawing {
     private readonly limits: Limits;
@@ -63,7 +64,8 @@ export class Drawing {
         limits: Partial<Limits>,
         private readonly memory: Memory,
         private readonly show: Show,
-        private readonly crease?: number,
+        /** As in `Start`; null: no edges are sharp, as in the first run. */
+        private crease?: number | null,
     ) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
     }
@@ -203,12 +205,14 @@ export class Drawing {
         this.show({ type: "whole", shape, run: this.run, growth }, buffers);
     }
 
-    /** Part vertices at sharp edges, unless the mesh has normals of its own. */
+    /** Part vertices at sharp edges, unless the mesh has normals of its own; later runs follow the first. */
     private part(): void {
-        const { faces, points, crease } = this;
-        const hasNormals = this.carried.some(({ semantic, domain }) => semantic === "normal" && domain !== "face");
-        const creased = crease === undefined || hasNormals ? undefined : this.memory.creased(faces, points, crease);
+        const { carried, crease, faces, memory, points } = this;
+        const hasNormals = carried.some(({ semantic, domain }) => semantic === "normal" && domain !== "face");
+        if (crease === undefined || crease === null || hasNormals) return;
+        const creased = memory.creased(faces, points, crease);
         if (creased) [this.faces, this.sources] = creased;
+        if (crease < -1) this.crease = creased ? USUAL : null;
     }
 
     /** The places and normals of all vertices of the faces, where those of the stream are at `points`. */

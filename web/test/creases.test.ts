@@ -3,7 +3,9 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { BoxGeometry, CylinderGeometry, IcosahedronGeometry, SphereGeometry, type BufferGeometry } from "three";
 import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
+import { Drawing, type Picture } from "../src/drawing";
 import { Engine } from "../src/engine";
+import type { Header } from "../src/index";
 import { creaseOf } from "../src/pool";
 import { kernels } from "./shared";
 
@@ -65,4 +67,27 @@ test("faces without an area and a vertex of very many faces are taken", () => {
     const more = Int32Array.from([...flat, 0, 0, 1, 2, 2, 2]);
     assert.ok(vertices([more, places], 40) >= 24);
     assert.ok(vertices([flat, places.map((place, i) => (i < 3 ? NaN : place))], 40) >= 8);
+});
+
+/** The drawn vertices of a sequence with a run of one frame for each body. */
+function inRuns(...bodies: Body[]): number[] {
+    const engine = new Engine(kernels, {}, false);
+    const counts: number[] = [];
+    const count = (picture: Picture): unknown =>
+        picture.type === "whole" && counts.push(picture.shape.positions.length / 3);
+    const drawing = new Drawing(false, {}, engine, count, creaseOf());
+    const loose = { vertices: new Int32Array(0), positions: new Float64Array(0) };
+    for (const [run, [faces, positions]] of bodies.entries()) {
+        drawing.accept({ type: "header", header: { run, light: 0, blocks: 1 } as Header });
+        drawing.accept({ type: "connectivity", faces, vertices: positions.length / 3, loose });
+        drawing.accept({ type: "frame", index: run, positions, attributes: [] });
+    }
+    engine.release();
+    return counts;
+}
+
+test("the first run of a sequence decides whether edges part vertices", () => {
+    const [box, ball] = [bodyOf(new BoxGeometry(1, 1, 1)), bodyOf(new IcosahedronGeometry(1, 0))]; // edges of 42 degrees
+    assert.deepEqual(inRuns(box, ball, box), [24, 60, 24]);
+    assert.deepEqual(inRuns(ball, box, ball), [12, 8, 12]);
 });
