@@ -23,7 +23,7 @@ const OPTIONS = {
 const BUNDLED = ["three"];
 
 const SENTENCE =
-    /(new (?:Format|Unsupported|Corrupt|Truncated|Limit|Numeric)Error\(|[.]nonsense\(|\brefuse\()\s*(?:"[^"\n]*"|`(?:[^`$\\]|\$\{[^{}`]*\})*`)(?=\s*[,)])/g;
+    /(new (?:Format|Unsupported|Corrupt|Truncated|Limit|Numeric|Range|Type)?Error\(|[.]nonsense\(|\brefuse\()\s*(?:"[^"\n]*"|`(?:[^`$\\]|\$\{[^{}`]*\})*`)(?=\s*[,)])/g;
 /** Leaves out what errors say: a pool asks the full decoder for the error of a stream. */
 const TERSE = {
     name: "terse",
@@ -108,10 +108,10 @@ const BESIDE = {
     errors: "errors.js",
     gltf: "gltf.js",
     index: "bsm.js",
-    quick: "quick.js",
     pool: "pool.js",
     scene: "scene.js",
     three: "three.js",
+    workerSmall: "small-worker.js",
 };
 const beside = (...names) => ({
     name: "beside",
@@ -172,7 +172,7 @@ async function inlined() {
     return {
         name: "inlined",
         setup({ onResolve, onLoad }) {
-            onResolve({ filter: /\/(index|errors)$/ }, () => ({ path: "bsm.js", namespace: "decoder" }));
+            onResolve({ filter: /\/(index|errors|workerSmall)$/ }, () => ({ path: "bsm.js", namespace: "decoder" }));
             onLoad({ filter: /./, namespace: "decoder" }, () => ({ contents: code, loader: "js" }));
         },
     };
@@ -180,13 +180,14 @@ async function inlined() {
 
 /** Methods that only code of the same thread calls: no message has them, nor the platform. */
 const INNER =
-    "receiveData receiveEof nextEvent receiveBlock nextBlock release doubles creased grown addFrame startRun flush settle placesOf guarded findHelpers accept pause bounds".split(
+    "receiveData receiveEof nextEvent receiveBlock nextBlock release doubles creased grown addFrame startRun flush settle placesOf guarded findHelpers accept pause bounds crc32 crc16 charge losses handed located described moved changes wishes members onBlock onOver engine carried".split(
         " ",
     );
 
-/** A thread in one file, so that no request waits for another: all of a module, which then serves. */
-function thread(module, plugins = []) {
-    const contents = `import { serve } from "./${module}"; serve();`;
+/** A thread in one file, so that no request waits for another: all of a module, which then serves; pages may import it. */
+function thread(module, plugins = [], isImported = false) {
+    const shared = `export { openDesk } from "./${module}"; if (globalThis.WorkerGlobalScope)`;
+    const contents = `import { serve } from "./${module}"; ${isImported ? shared : ""} serve();`;
     const mangleProps = new RegExp(`^(${[...privateNames(), ...INNER].join("|")})$`);
     return bundle(undefined, { stdin: { contents, resolveDir: SOURCES }, plugins, mangleProps });
 }
@@ -216,11 +217,11 @@ async function products() {
         "small.js": await plain("small.ts", [BARE, beside("errors")]),
         "quick.js": await plain("quick.ts", [TERSE, beside("errors"), BARE]),
         "worker.js": await thread("index"),
-        "small-worker.js": await thread("workerSmall", [TERSE, BARE]),
-        "pool.js": await open("pool.ts", beside("errors", "index", "quick")),
+        "small-worker.js": await thread("workerSmall", [TERSE, BARE], true),
+        "pool.js": await open("pool.ts", beside("errors", "index", "workerSmall")),
         "main.js": await open("facade.ts", beside("errors", "index", "pool")),
-        "three.js": await open("three.ts", beside("index", "quick", "scene")), // with its pool: no request waits for another
-        "three-near.js": await open("three.ts", beside("index", "scene"), NEAR, TERSE), // no request and no thread for small streams
+        "three.js": await open("three.ts", beside("index", "scene", "workerSmall")), // with its pool: no request waits for another
+        "three-near.js": await open("three.ts", beside("index", "scene", "workerSmall"), NEAR, TERSE), // no request and no thread for small streams
         "scene.js": await open("scene.ts", beside()),
         "gltf.js": await open("gltf.ts", beside("three")),
         "gltf-transform.js": await open("transform.ts", beside("encode", "errors", "index", "pool")),
@@ -232,7 +233,7 @@ async function products() {
         "encode-worker.js": await thread("encoding"),
         "player.js": await open("player.ts", beside("scene", "three"), TREES),
         "player-three.js": await bundle(join(SOURCES, "player.ts"), {
-            plugins: [beside("errors", "index", "pool", "quick"), TREES],
+            plugins: [beside("errors", "index", "pool", "workerSmall"), TREES],
             mangleProps,
         }),
         "react.js": await open("react.ts", beside("three")),

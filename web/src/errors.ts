@@ -16,7 +16,6 @@ export interface Described {
 
 /** Base of all errors of this package. */
 export class BsmError extends Error {
-    // Written out in every class: a bundler shortens the names of classes.
     override readonly name: string = "BsmError";
     readonly place: Place = {};
 
@@ -40,7 +39,7 @@ export class BsmError extends Error {
 
     /** Fill in the places that are not known yet, and return the same error. */
     located(place: Place): this {
-        const problem = this.problem || "this stream is wrong; bsm.js says how";
+        const problem = this.problem || "see bsm.js";
         let where = "";
         for (const key of ["offset", "frame", "block"] as const) {
             const value = (this.place[key] ??= place[key]);
@@ -51,35 +50,30 @@ export class BsmError extends Error {
     }
 }
 
-/** The data is not a BSM stream at all. */
-export class FormatError extends BsmError {
-    override readonly name = "FormatError";
+/** A class of errors; its name is written out, because bundlers shorten those of classes. */
+function named(name: string): typeof BsmError {
+    return class extends BsmError {
+        override readonly name = name;
+    };
 }
+
+/** The data is not a BSM stream at all. */
+export class FormatError extends named("FormatError") {}
 
 /** Well formed as far as it can be read, but of a version or method that this decoder does not know. */
-export class UnsupportedError extends BsmError {
-    override readonly name = "UnsupportedError";
-}
+export class UnsupportedError extends named("UnsupportedError") {}
 
 /** A BSM stream that contradicts itself or its checksums. */
-export class CorruptError extends BsmError {
-    override readonly name = "CorruptError";
-}
+export class CorruptError extends named("CorruptError") {}
 
 /** The data ends before the stream does. */
-export class TruncatedError extends BsmError {
-    override readonly name = "TruncatedError";
-}
+export class TruncatedError extends named("TruncatedError") {}
 
 /** The stream asks for more memory or work than the caller's limits allow. */
-export class LimitError extends BsmError {
-    override readonly name = "LimitError";
-}
+export class LimitError extends named("LimitError") {}
 
 /** The mathematics broke down: a value that is not finite. */
-export class NumericError extends BsmError {
-    override readonly name = "NumericError";
-}
+export class NumericError extends named("NumericError") {}
 
 const CLASSES = [FormatError, UnsupportedError, CorruptError, TruncatedError, LimitError, NumericError];
 

@@ -119,7 +119,6 @@ export class GridDecoder {
     private faces?: Int32Array;
     private nextVertex = 0;
     private chunks = 0;
-    private places = 0;
     /** Names and bytes of metadata. */
     private readonly entryNames = new Set<string>();
     private metadataRead = 0;
@@ -166,14 +165,6 @@ export class GridDecoder {
     /** Leave the memory to the next decoder; this one is not to be asked for anything more. */
     release(): void {
         this.engine.release();
-    }
-
-    /** Decode the rest of a complete stream. */
-    finish(): Mesh {
-        this.receiveEof();
-        while (this.nextEvent() !== END_OF_STREAM);
-        const positions = this.engine.doubles(this.places, 3 * this.header!.vertices);
-        return { positions, faces: this.faces!, attributes: [] };
     }
 
     private makeRoom(count: number): void {
@@ -276,8 +267,8 @@ export class GridDecoder {
             const loose = { vertices: new Int32Array(0), positions: new Float64Array(0) };
             this.queue.push({ type: "connectivity", faces: this.faces!, vertices: this.header!.vertices, loose });
         }
-        this.places = this.engine.decode(data, first, count);
-        const positions = this.engine.doubles(this.places + 24 * first, 3 * count);
+        const places = this.engine.decode(data, first, count);
+        const positions = this.engine.doubles(places + 24 * first, 3 * count);
         this.queue.push({
             type: "block",
             index: this.chunks++,
@@ -298,7 +289,14 @@ export class GridDecoder {
 export function decode(kernels: Kernels, data: Uint8Array, limits: Partial<Limits> = {}): Mesh {
     const decoder = new GridDecoder(kernels, limits);
     decoder.receiveData(data);
-    return decoder.finish();
+    decoder.receiveEof();
+    let [faces, positions]: [Int32Array, Float64Array] = [new Int32Array(0), new Float64Array(0)];
+    for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM;) {
+        if (typeof event === "string") continue;
+        if (event.type === "connectivity") [faces, positions] = [event.faces, new Float64Array(3 * event.vertices)];
+        if (event.type === "block") positions.set(event.positions, 3 * event.first!);
+    }
+    return { positions, faces, attributes: [] };
 }
 
 export { END_OF_STREAM, NEED_DATA };

@@ -6,13 +6,12 @@ import { here as beside, type Source } from "./source";
 
 export * from "./source";
 
-const SMALL = 20_000; // vertices that are decoded sooner than a thread begins
 const embedded = once(() => WebAssembly.compile(bytes));
 
 export const here: Source = {
     ...beside,
     kernels: (build) => (build === "quick" ? embedded(build) : beside.kernels(build)),
     local: (build) => (build === "quick" ? Promise.resolve({ openDesk }) : beside.local(build)),
-    isNear: ({ build, vertices = 0 }) => build === "quick" && vertices > 0 && vertices <= SMALL,
+    embedded: "quick",
 };
 embedded("quick").catch(() => {}); // while the page goes on; who decodes hears of it

@@ -5,7 +5,8 @@
  * it. A thread starts before that, because it takes longer than the first bytes: threads know all builds but the whole
  * one, which has threads of its own. Builds are fetched once, so streams that begin together wait a moment for each other's
  * headers and take one build that reads all of them: three small decoders would cost more than the large one. A stream
- * has one thread, and idle ones help with its chains. All bytes are kept until the end, because a
+ * has one thread, and idle ones help with its chains. A small stream that is the only one is decoded in the calling thread,
+ * piece by piece, if none has begun yet: the one that starts beside it takes what follows. All bytes are kept until the end, because a
  * small build that meets something unknown or wrong leaves the stream to the whole one, which begins again and reports
  * only what was not reported yet; so only that one needs the texts of errors. A thread that never began takes its
  * streams back to the line; after two of those the pool decodes in the calling thread, piece by piece, so that a page
@@ -49,6 +50,8 @@ export type StreamDecoding = Pick<PooledStream, "receiveData" | "receiveEof" | "
 export const creaseOf = (angle?: number): number => (angle === undefined ? -2 : Math.cos((angle * Math.PI) / 180));
 
 const LIMIT = 4;
+const SMALL = 20_000; // vertices that are decoded here sooner than a thread begins
+const PIECE = 2 ** 14; // bytes that are decoded here at a time
 const IDLE = 5000; // milliseconds after which threads without work end
 const MOST_FAILED = 1; // threads that may fail to start before the page does without
 const MOMENT = 100; // milliseconds that a stream waits for the headers of others, to have one decoder with them
@@ -150,24 +153,32 @@ export class Pool {
 
     private async begin(stream: PooledStream, named: Need): Promise<void> {
         stream.need = named;
-        if (this.source.isNear?.(named) && !stream.wishes.tolerant) {
-            stream.kernels = await this.source.kernels(named.build);
-            return stream.closed ? undefined : this.stay(stream);
-        }
-        if (!this.asked.has(named.build))
+        const isNear = this.isNear(stream);
+        if (!isNear && !this.asked.has(named.build))
             await Promise.race([
                 Promise.all([...this.streams].map(({ said }) => said)),
                 new Promise((go) => setTimeout(go, MOMENT)),
             ]);
         if (stream.closed) return;
         const need = { ...named, build: this.buildFor(named.build) };
-        if (!this.alone) this.free(need.build); // so that a thread starts while the kernels come
+        if (!this.alone && !isNear) this.free(need.build); // so that a thread starts while the kernels come
         const kernels = await this.source
             .kernels(need.build)
             .catch((error: unknown) => stream.fail(error instanceof Error ? error : new Error(`${error}`)));
         if (!kernels || stream.closed) return;
         [stream.kernels, stream.need] = [kernels, need];
-        this.place(stream);
+        if (isNear) void this.stay(stream);
+        else this.place(stream);
+    }
+
+    /** Whether a stream is decoded here: it is small and the only one, nobody wants helpers, and no thread waits for it. */
+    private isNear({ need: { build, members, vertices = 0 }, wishes }: PooledStream): boolean {
+        const isSmall = vertices > 0 && vertices <= SMALL && members < (wishes.worthwhile ?? Infinity);
+        if (wishes.tolerant || build === "moving" || build === "whole" || !isSmall) return false;
+        const isServed = this.hands.some(
+            ({ thread, ready, streams }) => ready && streams.size === 0 && thread === threadOf(build),
+        );
+        return build === this.source.embedded || (this.streams.size === 1 && !isServed);
     }
 
     /**
@@ -188,7 +199,7 @@ export class Pool {
 
     /** Have a thread without work, if there may be one more, before a stream says what it needs. */
     private expect({ tolerant, guess = "small" }: StreamWishes): void {
-        if (this.source.isNear && guess !== "whole") return; // the header tells whether a thread is needed
+        if (this.source.embedded && guess !== "whole") return; // the header tells whether a thread is needed
         if (this.alone || this.hands.length >= this.limit || this.hands.some(({ streams }) => streams.size === 0))
             return;
         this.start(tolerant ? "whole" : guess);
@@ -285,12 +296,13 @@ export class Pool {
             .catch((error: unknown) => stream.fail(new Error(`${error}`)));
         let worker: StreamWorker | undefined;
         const hear = (report: Report): void => (stream.task === task ? stream.hear(report) : undefined);
+        const act = (message: Message): void => {
+            if (stream.closed || "stop" in message) worker?.stop();
+            else if ("start" in message) worker = local?.openDesk({ ...message.start, helpers: [] }, hear);
+            else if ("data" in message) worker?.take(message.data);
+        };
         stream.work((message) => {
-            setTimeout(() => {
-                if (stream.closed || "stop" in message) worker?.stop();
-                else if ("start" in message) worker = local?.openDesk({ ...message.start, helpers: [] }, hear);
-                else if ("data" in message) worker?.take(message.data);
-            });
+            for (const part of partsOf(message)) setTimeout(() => act(part)); // the page may draw in between
         }, []);
     }
 
@@ -419,10 +431,18 @@ class PooledStream {
     /** Begin again with the decoder of everything, which reports what has not been reported yet. */
     private restart(): void {
         this.say?.({ task: this.task, stop: true }, []);
-        [this.say, this.task] = [undefined, -1];
+        [this.say, this.task, this.begun] = [undefined, -1, false];
         this.end();
         this.begin({ ...this.need, build: "whole" });
     }
+}
+
+/** A message, its bytes in small pieces. */
+function partsOf(message: Message): Message[] {
+    if (!("data" in message) || !message.data) return [message];
+    const { data, task } = message;
+    const count = Math.max(1, Math.ceil(data.length / PIECE));
+    return Array.from({ length: count }, (_, i) => ({ task, data: data.subarray(i * PIECE, (i + 1) * PIECE) }));
 }
 
 function joined(pieces: (Uint8Array | null)[]): Uint8Array {

@@ -2,16 +2,16 @@
 import type { StreamWorker, Say, Start } from "./worker";
 import { compiled, once, resolved } from "./fetched";
 import { started } from "./threads";
-import { isLight, type Build, type Need, type Thread } from "./peek";
+import type { Build, Thread } from "./peek";
 
 export interface Source {
     /** A thread that decodes; undefined where there can be none. */
     worker(thread: Thread): Worker | undefined;
     kernels(build: Build): Promise<WebAssembly.Module>;
-    /** The decoder for this thread, where there are no others. */
+    /** The decoder for this thread, where there are no others yet. */
     local(build: Build): Promise<{ openDesk(start: Start, say: Say): StreamWorker }>;
-    /** Whether a stream is decoded sooner in this thread, whose decoder is there, than another thread begins. */
-    isNear?(need: Need): boolean;
+    /** A build that is there without a request; no thread starts before the header of a stream asks for one. */
+    embedded?: Build;
 }
 
 /** What is written out here is what bundlers look for; webpack would make one file of all threads of one name. */
@@ -44,7 +44,7 @@ function beside(address: () => URL): URL {
     }
 }
 
-const local: Source["local"] = (build) => (isLight(build) ? import("./quick") : import("./index"));
+const local: Source["local"] = (build) => (build === "whole" ? import("./index") : import("./workerSmall"));
 
 export const here: Source = {
     worker: (thread) => started(WORKERS[thread], () => new URL(fileOf(thread), HERE)),

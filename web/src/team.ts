@@ -49,6 +49,6 @@ export class Team {
             this.listener.onOver(answer.fault);
         } else if ("shared" in answer) this.listener.onBlock(answer.shared);
         else if (("through" in answer || "problem" in answer) && --this.busy === 0)
-            this.listener.onOver("all helpers are through");
+            this.listener.onOver("a block does not come");
     }
 }

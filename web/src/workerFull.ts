@@ -60,7 +60,7 @@ class DecodingWorker implements Taking {
 
     private report(): void {
         const wait = this.reporter.report();
-        if (wait === NEED_BLOCK && this.over !== undefined) throw new Error(`a block does not come: ${this.over}`);
+        if (wait === NEED_BLOCK && this.over !== undefined) throw new Error(this.over);
     }
 }
 
