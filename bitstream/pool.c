@@ -1,4 +1,6 @@
-/* Memory of the C library: pieces of regions of huge pages, once a decoder asks for so much that this pays. */
+/* Memory of the C library: pieces of regions of huge pages, once a decoder asks for so much that this pays.
+ *
+ * Large pieces are pages of their own, which the system has back at once: regions would keep what was freed. */
 #include "bitstream/pool.h"
 
 #if __STDC_HOSTED__
@@ -9,7 +11,8 @@
 #ifdef BSMDEC_POOL
 #include <sys/mman.h>
 
-enum { PAGE = 1 << 21, UNIT = 1 << 15, UNITS = 1 << 11, REGION = UNITS * UNIT, ENOUGH = 1 << 22 };
+enum { PAGE = 1 << 21, SMALL = 1 << 12, UNIT = 1 << 15, UNITS = 1 << 11, REGION = UNITS * UNIT };
+enum { ENOUGH = 1 << 22, LARGE = 1 << 22 };
 
 /* The beginning of its own memory, which is much more than most decoders take: pages never written take none. */
 struct Region {
@@ -38,9 +41,11 @@ static void *take_units(Region *region, size_t units) {
     return NULL;
 }
 
-/* Whole pages from the system: malloc would keep the parts between aligned ones. Without huge pages, small ones do. */
+static size_t whole_pages(size_t size) { return (size + SMALL - 1) / SMALL * SMALL; }
+
+/* Pages from the system, huge ones and small ones for the rest: malloc would keep the parts between aligned ones. */
 static void *take_pages(size_t size) {
-    size = (size + PAGE - 1) / PAGE * PAGE;
+    size = whole_pages(size);
     char *memory = mmap(NULL, size + PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED) return NULL;
     size_t before = -(uintptr_t)memory % PAGE;
@@ -50,7 +55,7 @@ static void *take_pages(size_t size) {
     return memory + before;
 }
 
-static void give_pages(void *memory, size_t size) { munmap(memory, (size + PAGE - 1) / PAGE * PAGE); }
+static void give_pages(void *memory, size_t size) { munmap(memory, whole_pages(size)); }
 
 static void *take_of_regions(Pool *pool, size_t units) {
     for (Region *region = pool->regions; region != NULL; region = region->next) {
@@ -77,7 +82,7 @@ static bool give_to_regions(const Pool *pool, const void *memory, size_t units) 
 static void *take(void *host, size_t size) {
     Pool *pool = host;
     if (pool == NULL || size < UNIT || size > SIZE_MAX / 2) return malloc(size);
-    if (size > REGION) return take_pages(size);
+    if (size >= LARGE) return take_pages(size);
     lock(pool);
     bool enough = pool->taken >= ENOUGH;
     pool->taken += enough ? 0 : size;
@@ -88,13 +93,13 @@ static void *take(void *host, size_t size) {
 
 static void give(void *host, void *memory, size_t size) {
     Pool *pool = host;
-    if (pool != NULL && size >= UNIT) {
+    if (pool != NULL && size >= UNIT && size < LARGE) {
         lock(pool);
         bool given = give_to_regions(pool, memory, (size + UNIT - 1) / UNIT);
         unlock(pool);
         if (given) return;
     }
-    if (pool != NULL && size > REGION)
+    if (pool != NULL && size >= LARGE)
         give_pages(memory, size);
     else
         free(memory);

@@ -15,7 +15,7 @@ from bsm.bitstream.container.wire import PREAMBLE_BYTES
 from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, OptionError, UnsupportedError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec import events
-from bsm.codec.arrays import Faces
+from bsm.codec.arrays import Faces, sealed
 from bsm.codec.choices import checked_whole
 from bsm.codec.geometry.attributes import DOMAINS, SEMANTICS, Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -286,8 +286,9 @@ class Decoder(StreamDecoder):
                 progress(self._open.state().offset, self._received)
         assert self._sizes is not None
         vertices, faces = self._sizes
-        engine = self._open
-        return TriangleMesh(engine.positions(vertices), engine.faces(faces), self.attributes, self.metadata)
+        # Sealed, so that the mesh has these arrays and no copies.
+        positions, triangles = sealed(self._open.positions(vertices)), sealed(self._open.faces(faces))
+        return TriangleMesh(positions, triangles, self.attributes, self.metadata)
 
     finish = decode_rest  # its name in earlier releases
 

@@ -78,8 +78,9 @@ class TriangleMesh:
             raise MeshError(f"faces must have shape (m, 3), not {faces.shape}; triangulate polygons first")
         if faces.dtype.kind not in "iu":
             raise MeshError(f"faces must be integers, not {faces.dtype}")
-        bad = (faces < 0) | (faces >= len(positions))
-        if bad.any():
+        # The least and the largest first: masks of all corners are as large as a quarter of the faces.
+        if faces.min() < 0 or faces.max() >= len(positions):
+            bad = (faces < 0) | (faces >= len(positions))
             row = int(np.argmax(bad.any(axis=1)))
             raise MeshError(f"face {row} refers to vertex {faces[row].tolist()}, outside 0..{len(positions) - 1}")
         faces = faces.astype(np.int32, copy=False)
