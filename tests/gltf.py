@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bsm.files.formats.polygons import MeshFile
-from bsm.files.mesh import read_mesh
+from bsm import MeshFile, read_mesh
 from bsm.gltf.coding import COMPONENTS
 from tests.shapes import torus
 

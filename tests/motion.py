@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from bsm import TriangleMesh
+from bsm import Limits, TriangleMesh
 from bsm.files.motion.caches import write_cache
-from bsm.files.motion.frames import Shared
-from bsm.files.sequence import sequence_writer
+from bsm.files.motion.frames import Frames, Shared, Wanted
+from bsm.files.sequence import open_sequence, sequence_writer
 from tests.shapes import torus
 from tools.vectors import meshes as vectors
 
@@ -23,6 +24,18 @@ def bending(frames: int, rows: int = 30, columns: int = 16) -> tuple[np.ndarray,
         wave = 0.1 * np.sin(3 * x + 2 * t)
         result.append(np.stack([c * x - s * y, (s * x + c * y) * (1 + 0.2 * np.sin(t)), z + wave], axis=1))
     return np.array(result), mesh.faces
+
+
+def sequence_in(
+    source: Any,
+    file_format: str | None = None,
+    *,
+    limits: Limits | None = None,
+    isolated: bool | None = None,
+    **wanted: Any,
+) -> Frames | None:
+    """The sequence that commands read of a source."""
+    return open_sequence(source, file_format, Wanted(**wanted), limits or Limits(), isolated=isolated)
 
 
 def save_frames(path: Path, kind: str, positions: np.ndarray, faces: np.ndarray, shared: Shared | None = None) -> None:

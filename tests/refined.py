@@ -4,11 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from bsm import EncodeOptions, Encoder, TriangleMesh
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.container.packets import Grid, Packet, Refinement
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.ways.grid import grid_field, levels_field
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
 from tests.streams import write_stream

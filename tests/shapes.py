@@ -1,15 +1,17 @@
 """Small meshes with known properties."""
 
+import io
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bsm import Attribute, TriangleMesh
+from bsm import Attribute, TriangleMesh, save
 from bsm.codec.geometry.metrics import Reference
+from bsm.evaluation.sample import knot
 from tools.vectors.meshes import grid_faces, patch, tetrahedron, together, torus
 
-__all__ = ["grid_faces", "patch", "tetrahedron", "together", "torus"]  # besides what is here
+__all__ = ["grid_faces", "knot", "patch", "tetrahedron", "together", "torus"]  # besides what is here
 Faces = NDArray[np.int32]
 
 
@@ -105,3 +107,10 @@ def in_rows(kind: str, random: np.random.Generator) -> TriangleMesh:
         return TriangleMesh(top, faces)
     below = top - spacing * np.array([0.0, 0.0, 0.6])
     return TriangleMesh(np.vstack([top, below]), np.vstack([faces, faces[:, ::-1] + len(top)]).astype(np.int32))
+
+
+def file_of(mesh: TriangleMesh, kind: str) -> bytes:
+    """A mesh as a file."""
+    file = io.BytesIO()
+    save(mesh, file, format=kind)
+    return file.getvalue()

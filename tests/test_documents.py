@@ -20,10 +20,9 @@ import pytest
 
 import bsm
 from bsm import Attribute, TriangleMesh
-from bsm.evaluation.sample import knot
-from bsm.files.mesh import write_mesh
 from tests.bsm.program import declare_entry_points
 from tests.bsm.test_libraries import painted
+from tests.shapes import knot
 from tools import docs_pages
 from tools.docs_pages import exit_codes
 from tools.noise import gaussian_along_normals
@@ -99,22 +98,22 @@ def folder(tmp_path_factory):
     mesh = knot(600)
     folder = tmp_path_factory.mktemp("made")
     declare_entry_points(folder / "site")
-    write_mesh(folder / "spot.obj", painted(mesh))
+    bsm.save(painted(mesh), folder / "spot.obj")
     for name in ("bunny.ply", "a.ply", "b.obj", "c.stl"):
-        write_mesh(folder / name, mesh)
+        bsm.save(mesh, folder / name)
     noisy = gaussian_along_normals(mesh.positions, mesh.faces, 0.2, 0)
-    write_mesh(folder / "scan.ply", TriangleMesh(noisy, mesh.faces))
+    bsm.save(TriangleMesh(noisy, mesh.faces), folder / "scan.ply")
     frames = np.array([mesh.positions * (1 + 0.1 * np.sin(t)) for t in range(4)])
     np.savez(folder / "dance.npz", positions=frames, faces=mesh.faces)
     for name in ("capture", "scans"):
         (folder / name).mkdir()
         for number, shape in enumerate((mesh, mesh, knot(300))):
-            write_mesh(folder / f"{name}/{number}.ply", shape)
+            bsm.save(shape, folder / f"{name}/{number}.ply")
     (folder / "painted").mkdir()
     for number, frame in enumerate(frames):
         shades = np.full((len(frame), 3), 40 * number, np.uint8)
         shape = TriangleMesh(frame, mesh.faces, [Attribute("color", shades, semantic="color")])
-        write_mesh(folder / f"painted/{number}.ply", shape)
+        bsm.save(shape, folder / f"painted/{number}.ply")
     programs = {
         "bsm": f'exec "{sys.executable}" -m bsm "$@"',
         "python": f'exec "{sys.executable}" "$@"',

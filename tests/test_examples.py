@@ -17,8 +17,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.evaluation.sample import knot
-from bsm.files.mesh import written_mesh
+from tests.shapes import file_of, knot
 from tools.noise import gaussian_along_normals
 
 ROOT = Path(__file__).parents[1]
@@ -103,7 +102,7 @@ def test_a_corpus_behind_urls(capsys, monkeypatch):
 
 
 def off(mesh):
-    return written_mesh(mesh, "off").data
+    return file_of(mesh, "off")
 
 
 SECONDS = 10.0

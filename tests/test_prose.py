@@ -8,15 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import Decoder, EndEvent, denoise, encode
+from bsm import Decoder, EncodeOptions, EndEvent, denoise, encode, read_mesh
 from bsm.codec.blocks.overlap import block_size, grow_blocks, metis_partition
 from bsm.codec.denoise.coarse import OVERLAP, RULES
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
-from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.ways.in_cells import CHAIN, SPREADS
 from bsm.files.inspection import Skimmer, StreamInfo, inspect_stream
-from bsm.files.mesh import read_mesh
 from tests.codec.static.test_cells import stream
 from tests.shapes import theta
 from tools.replicate.quotes import KEPT

@@ -12,9 +12,9 @@ import pytest
 import bsm
 from bsm.account.images import compare_image, compare_images, file_of
 from bsm.cli import COMMANDS, command_parser, main
-from bsm.files.sequence import open_sequence
 from bsm.ground.console import for_command
 from bsm.viewer.contents import compared
+from tests.motion import sequence_in
 from tests.shapes import torus
 
 MESH = torus(24, 16)
@@ -139,7 +139,7 @@ def test_fields_of_a_sequence_have_the_errors_that_compare_finds(moving, capsys)
     assert told["max_error_relative"] == pytest.approx(found["max_error_relative"], rel=1e-6)
     assert 0 < found["max_error"] <= 0.005
     assert "left out: Normals; a sequence has no normals, which follow from positions" in told["notes"]
-    page = compared("w", output.read_bytes(), open_sequence(str(moving / "in"))).facts["attributes"]
+    page = compared("w", output.read_bytes(), sequence_in(str(moving / "in"))).facts["attributes"]
     assert {name: page[name] for name in ("p", "U", "color")} == {
         name: found["attributes"][name] for name in ("p", "U", "color")
     }

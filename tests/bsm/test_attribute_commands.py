@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import Attribute, TriangleMesh
+from bsm import Attribute, TriangleMesh, read_mesh
 from bsm.cli import main
-from bsm.files.mesh import read_mesh, write_mesh
 from tests.bsm.files.test_file_attributes import attribute, dressed, png
 from tests.bsm.program import run_json
 from tests.bsm.test_libraries import painted
@@ -24,7 +23,7 @@ def notes(capsys, *words):
 
 
 def test_everything_comes_back(tmp_path):
-    write_mesh(tmp_path / "a.obj", painted())
+    bsm.save(painted(), tmp_path / "a.obj")
     (tmp_path / "a.npz").write_bytes(b"")
     bsm.save(painted(), tmp_path / "a.npz")
     for source in ("a.obj", "a.npz"):
@@ -165,8 +164,8 @@ def test_a_permutation_takes_attributes_along(tmp_path):
 
 def test_compare_tells_what_is_not_there_any_more(tmp_path, capsys):
     mesh = dressed()
-    write_mesh(tmp_path / "a.npz", mesh)
-    write_mesh(tmp_path / "b.off", mesh)
+    bsm.save(mesh, tmp_path / "a.npz")
+    bsm.save(mesh, tmp_path / "b.off")
     errors = run_json("compare", tmp_path / "a.npz", tmp_path / "b.off")["attributes"]
     assert errors["height"] is None and errors["color"]["max_error"] == 0 and errors["normal"]["max_angle_deg"] == 0
     assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "b.off")]) == 0

@@ -13,15 +13,14 @@ from functools import partial
 import numpy as np
 import pytest
 
-from bsm import OptionError, TriangleMesh
+from bsm import OptionError, TriangleMesh, read_mesh, save
 from bsm.cli import main
-from bsm.evaluation.sample import knot
-from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.pipes import _errors_of
 from bsm.jobs.plan import plan
 from bsm.jobs.report import table
 from tests.bsm import program
 from tests.bsm.test_libraries import painted
+from tests.shapes import knot
 from tools.noise import gaussian_along_normals
 
 ROOT = program.ROOT
@@ -34,7 +33,7 @@ def meshes(tmp_path_factory):
     """A folder with a.npz, b.npz and c.npz, of different meshes."""
     folder = tmp_path_factory.mktemp("meshes")
     for name, size in (("a", 400), ("b", 500), ("c", 600)):
-        write_mesh(folder / f"{name}.npz", knot(size))
+        save(knot(size), folder / f"{name}.npz")
     return folder
 
 
@@ -150,7 +149,7 @@ def test_outputs_that_the_user_did_not_name_are_not_written_through_links(meshes
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
 def test_a_signal_leaves_no_half_file_and_no_process(number, code, tmp_path):
     for name in ("a", "b", "c"):
-        write_mesh(tmp_path / f"{name}.npz", knot(40_000))
+        save(knot(40_000), tmp_path / f"{name}.npz")
     output = tmp_path / "out"
     command = [sys.executable, "-m", "bsm", "encode", *sorted(tmp_path.iterdir()), "-o", f"{output}/", "-j", "2"]
     with subprocess.Popen(
@@ -243,7 +242,7 @@ def on_a_terminal(*arguments):
 
 @pytest.mark.slow
 def test_one_bar_for_a_search_with_the_time_left(tmp_path):
-    write_mesh(tmp_path / "a.npz", knot(80_000))
+    save(knot(80_000), tmp_path / "a.npz")
     words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--set", "keep=0.3", "--threads", "1"]
     shown = on_a_terminal(*words, "--theta", "4")
     assert re.search(r"encoding: +\d+%", shown) and "<00:" in shown
@@ -252,7 +251,7 @@ def test_one_bar_for_a_search_with_the_time_left(tmp_path):
     assert len(shares) > 3 and max(shares) <= 100
     assert result.strip() == "", "the bar is gone"
     assert any(frame.strip().startswith(str(tmp_path)) for frame in frames)
-    write_mesh(tmp_path / "a.npz", knot(2000))
+    save(knot(2000), tmp_path / "a.npz")
     assert on_a_terminal(*words, "-f", "-q") == ""
 
 
@@ -271,7 +270,7 @@ def test_stages_are_named_while_a_mesh_is_denoised(tmp_path):
     pytest.importorskip("scipy")
     mesh = knot(2000)
     noisy = gaussian_along_normals(mesh.positions, mesh.faces, 0.2, 0)
-    write_mesh(tmp_path / "a.npz", TriangleMesh(noisy, mesh.faces))
+    save(TriangleMesh(noisy, mesh.faces), tmp_path / "a.npz")
     shown = on_a_terminal("denoise", tmp_path / "a.npz", "-o", tmp_path / "b.npz")
     # A fast machine may not show every stage.
     assert re.search(r"(rehearsing \d+ of \d+|filtering): +\d+%", shown), shown
@@ -318,7 +317,7 @@ def keys_of(facts, listed, before=""):
 
 def test_the_documents_list_all_keys_of_reports_and_of_info(corpus, meshes, tmp_path):
     listed = re.findall(r"^\| `([\w.]+)`", (ROOT / "docs/json.md").read_text(), re.MULTILINE)
-    write_mesh(corpus / "painted.obj", painted(knot(100)))
+    save(painted(knot(100)), corpus / "painted.obj")
     np.savez(tmp_path / "moving.npz", positions=np.stack([knot(100).positions] * 2), faces=knot(100).faces)
     encode = ("encode", "-r", corpus, "-o", tmp_path / "out", "--max-error", "0.1mm", "--meta", "unit=mm")
     moving = ("encode", "-f", tmp_path / "moving.npz", "-o", tmp_path / "out/moving.bsm")

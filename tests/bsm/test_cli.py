@@ -8,13 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bsm import read_mesh, save
 from bsm.cli import COMMANDS, main
 from bsm.commands.flags import FLAGS
-from bsm.evaluation.sample import knot
-from bsm.files.mesh import read_mesh, write_mesh
 from bsm.ground.exits import EXITS
 from tests.bsm.program import ROOT, bsm, process, python, run_json
-from tests.shapes import torus
+from tests.shapes import knot, torus
 
 SMALL = ["--set", "block-size=150", "--threads", "1", "--set", "step=0.004"]
 
@@ -28,7 +27,7 @@ def mesh():
 def folder(tmp_path_factory, mesh):
     """A folder with sample.ply and its stream."""
     folder = tmp_path_factory.mktemp("cli")
-    write_mesh(folder / "sample.ply", mesh)
+    save(mesh, folder / "sample.ply")
     assert main(["encode", str(folder / "sample.ply"), "-q", "--permutation", str(folder / "order.npy"), *SMALL]) == 0
     return folder
 
@@ -142,7 +141,7 @@ def test_the_demo_draws_a_picture_without_a_library(tmp_path, monkeypatch):
 
 
 def test_what_is_left_of_a_damaged_stream_is_written(tmp_path, capsys):
-    write_mesh(tmp_path / "whole.ply", torus(30, 30))
+    save(torus(30, 30), tmp_path / "whole.ply")
     whole = tmp_path / "whole.bsm"
     main(["encode", str(tmp_path / "whole.ply"), "-q", *SMALL, "--set", "key_interval=1"])
     data = bytearray(whole.read_bytes())
@@ -243,7 +242,7 @@ def test_the_flags_are_fields_and_show_their_defaults():
 )
 def test_an_empty_name_is_an_error(words, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    write_mesh(tmp_path / "a.ply", torus(8, 6))
+    save(torus(8, 6), tmp_path / "a.ply")
     before = sorted(tmp_path.iterdir())
     done = bsm(*words, text=True)
     assert done.returncode == 2 and "is empty; name a file" in done.stderr, done.stderr

@@ -11,9 +11,8 @@ from bsm import Attribute, EncodeOptions, Encoder, FormatError, MeshError, Trian
 from bsm.account.comparison import in_order_of, read_permutation, reorder, write_permutation
 from bsm.cli import main
 from bsm.codec.look.measure import LOOK_VERSION, LookMetric
-from bsm.evaluation.sample import knot
 from tests.bsm.program import run_json
-from tests.shapes import soup, tetrahedron, torus
+from tests.shapes import knot, soup, tetrahedron, torus
 
 
 @pytest.fixture

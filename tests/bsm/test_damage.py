@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm import Attribute, TriangleMesh
 from bsm.bitstream.container.wire import FrameType, sections_of
 from bsm.cli import main
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
 from tests.shapes import torus
 
 WORDS = {

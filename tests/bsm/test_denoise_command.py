@@ -12,16 +12,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import DenoiseOptions, MeshError, TriangleMesh, api
+from bsm import DenoiseOptions, MeshError, TriangleMesh, api, read_mesh, save
 from bsm.codec import denoise as library
 from bsm.codec.denoise import filters, rehearsal, surface
 from bsm.codec.denoise.coarse import FEWEST_FRAMES
 from bsm.codec.denoise.frames import WINDOW
 from bsm.commands.denoise import FINISHES, GOALS, _found
 from bsm.commands.flags import FLAGS
-from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from tests.bsm import program
-from tests.shapes import mnd, theta, torus
+from tests.shapes import file_of, mnd, theta, torus
 from tools.noise import denoise_automatically, gaussian_along_normals
 from tools.sampled import ball, voxelized
 
@@ -34,7 +33,7 @@ FEW = ("--iterations", "2", "--block-size", "200")
 @pytest.fixture(scope="module")
 def noisy_file(tmp_path_factory) -> Path:
     path = tmp_path_factory.mktemp("denoise") / "noisy.ply"
-    write_mesh(path, TriangleMesh(NOISY, CLEAN.faces))
+    save(TriangleMesh(NOISY, CLEAN.faces), path)
     return path
 
 
@@ -74,14 +73,14 @@ def test_without_options_it_says_what_it_chose(noisy_file, tmp_path):
 def test_no_error_is_promised_where_none_is_known(tmp_path, goal):
     pytest.importorskip("vtkmodules")
     stairs = voxelized(ball, 30)
-    write_mesh(tmp_path / "stairs.ply", TriangleMesh(stairs.positions, stairs.faces))
+    save(TriangleMesh(stairs.positions, stairs.faces), tmp_path / "stairs.ply")
     said = bsm("denoise", tmp_path / "stairs.ply", "-o", tmp_path / "out.ply", "--for", goal).stderr
     assert "stairs along x, y and z" in said and "the error cannot be estimated here" in said
     assert " -> 0.00" not in said and "rays" not in said
 
 
 def test_a_clean_mesh_comes_back_with_a_sentence(tmp_path):
-    write_mesh(tmp_path / "clean.npz", CLEAN)
+    save(CLEAN, tmp_path / "clean.npz")
     ran = bsm("denoise", tmp_path / "clean.npz", "-o", tmp_path / "out.npz")
     assert ran.returncode == 0
     assert "unchanged  " in ran.stderr
@@ -93,12 +92,8 @@ def test_a_clean_mesh_comes_back_with_a_sentence(tmp_path):
 
 def test_a_mesh_that_stays_as_it_was_is_copied_with_what_it_names(tmp_path):
     (tmp_path / "out").mkdir()
-    named = b"mtllib red.mtl\nusemtl red\n" + written_mesh(CLEAN, "obj").data + b"# as it was\n"
-    files = {
-        "red.mtl": b"newmtl red\nKd 1 0 0\n",
-        "clean.obj": named,
-        "clean.glb": written_mesh(CLEAN, "glb").data + b"    ",
-    }
+    named = b"mtllib red.mtl\nusemtl red\n" + file_of(CLEAN, "obj") + b"# as it was\n"
+    files = {"red.mtl": b"newmtl red\nKd 1 0 0\n", "clean.obj": named, "clean.glb": file_of(CLEAN, "glb") + b"    "}
     for name, data in files.items():
         (tmp_path / name).write_bytes(data)
     for name in ("clean.obj", "clean.glb"):
@@ -111,7 +106,7 @@ def test_a_mesh_that_stays_as_it_was_is_copied_with_what_it_names(tmp_path):
 
 
 def test_harm_has_an_exit_code_of_its_own_and_writes_nothing_unless_forced(tmp_path):
-    write_mesh(tmp_path / "clean.npz", CLEAN)
+    save(CLEAN, tmp_path / "clean.npz")
     arguments = ("denoise", tmp_path / "clean.npz", "-o", tmp_path / "out.npz", "--keep", "0.05", *FEW)
     ran = bsm(*arguments)
     assert ran.returncode == 11
@@ -156,7 +151,7 @@ def test_an_npz_sequence_is_denoised_frame_by_frame(frames, tmp_path):
 def test_a_folder_of_frames_becomes_a_folder(frames, tmp_path):
     (tmp_path / "in").mkdir()
     for number, frame in enumerate(frames[:3]):
-        write_mesh(tmp_path / "in" / f"frame{number}.obj", TriangleMesh(frame, CLEAN.faces))
+        save(TriangleMesh(frame, CLEAN.faces), tmp_path / "in" / f"frame{number}.obj")
     ran = bsm("denoise", tmp_path / "in", "-o", tmp_path / "out", *FEW)
     assert ran.returncode == 0, ran.stderr
     assert len(list((tmp_path / "out").iterdir())) == 3
@@ -216,7 +211,7 @@ def test_no_more_than_a_few_frames_are_held():
 
 
 def test_compare_measures_surfaces_when_asked_to(noisy_file, tmp_path):
-    write_mesh(tmp_path / "clean.npz", CLEAN)
+    save(CLEAN, tmp_path / "clean.npz")
     plain, full = (
         json.loads(bsm("compare", tmp_path / "clean.npz", noisy_file, "--json", *flag).stdout)
         for flag in ((), ("--surface",))
@@ -233,7 +228,7 @@ def test_the_default_name_a_folder_of_meshes_and_strength(noisy_file, tmp_path):
     folder = tmp_path / "scans"
     folder.mkdir()
     shutil.copy(noisy_file, folder / "a.ply")
-    write_mesh(folder / "b.ply", TriangleMesh(CLEAN.positions, CLEAN.faces[:-1]))
+    save(TriangleMesh(CLEAN.positions, CLEAN.faces[:-1]), folder / "b.ply")
     ran = bsm("denoise", folder, "-o", tmp_path / "out")
     assert ran.returncode == 0, ran.stderr
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["a.ply", "b.ply"]

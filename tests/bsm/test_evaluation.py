@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from bsm import CorruptError, EncodeOptions, MeshError, TriangleMesh
+from bsm import CorruptError, EncodeOptions, MeshError, TriangleMesh, save
 from bsm.cli import main
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
@@ -34,10 +34,8 @@ from bsm.evaluation.curve import (
     run_curve,
     table,
 )
-from bsm.evaluation.sample import knot
-from bsm.files.mesh import write_mesh
 from bsm.ground.pictures import render, view_matrix
-from tests.shapes import patch, torus
+from tests.shapes import knot, patch, torus
 from tools.laplacians import dense_laplacian
 from tools.replicate.paper.compression import EXACT
 from tools.vectors.meshes import shuffled
@@ -246,7 +244,7 @@ class TestCommands:
     def test_each_point_of_a_rival_has_ours_beside_it(self, tmp_path, capsys):
         pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
         mesh, folder = tmp_path / "torus.npz", tmp_path / "out"
-        write_mesh(mesh, torus(20, 20, bumps=0.02))
+        save(torus(20, 20, bumps=0.02), mesh)
         (tmp_path / "mine.csv").write_text("label,bpv,nmsve_db\nmine,9,-41.3\nmine,12,-49.9\n")
         assert (
             main(["curve", str(mesh), "-o", str(folder), "--codecs", "ours", "-q", "--points", f"{tmp_path}/mine.csv"])
@@ -263,7 +261,7 @@ class TestCommands:
     def test_curve(self, tmp_path, capsys):
         for name in ("matplotlib", "pymetis", "zstandard"):
             pytest.importorskip(name, reason=f"needs {name} (extra eval)")
-        write_mesh(tmp_path / "torus.npz", torus(20, 20))
+        save(torus(20, 20), tmp_path / "torus.npz")
         folder = tmp_path / "out"
         words = ["curve", str(tmp_path / "torus.npz"), "-o", str(folder), "--codecs", "oi-r2,svd", "--blocks", "3"]
         assert main([*words, "-q", "--csv", "--latex", "--pdf"]) == 0
@@ -274,7 +272,7 @@ class TestCommands:
         assert len((folder / "points.csv").read_text().splitlines()) == 1 + points
 
     def test_everything_that_is_missing_is_named_before_anything_is_measured(self, tmp_path, capsys, monkeypatch):
-        write_mesh(tmp_path / "torus.npz", torus(20, 20))
+        save(torus(20, 20), tmp_path / "torus.npz")
         find = importlib.util.find_spec
         gone = ("pymetis", "zstandard", "DracoPy")
         monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in gone else find(name))
@@ -288,7 +286,7 @@ class TestCommands:
         pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
         pytest.importorskip("DracoPy", reason="needs DracoPy (extra eval)")
         mesh, picture = tmp_path / "torus.npz", tmp_path / "spot.PNG"
-        write_mesh(mesh, torus(20, 20))
+        save(torus(20, 20), mesh)
         words = ["curve", str(mesh), "-o", str(picture), "--codecs", "draco"]
         assert main(words) == 0
         assert picture.read_bytes().startswith(b"\x89PNG") and set(tmp_path.iterdir()) == {mesh, picture}

@@ -14,10 +14,8 @@ from pathlib import Path
 import pytest
 
 import bsm
-from bsm import ArgumentError, DependencyError, FormatError, OptionError
+from bsm import ArgumentError, DependencyError, FormatError, OptionError, read_mesh
 from bsm.cli import main
-from bsm.evaluation.sample import knot
-from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.output import open_output
 from bsm.ground.console import Console
 from bsm.jobs import workers
@@ -26,7 +24,7 @@ from bsm.jobs.task import Job, Task
 from tests.bsm.deadly import deadly
 from tests.bsm.program import ROOT, contents
 from tests.bsm.program import bsm as program
-from tests.shapes import torus
+from tests.shapes import knot, torus
 
 pytest.importorskip("fsspec")
 
@@ -36,7 +34,7 @@ def sources(tmp_path_factory):
     """Twelve meshes, each of its own."""
     folder = tmp_path_factory.mktemp("sources")
     for number in range(12):
-        write_mesh(folder / f"{number:02}.ply", torus(30 + number, 20))
+        bsm.save(torus(30 + number, 20), folder / f"{number:02}.ply")
     return sorted(map(str, folder.iterdir()))
 
 
@@ -86,7 +84,7 @@ def larger(tmp_path_factory):
     """Ten meshes that take a while."""
     folder = tmp_path_factory.mktemp("larger")
     for number in range(10):
-        write_mesh(folder / f"{number:02}.npz", knot(3_000, seed=number))
+        bsm.save(knot(3_000, seed=number), folder / f"{number:02}.npz")
     return sorted(map(str, folder.iterdir()))
 
 
@@ -357,7 +355,7 @@ def test_a_forged_report_lets_nothing_be_replaced(sources, tmp_path):
     ],
 )
 def test_what_no_report_says_is_refused_in_one_sentence(claim, tmp_path, capsys):
-    write_mesh(tmp_path / "a.ply", torus(5, 5))
+    bsm.save(torus(5, 5), tmp_path / "a.ply")
     entry = {"input": str(tmp_path / "a.ply"), "output": str(tmp_path / "a.bsm"), **claim}
     forged(tmp_path / "r.json", "encode_one", {}, entry, {**entry, "output": "b.bsm"})
     words = ("encode", tmp_path / "a.ply", "-q", "--report", tmp_path / "r.json", "--resume")

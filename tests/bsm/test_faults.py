@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
+from bsm import read_mesh, save
 from bsm.cli import main
-from bsm.evaluation.sample import knot
-from bsm.files.mesh import read_mesh, write_mesh
 from tests.bsm.program import bound
 from tests.bsm.program import process as run
+from tests.shapes import knot
 from tools.vectors.store import FOLDER as VECTORS
 
 ROOT = Path(__file__).parents[2]
@@ -25,8 +25,8 @@ OPTIONS = {"encode": ("--set", "step=0.004"), "decode": ()}
 def folder(tmp_path_factory):
     """A folder with sample.ply, its stream sample.bsm, and large.ply, which takes long."""
     folder = tmp_path_factory.mktemp("faults")
-    write_mesh(folder / "sample.ply", knot(900))
-    write_mesh(folder / "large.ply", knot(30_000))
+    save(knot(900), folder / "sample.ply")
+    save(knot(30_000), folder / "large.ply")
     assert main(["encode", str(folder / "sample.ply"), "-q", "--threads", "1", *OPTIONS["encode"]]) == 0
     return folder
 
@@ -138,7 +138,7 @@ run()
 @pytest.mark.parametrize("dropped", [False, True])
 def test_an_interrupt_is_one_whatever_an_import_makes_of_it(dropped, tmp_path):
     """Extension modules raise an ImportError in its place; where Python drops errors, it is repeated."""
-    write_mesh(tmp_path / "a.ply", knot(900))
+    save(knot(900), tmp_path / "a.ply")
     code = STOPS.format(dropped=dropped, mesh=str(tmp_path / "a.ply"))
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
     assert (done.returncode, done.stderr) == (130, "bsm: interrupted\n")

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm import read_mesh
 from bsm.cli import main
 from bsm.files import conventions
-from bsm.files.mesh import read_mesh
 from bsm.gltf.document import read_document
 from tests.bsm.files.test_doors import SHOWN, collada
 from tests.bsm.files.test_file_attributes import attribute

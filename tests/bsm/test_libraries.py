@@ -12,9 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import bsm
-from bsm import ArgumentError, Attribute, MeshError, TriangleMesh
+from bsm import ArgumentError, Attribute, MeshError, TriangleMesh, read_mesh
 from bsm.files.libraries import as_mesh
-from bsm.files.mesh import read_mesh, write_mesh
 from tests.bsm.files.test_file_attributes import attribute, dressed, png
 from tests.bsm.program import declare_entry_points, python
 from tests.shapes import at_corners, tetrahedron, torus
@@ -277,7 +276,7 @@ def same(mesh, other):
 def test_our_own_are_taken_as_they_are(tmp_path):
     mesh = torus(6, 5)
     assert as_mesh(mesh) is mesh
-    write_mesh(tmp_path / "a.npz", mesh)
+    bsm.save(mesh, tmp_path / "a.npz")
     assert same(as_mesh(read_mesh(tmp_path / "a.npz")), mesh)
     assert same(as_mesh(tmp_path / "a.npz"), mesh)
 

@@ -13,10 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from bsm import encode
+from bsm import encode, save
 from bsm.cli import main
 from bsm.commands import encode as encode_module
-from bsm.files.mesh import write_mesh
 from bsm.files.output import open_output
 from bsm.jobs import plan as plan_module
 from bsm.jobs.plan import plan
@@ -254,7 +253,7 @@ def test_an_attempt_that_was_cut_off_may_be_made_again(tmp_path):
 )
 @pytest.mark.skipif(sys.platform != "linux", reason="a shell and a device that is always full")
 def test_no_result_is_lost_for_a_note(closed, words, tmp_path):
-    write_mesh(tmp_path / "a.ply", torus(12, 8))
+    save(torus(12, 8), tmp_path / "a.ply")
     (tmp_path / "a.bsm").write_bytes(encode(tmp_path / "a.ply"))
     ended = subprocess.run(f"{sys.executable} -m bsm {words} {closed}", shell=True, cwd=tmp_path, capture_output=True)
     assert ended.returncode == 0
@@ -270,7 +269,7 @@ def test_links_that_appear_after_planning_are_not_followed(command, there, tmp_p
     victim, out = tmp_path / "victim", tmp_path / "out"
     given = [tmp_path / f"{name}.{'bsm' if command == 'decode' else 'ply'}" for name in "ab"]
     for name in given:
-        write_mesh(tmp_path / "mesh.ply", torus(12, 8))
+        save(torus(12, 8), tmp_path / "mesh.ply")
         name.write_bytes(encode(tmp_path / "mesh.ply") if command == "decode" else (tmp_path / "mesh.ply").read_bytes())
     suffix = ".bsm" if command == "encode" else ".ply"
     planned = plan_module.refuse_collisions
@@ -298,7 +297,7 @@ def test_a_folder_that_becomes_a_link_is_not_followed(beside, tmp_path, monkeypa
     (given / "sub").mkdir(parents=True)
     victim.mkdir()
     for name in (given / "a.ply", given / "sub" / "b.ply", victim / "b.ply"):
-        write_mesh(name, torus(12, 8))
+        save(torus(12, 8), name)
     (victim / "b.bsm").write_bytes(b"precious")
     out = given if beside else tmp_path / "out"
 

@@ -19,7 +19,6 @@ from bsm import Paper
 from bsm.cli import main
 from bsm.codec.progress import Stages
 from bsm.encoding import options
-from bsm.files.mesh import write_mesh
 from bsm.ground.console import Console, printable
 from bsm.jobs.encode import clocked
 from bsm.viewer.contents import Content, uploaded
@@ -80,7 +79,7 @@ def test_a_batch_that_is_stopped_leaves_whole_files_alone(jobs, tmp_path):
     for folder in (given, out):
         folder.mkdir()
     for number in range(4):
-        write_mesh(given / f"{number}.ply", MESH)
+        bsm.save(MESH, given / f"{number}.ply")
     heard = []
 
     def stop(done, total):

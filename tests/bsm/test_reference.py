@@ -12,8 +12,8 @@ import pytest
 
 import bsm
 from bsm.cli import main
-from bsm.evaluation.sample import knot
 from tests.bsm.test_libraries import painted
+from tests.shapes import knot
 from tools.docs_pages import MODULES, reference
 from tools.noise import gaussian_along_normals
 

@@ -5,8 +5,7 @@ import pytest
 
 import bsm
 from bsm import research
-from bsm.evaluation.sample import knot
-from tests.shapes import patch, torus
+from tests.shapes import knot, patch, torus
 
 MESH = knot(2000)
 PARTS = patch(20, 15), torus(20, 15), torus(15, 20), torus(24, 9)

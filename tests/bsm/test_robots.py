@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm import read_mesh
 from bsm.cli import main
-from bsm.files.mesh import read_mesh, write_mesh
 from tests.shapes import torus
 
 SHAPE = torus(16, 12)
@@ -29,7 +29,7 @@ def robot(tmp_path, monkeypatch):
         (folder / "skin.mtl").write_text("newmtl skin\nmap_Kd skin.png\n")
         for name in ("hand.obj", "foot.obj"):
             (folder / name).write_text(f"mtllib skin.mtl\n{places}{flat}usemtl skin\n{faces}")
-        write_mesh(folder / "hand.STL", SHAPE)
+        bsm.save(SHAPE, folder / "hand.STL")
     return sum(path.stat().st_size for path in Path("robot").rglob("*") if path.is_file())
 
 
@@ -122,7 +122,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     Path("arm/notes.xml").write_text("<notes/>")
     Path("arm/scene.xml").write_text("<!-- a scene -->\n<mujoco/>")
     write_dae_of_a_maker(Path("arm/meshes/base.dae"), 0.01)
-    write_mesh("arm/meshes/hand.stl", bsm.TriangleMesh(1000 * SHAPE.positions, SHAPE.faces))
+    bsm.save(bsm.TriangleMesh(1000 * SHAPE.positions, SHAPE.faces), "arm/meshes/hand.stl")
     return tmp_path
 
 

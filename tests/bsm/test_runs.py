@@ -7,14 +7,11 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import Attribute
-from bsm.files.mesh import read_mesh, write_mesh
-from bsm.files.motion.frames import Wanted
-from bsm.files.sequence import open_sequence
+from bsm import Attribute, read_mesh
 from bsm.files.table import FORMATS
 from tests.bsm.program import run
 from tests.gltf import unpack
-from tests.motion import capture
+from tests.motion import capture, sequence_in
 from tests.shapes import ply_head
 from tools.vectors.meshes import torus
 
@@ -26,7 +23,7 @@ def written(folder, meshes, kind="ply"):
     folder.mkdir()
     paths = [folder / f"f{number:03d}.{kind}" for number in range(len(meshes))]
     for path, mesh in zip(paths, meshes, strict=True):
-        write_mesh(path, mesh)
+        bsm.save(mesh, path)
     return paths
 
 
@@ -99,7 +96,7 @@ def test_caches_are_a_series(stream, tmp_path, kind):
     assert sorted(path.name for path in tmp_path.glob("a_*")) == sorted(names)
     meshes = capture(*PIECES)
     for start, (_, count) in zip(starts, PIECES, strict=True):
-        source = open_sequence(str(tmp_path / f"a_{start:05d}.{kind}"))
+        source = sequence_in(str(tmp_path / f"a_{start:05d}.{kind}"))
         frames = np.array(list(source.frames))
         assert frames.shape == (count, len(meshes[start].positions), 3) and len(source.faces) == len(
             meshes[start].faces
@@ -112,7 +109,7 @@ def test_meshes_of_a_glb_take_turns(stream, tmp_path):
     assert run("decode", stream, "-o", tmp_path / "a.glb") == 0
     tree, _ = unpack((tmp_path / "a.glb").read_bytes())
     assert [len(mesh["primitives"][0]["targets"]) for mesh in tree["meshes"]] == [count - 1 for _, count in PIECES]
-    source = open_sequence(str(tmp_path / "a.glb"), request=Wanted(animation="frames", rate=24.0))
+    source = sequence_in(str(tmp_path / "a.glb"), animation="frames", rate=24.0)
     ends = np.cumsum([0, *(len(torus(size, 6).positions) for size, _ in PIECES)])
     frames, meshes = list(source.frames), capture(*PIECES)
     assert source.count == len(frames) == len(meshes)

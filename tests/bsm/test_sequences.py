@@ -6,15 +6,23 @@ import sys
 import numpy as np
 import pytest
 
-from bsm import Attribute, FormatError, MeshError, OptionError, TriangleMesh, TruncatedError, decode_frames, read_mesh
+from bsm import (
+    Attribute,
+    FormatError,
+    MeshError,
+    OptionError,
+    TriangleMesh,
+    TruncatedError,
+    decode_frames,
+    read_mesh,
+    save,
+)
 from bsm.files.formats.npz import read_npy
-from bsm.files.mesh import write_mesh
-from bsm.files.motion.frames import Wanted
 from bsm.files.pipes import Input
-from bsm.files.sequence import open_sequence, sequence_kind
+from bsm.files.sequence import sequence_kind
 from tests.bsm.program import run as bsm
 from tests.bsm.program import run_json
-from tests.motion import bending, save_frames
+from tests.motion import bending, save_frames, sequence_in
 from tests.shapes import torus
 
 FRAMES = 6
@@ -93,7 +101,7 @@ def test_folders_and_patterns_are_taken_in_the_order_of_numbers(tmp_path):
     for number in range(12):
         (tmp_path / "run" / f"{number:05d}.off").rename(tmp_path / "run" / f"{number}.off")
     for path in (tmp_path / "run", tmp_path / "run" / "*.off"):
-        source = open_sequence(str(path))
+        source = sequence_in(str(path))
         assert source.count == 12
         assert np.abs(np.array(list(source.frames)) - positions).max() < 1e-6
 
@@ -106,7 +114,7 @@ def test_colors_that_change_are_not_dropped_in_silence(tmp_path, capsys):
         for number, shade in enumerate(shades):
             size = len(faces if domain == "face" else positions[0])
             color = Attribute("color", np.full((size, 3), shade, np.uint8), domain, "color")
-            write_mesh(str(tmp_path / name / f"{number}.ply"), TriangleMesh(positions[number], faces, [color]))
+            save(TriangleMesh(positions[number], faces, [color]), str(tmp_path / name / f"{number}.ply"))
     stream = tmp_path / "x.bsm"
     assert bsm("encode", tmp_path / "once", "-o", stream, "--set", "step=0.01") != 0
     assert "color differs in" in capsys.readouterr().err and not stream.exists()
@@ -161,7 +169,7 @@ def test_arrays_that_change_go_from_npz_to_npz_and_to_forms_that_hold_them(tmp_p
     assert bsm("decode", stream, "-o", tmp_path / "back.glb") == 0
     left_out = capsys.readouterr().err
     assert "how heat changes" in left_out and "how color changes" not in left_out
-    frames = open_sequence(tmp_path / "back.glb", request=Wanted()).meshes
+    frames = sequence_in(tmp_path / "back.glb").meshes
     for mesh, shades in zip(frames, arrays["color"], strict=True):
         (color,) = (attribute.values for attribute in mesh.attributes if attribute.semantic == "color")
         np.testing.assert_array_equal(np.unique(color[:, :3], axis=0), np.unique(shades, axis=0))
@@ -266,20 +274,20 @@ def arrays(*items):
 def test_damaged_arrays(tmp_path, data, error):
     (tmp_path / "a.npy").write_bytes(data)
     with pytest.raises(error):
-        list(open_sequence(str(tmp_path / "a.npy")).frames)
+        list(sequence_in(str(tmp_path / "a.npy")).frames)
 
 
 def test_what_is_no_sequence(tmp_path):
-    assert open_sequence("-") is None
+    assert sequence_in("-") is None
     positions, faces = bending(1)
     np.savez(tmp_path / "mesh.npz", positions=positions[0], faces=faces)
-    assert open_sequence(str(tmp_path / "mesh.npz")) is None
+    assert sequence_in(str(tmp_path / "mesh.npz")) is None
     np.savez(tmp_path / "none.npz", positions=positions[:0], faces=faces)
     with pytest.raises(MeshError):
-        open_sequence(str(tmp_path / "none.npz"))
+        sequence_in(str(tmp_path / "none.npz"))
     (tmp_path / "empty").mkdir()
     with pytest.raises(FormatError):
-        open_sequence(str(tmp_path / "empty"))
+        sequence_in(str(tmp_path / "empty"))
 
 
 def test_forms_of_the_output():
@@ -303,11 +311,11 @@ def test_attributes_that_stay_go_along(tmp_path, capsys):
             Attribute("normal", mesh.positions, "vertex", "normal"),
         )
         frame = TriangleMesh(mesh.positions * (1 + 0.05 * number), mesh.faces, attributes)
-        write_mesh(tmp_path / "run" / f"{number}.obj", frame)
+        save(frame, tmp_path / "run" / f"{number}.obj")
         heat = Attribute("heat", blink + number)
         color = Attribute("color", np.full((len(mesh.positions), 3), 7, np.uint8), "vertex", "color")
         (tmp_path / "ply").mkdir(exist_ok=True)
-        write_mesh(tmp_path / "ply" / f"{number}.ply", TriangleMesh(frame.positions, mesh.faces, (heat, color)))
+        save(TriangleMesh(frame.positions, mesh.faces, (heat, color)), tmp_path / "ply" / f"{number}.ply")
     assert bsm("encode", tmp_path / "run", "-o", tmp_path / "run.bsm", "--keep-order", *QUICK) == 0
     assert "normal" in capsys.readouterr().err
     assert bsm("decode", tmp_path / "run.bsm", "-o", tmp_path / "out", "--format", "obj", "-q") == 0

@@ -12,7 +12,7 @@ from contextlib import suppress
 import numpy as np
 import pytest
 
-from bsm.files.mesh import write_mesh
+from bsm import save
 from bsm.tiles.work import LOCK
 from tests.bsm.program import bsm
 from tests.shapes import curved, torus
@@ -22,7 +22,7 @@ CELL = 2.0**-14
 
 @pytest.fixture
 def source(tmp_path):
-    write_mesh(tmp_path / "mesh.ply", curved(torus(40, 30)))
+    save(curved(torus(40, 30)), tmp_path / "mesh.ply")
     return tmp_path / "mesh.ply"
 
 

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm import read_mesh
 from bsm.codec.geometry.metrics import distances_to_surface, face_normals
 from bsm.commands import tile as command
-from bsm.files.mesh import read_mesh, write_mesh
 from bsm.gltf.coding import EXTENSION
 from bsm.gltf.document import read_document
 from bsm.ground.console import Console
@@ -40,7 +40,7 @@ def folder(mesh, tmp_path_factory):
 
 def made(mesh, output, *more, triangles=700, suffix="ply"):
     source = output.parent / f"mesh.{suffix}"
-    write_mesh(source, mesh)
+    bsm.save(mesh, source)
     tile(source, output, "--grid-cell", CELL, "--triangles", triangles, *more)
     return output
 
@@ -76,7 +76,7 @@ def test_vertices_that_the_grid_joins_are_counted(near, mesh, tmp_path):
     first = len(mesh.positions)
     faces = [[first + place, *mesh.faces[(mesh.faces == row).any(axis=1)][0][1:]] for place, row in enumerate(inside)]
     equal = np.arange(5)[:, None] + [first + near, 0, 1]  # repeated positions, as an STL has them, are not counted
-    write_mesh(tmp_path / "a.ply", bsm.TriangleMesh(points.astype(np.float32), np.vstack([mesh.faces, *faces, equal])))
+    bsm.save(bsm.TriangleMesh(points.astype(np.float32), np.vstack([mesh.faces, *faces, equal])), tmp_path / "a.ply")
     done = tile(tmp_path / "a.ply", tmp_path / "out", "--grid-cell", CELL, "--triangles", 10**6)
     assert ("are joined: 7 (fewer with --grid-cell 3.05176e-05)" in done.stderr) == bool(near)
     assert ("are joined" in done.stderr) == bool(near)
@@ -85,7 +85,7 @@ def test_vertices_that_the_grid_joins_are_counted(near, mesh, tmp_path):
 
 
 def test_faces_that_the_grid_flattens_are_left_out(tmp_path):
-    write_mesh(tmp_path / "a.ply", ring := torus(64, 32))
+    bsm.save(ring := torus(64, 32), tmp_path / "a.ply")
     tile(tmp_path / "a.ply", tmp_path / "out", "--grid-cell", 2.0**-3)
     corners = Lattice(2.0**-3).places(ring.positions)[ring.faces]
     seen = (corners != np.roll(corners, 1, axis=1)).any(axis=2).all(axis=1).sum()
@@ -94,7 +94,7 @@ def test_faces_that_the_grid_flattens_are_left_out(tmp_path):
 
 def test_vertices_that_no_face_uses_say_nothing_of_the_grid(mesh, tmp_path):
     far = 1e4 + np.random.default_rng(0).random((20_000, 3))
-    write_mesh(tmp_path / "mesh.ply", bsm.TriangleMesh(np.concatenate([mesh.positions, far]), mesh.faces))
+    bsm.save(bsm.TriangleMesh(np.concatenate([mesh.positions, far]), mesh.faces), tmp_path / "mesh.ply")
     tile(tmp_path / "mesh.ply", tmp_path / "out")
     assert bsm.open_tiles(str(tmp_path / "out")).lattice.cell < 0.01
 
@@ -124,7 +124,7 @@ def test_a_tile_whose_vertices_are_all_of_others(tmp_path):
     fan = [(place, 0, 1) for place in range(2, 66)]
     arc = np.linspace(0.0, 0.3, 64)
     positions = np.array([(1, 0, 0), (1, 1, 0), *np.column_stack([arc, arc**2, 0 * arc]).tolist()])
-    write_mesh(tmp_path / "a.ply", bsm.TriangleMesh(positions, [*fan, *np.roll(fan, -1, axis=1).tolist()]))
+    bsm.save(bsm.TriangleMesh(positions, [*fan, *np.roll(fan, -1, axis=1).tolist()]), tmp_path / "a.ply")
     tile(tmp_path / "a.ply", tmp_path / "out", "--grid-cell", 2.0**-12, "--triangles", 64, "--finest")
     assert program("untile", tmp_path / "out", "-o", tmp_path / "back.ply").returncode == 0
     back = bsm.load(tmp_path / "back.ply")
@@ -223,7 +223,7 @@ def test_vertices_that_differ_in_color_alone_stay_apart(tmp_path):
     positions = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 0), (1, 1, 0)], float)
     color = np.array([(1, 2, 3)] * 4 + [(9, 9, 9)] * 2, np.uint8)
     square = bsm.TriangleMesh(positions, [(0, 1, 2), (4, 5, 3)], [bsm.Attribute("color", color, "vertex", "color")])
-    write_mesh(tmp_path / "a.ply", square)
+    bsm.save(square, tmp_path / "a.ply")
     tile(tmp_path / "a.ply", tmp_path / "out", "--grid-cell", 1)
     found = bsm.open_tiles(str(tmp_path / "out")).region((0, 0, 0), (1, 1, 1))
     rows = {(*at, *it) for at, it in zip(found.positions.tolist(), found.attributes[0].values.tolist())}
@@ -250,7 +250,7 @@ def test_a_textured_tile_shows_what_the_mesh_shows(tmp_path, suffix):
     values, indices = np.unique(uv.reshape(-1, 2).astype(np.float32), axis=0, return_inverse=True)
     texture = bsm.Attribute("texcoord", values, "corner", "texcoord", indices.reshape(-1, 3).astype(np.int32))
     about = {"material.0.map_Kd": 0, "image.0.name": "a.png", "image.0.data": (tmp_path / "a.png").read_bytes()}
-    write_mesh(tmp_path / f"a.{suffix}", bsm.TriangleMesh(positions, faces, [texture], about), overwrite=True)
+    bsm.save(bsm.TriangleMesh(positions, faces, [texture], about), tmp_path / f"a.{suffix}", overwrite=True)
     tile(tmp_path / f"a.{suffix}", tmp_path / "out", "--triangles", 500, "--images", "png")
     assert program("untile", tmp_path / "out", "-o", tmp_path / "site" / "tileset.json").returncode == 0
     tiles = bsm.open_tiles(str(tmp_path / "out"))
@@ -311,7 +311,7 @@ def test_a_broken_image_is_named(mesh, tmp_path, kind, keep):
 @pytest.mark.parametrize(("suffix", "names"), [("ply", "s, t"), ("obj", "texcoord")])
 def test_textures_without_an_image_are_left_out(mesh, tmp_path, suffix, names):
     texture = bsm.Attribute("texcoord", mesh.positions[:, :2], "vertex", "texcoord")
-    write_mesh(tmp_path / f"a.{suffix}", bsm.TriangleMesh(mesh.positions, mesh.faces, [texture]))
+    bsm.save(bsm.TriangleMesh(mesh.positions, mesh.faces, [texture]), tmp_path / f"a.{suffix}")
     assert f"left out: {names};" in tile(tmp_path / f"a.{suffix}", tmp_path / "out").stderr
 
 
@@ -395,7 +395,7 @@ def test_processes_and_clusters_give_the_same_bytes(mesh, folder, tmp_path):
 
 @pytest.mark.parametrize("most", [20_000, 100_000, 300_000])
 def test_a_full_disk_is_reported(mesh, folder, tmp_path, most):
-    write_mesh(tmp_path / "mesh.ply", mesh)
+    bsm.save(mesh, tmp_path / "mesh.ply")
     resource = importlib.import_module("resource")
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (most, before[1]))
@@ -416,7 +416,7 @@ def test_a_full_disk_is_reported(mesh, folder, tmp_path, most):
 
 def test_a_run_that_was_interrupted_goes_on(mesh, folder, tmp_path, monkeypatch):
     source, output = tmp_path / "mesh.ply", tmp_path / "out"
-    write_mesh(source, mesh)
+    bsm.save(mesh, source)
     words = ("tile", source, "-o", output, "--grid-cell", CELL, "--triangles", 700)
     done = []
 
@@ -442,7 +442,7 @@ def test_a_run_that_was_interrupted_goes_on(mesh, folder, tmp_path, monkeypatch)
 
 def test_tiles_that_were_whole_stay_so_until_there_are_others(mesh, folder, tmp_path, monkeypatch):
     output = shutil.copytree(folder, tmp_path / "out")
-    write_mesh(tmp_path / "mesh.ply", mesh)
+    bsm.save(mesh, tmp_path / "mesh.ply")
 
     def killed(*given, **keywords):
         (output / "00000.tiles").write_bytes(b"")
@@ -480,7 +480,7 @@ def test_damage_is_reported(folder, tmp_path, harm):
 @pytest.mark.parametrize("ranges", [True, False])
 def test_tiles_behind_urls(mesh, folder, tmp_path, monkeypatch, ranges):
     memory = pytest.importorskip("fsspec").filesystem("memory")
-    write_mesh(tmp_path / "mesh.ply", mesh)
+    bsm.save(mesh, tmp_path / "mesh.ply")
     tile(tmp_path / "mesh.ply", "memory://tiles/out", "--grid-cell", CELL, "--triangles", 700, "--work", tmp_path / "w")
     assert {name: memory.cat(f"/tiles/out/{name}") for name in contents(folder)} == contents(folder)
     if not ranges:
@@ -533,7 +533,7 @@ def test_tiles_of_another_format_are_refused_by_their_manifest(folder, tmp_path)
 )
 def test_inputs_that_are_no_meshes(mesh, tmp_path, harm, message, code):
     source = tmp_path / "mesh.ply"
-    write_mesh(source, mesh)
+    bsm.save(mesh, source)
     data = source.read_bytes()
     body = data.index(b"end_header\n") + 11
     harmed = {
@@ -551,11 +551,11 @@ def test_inputs_that_are_no_meshes(mesh, tmp_path, harm, message, code):
 
 def test_grids_that_cannot_be_stored_exactly(mesh, tmp_path):
     source = tmp_path / "mesh.ply"
-    write_mesh(source, bsm.TriangleMesh(mesh.positions + 1e6, mesh.faces))
+    bsm.save(bsm.TriangleMesh(mesh.positions + 1e6, mesh.faces), source)
     done = program("tile", source, "-o", tmp_path / "out", "--grid-cell", "0.001", text=True)
     assert done.returncode == 2 and "a power of two does" in done.stderr
     power = done.stderr.rsplit("--grid-cell ", 1)[1].strip()
-    write_mesh(source, bsm.TriangleMesh(mesh.positions + 1e9, mesh.faces))  # the grid then begins near the mesh
+    bsm.save(bsm.TriangleMesh(mesh.positions + 1e9, mesh.faces), source)  # the grid then begins near the mesh
     tile(source, tmp_path / "out", "--grid-cell", power, "--finest")
     shown = bsm.open_tiles(str(tmp_path / "out")).region((0,) * 3, (2e9,) * 3)
     assert len(shown.faces) == len(mesh.faces) and not (shown.positions % float(power)).any()
@@ -575,7 +575,7 @@ def test_what_is_left_out_is_reported_and_the_files_of_others_stay(tmp_path, mon
     assert done.returncode == 2 and "holds other files" in done.stderr and (tmp_path / "a.obj").exists()
     printed = tile(tmp_path / "a.obj", tmp_path / "out", "--grid-cell", 1).stderr
     assert "left out: normal; tiles have positions, faces" in printed
-    write_mesh(tmp_path / "b.ply", bsm.TriangleMesh(np.eye(3), [(0, 1, 2)], metadata={"comment": "by a scanner"}))
+    bsm.save(bsm.TriangleMesh(np.eye(3), [(0, 1, 2)], metadata={"comment": "by a scanner"}), tmp_path / "b.ply")
     printed = tile(tmp_path / "b.ply", tmp_path / "commented", "--grid-cell", 1).stderr
     assert "left out: lines of comment; tiles have" in printed
     monkeypatch.chdir(tmp_path)
@@ -589,7 +589,7 @@ def test_the_grid_is_chosen_by_the_look_in_any_order_of_faces_and_vertices_slide
     points, sides = large.positions.copy(), np.diff(large.positions[large.faces], axis=1)
     points[large.faces[:, 0]] += 0.4 * (rng.random((50400, 2, 1)) * sides).sum(axis=1)
     for name, order in ("in", np.arange(50400)), ("out", rng.permutation(50400)):
-        write_mesh(tmp_path / f"{name}.ply", given := bsm.TriangleMesh(points, large.faces[order]))
+        bsm.save(given := bsm.TriangleMesh(points, large.faces[order]), tmp_path / f"{name}.ply")
         tile(tmp_path / f"{name}.ply", tmp_path / name, "--triangles", 20000, "--finest")
         found.append(bsm.open_tiles(str(tmp_path / name)))
     cell, lattice, back = found[0].lattice.cell, found[1].lattice, found[1].region((-9,) * 3, (9,) * 3)

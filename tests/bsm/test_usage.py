@@ -15,7 +15,6 @@ import bsm
 from bsm import PRESETS, __version__
 from bsm.cli import COMMANDS, command_parser, main
 from bsm.commands.flags import PROMISES
-from bsm.files.mesh import write_mesh
 from bsm.ground.lengths import (
     IN_METRES,
     UNITS,
@@ -180,7 +179,7 @@ def test_documents_have_the_table_of_presets(name):
 
 @pytest.mark.parametrize("words", [["--max-error", "1%"], ["--nmsve-db", "-40"]])
 def test_a_bound_alone_reports_what_is_visible(words, tmp_path, capsys):
-    write_mesh(tmp_path / "a.npz", torus(40, 24))
+    bsm.save(torus(40, 24), tmp_path / "a.npz")
     command = ["encode", str(tmp_path / "a.npz"), "-f", "-o", str(tmp_path / "b.bsm"), *words]
     assert main([*command, "--preset", "none"]) == 0
     assert "no look is promised; measured: look " in capsys.readouterr().err
@@ -189,7 +188,7 @@ def test_a_bound_alone_reports_what_is_visible(words, tmp_path, capsys):
 
 
 def test_a_dry_run_reports_and_writes_nothing(tmp_path, capsys):
-    write_mesh(tmp_path / "a.npz", torus(9, 6))
+    bsm.save(torus(9, 6), tmp_path / "a.npz")
     assert main(["encode", str(tmp_path / "a.npz"), "-r", str(tmp_path), "--dry-run"]) == 2
     assert main(["encode", str(tmp_path / "a.npz"), "--dry-run", "-o", str(tmp_path / "new/")]) == 0
     assert main(["encode", "-r", str(tmp_path), "--dry-run", "--json"]) == 0
@@ -201,7 +200,7 @@ def test_a_dry_run_reports_and_writes_nothing(tmp_path, capsys):
 
 
 def test_a_size_that_is_too_small_names_the_way_out(tmp_path, capsys):
-    write_mesh(tmp_path / "a.npz", torus(30, 20))
+    bsm.save(torus(30, 20), tmp_path / "a.npz")
     assert main(["encode", str(tmp_path / "a.npz"), "--dry-run", "--size", "180"]) == 10
     assert "preset none reaches it with look " in capsys.readouterr().err
 

@@ -37,10 +37,9 @@ from bsm.cli import main
 from bsm.codec.geometry.metrics import distances_to_surface
 from bsm.codec.static.presets import SEQUENCE_ROWS
 from bsm.evaluation.curve import decode_draco, encode_draco
-from bsm.files.sequence import open_sequence
 from bsm.viewer.contents import DRACO_BITS, DRACO_LEVEL, Content, Shown, compared, uploaded
 from bsm.viewer.page import MOST_BYTES, UPLOAD, Arrival, PageServer, Ranged, Tiled, in_browser, written_to
-from tests.motion import bending
+from tests.motion import bending, sequence_in
 from tests.shapes import curved, torus
 from tests.streams import all_events, frame_ends, moving_events_of
 from tools.pictures import pages
@@ -699,7 +698,7 @@ def test_a_page_of_files_shows_its_mesh_and_encodes_in_browsers(tmp_path):
         javascript("static", BSM_STATIC=json.dumps(given))
         server.shutdown()
     for name, frames, *_ in given["moving"]:
-        facts = compared(name, (folder / f"{name}.bsm").read_bytes(), open_sequence(str(tmp_path / "sway.npz"))).facts
+        facts = compared(name, (folder / f"{name}.bsm").read_bytes(), sequence_in(str(tmp_path / "sway.npz"))).facts
         assert len(facts["errors"]) == frames and 0.0 < facts["farthest"] < (1e-4 if name == "sway" else 5e-3)
     for path in files:
         decoded = bsm.decode(folder / f"{path.name}.bsm")
@@ -722,7 +721,7 @@ def test_a_mesh_that_is_dropped_is_encoded_and_shown(tmp_path):
     np.savez(tmp_path / "sway.npz", positions=positions, faces=faces)
     moving = tmp_path / "sway.bsm"
     moving.write_bytes(bsm.encode_sequence(positions, faces, step=0.01))
-    content = compared("sway", moving.read_bytes(), open_sequence(str(tmp_path / "sway.npz")))
+    content = compared("sway", moving.read_bytes(), sequence_in(str(tmp_path / "sway.npz")))
     still = compared("other", bsm.encode(tmp_path / "other.obj", preset="lossless"), torus())
     pairs = [
         [first[0][::-1], "pair.bsm", *first[1:]],

@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm import open_tiles, read_mesh
 from bsm.cli import main
-from bsm.files.mesh import read_mesh
-from bsm.files.sequence import open_sequence
-from bsm.tiles.shards import open_tiles
 from bsm.viewer.contents import made
+from tests.motion import sequence_in
 from tests.shapes import torus
 
 MESH = torus(16, 12)
@@ -134,7 +133,7 @@ def by_view(folder, wish):
 def by_view_of_frames(folder, wish):
     if set(wish) - {"preset"}:
         run("view", folder / "frames", "--save", folder / "page.html", *words(wish))
-    source = open_sequence(folder / "frames")
+    source = sequence_in(folder / "frames")
     content = made("frames", 0, source, wish.get("preset", "balanced"), lambda stage, share: None)
     return content.layers[content.main].stream
 

@@ -6,9 +6,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bsm import END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, Encoder, TriangleMesh, decode, encode, encode_sequence
+from bsm import (
+    END_OF_STREAM,
+    NEED_DATA,
+    BlockEvent,
+    Decoder,
+    Encoder,
+    Limits,
+    TriangleMesh,
+    decode,
+    encode,
+    encode_sequence,
+)
 from bsm._core import Decoder as Engine
-from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec import threads as codec_threads
 from bsm.codec.decoding import BLOCK, CONNECTIVITY
 from bsm.codec.sequence import temporal
@@ -178,7 +188,7 @@ def test_what_a_shared_engine_returns_stays_as_it_was():
     """Arrays are copied before another thread can have the decoder that they come from."""
     mesh, apart = patch(60, 60), np.random.default_rng(1).random((5000, 3))
     mesh = replace(mesh, positions=np.concatenate([mesh.positions, apart]))
-    engine = Engine(DEFAULT_LIMITS, 1, True)
+    engine = Engine(Limits(), 1, True)
     options = encode_options(threads=1, step=1e-3, keep_order=True, block_size=100)
     engine.push(np.frombuffer(encode(mesh, options), np.uint8))
     engine.finish()

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import bsm
-from bsm.evaluation.sample import knot
 from tests.library.conftest import linked
+from tests.shapes import knot
 from tools.amalgamate import ROOT, sources
 from tools.bsmdec import compiled
 

@@ -6,9 +6,9 @@ from dataclasses import asdict
 
 import pytest
 
-from bsm import BsmError, CorruptError, FormatError, TruncatedError
+from bsm import BsmError, CorruptError, FormatError, TruncatedError, read_mesh
 from bsm.files.inspection import inspect_stream
-from bsm.files.mesh import read_mesh, written_mesh
+from tests.shapes import file_of
 from tests.streams import events_of
 from tools.attack import shard as proof
 from tools.attack.decoding import is_sequence, piecewise, whole
@@ -125,7 +125,7 @@ def test_damage_that_looks_like_a_block_before_the_faces_is_refused():
 
 
 def test_an_npz_with_a_name_that_is_no_text_is_refused(tmp_path):
-    whole = written_mesh(patch(3, 3), "npz").data
+    whole = file_of(patch(3, 3), "npz")
     listed = whole.rindex(b"faces.npy")
     flags = listed - 46 + 8
     broken = bytearray(whole)

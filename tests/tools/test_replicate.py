@@ -13,11 +13,10 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from bsm import TriangleMesh
+from bsm import TriangleMesh, read_mesh, save
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
-from bsm.files.mesh import read_mesh, write_mesh
 from tests.codec.denoise.denoise_shapes import grid
 from tests.shapes import torus
 from tools.laplacians import dense_laplacian
@@ -149,7 +148,7 @@ class TestTables:
         pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
         pytest.importorskip("DracoPy", reason="needs DracoPy (extra eval)")
         pytest.importorskip("pymeshlab", reason="needs pymeshlab (extra replicate)")
-        write_mesh(tmp_path / "ring.ply", torus(24, 16))
+        save(torus(24, 16), tmp_path / "ring.ply")
         monkeypatch.setattr(run, "meshopt_package", lambda *_: None)
         run.measure_all(tmp_path, {"rates": 1.0}, quick=False, docs=False, named=[tmp_path / "ring.ply"])
         (found,) = json.loads((tmp_path / "results.json").read_text())["rates"]
@@ -159,7 +158,7 @@ class TestTables:
     def test_one_table_of_the_paper_is_made_of_a_named_mesh(self, tmp_path):
         for name in ("matplotlib", "pymetis", "scipy", "zstandard"):
             pytest.importorskip(name, reason=f"needs {name} (extra paper)")
-        write_mesh(tmp_path / "ring.ply", torus(24, 16))
+        save(torus(24, 16), tmp_path / "ring.ply")
         paper = [sys.executable, "-m", "tools.replicate", "--figure", "paper", "-o", str(tmp_path / "made"), "--table"]
         done = subprocess.run([*paper, "7", "--quick", str(tmp_path / "ring.ply")], capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
@@ -190,7 +189,7 @@ class TestTables:
 
     def test_named_meshes_are_judged_and_play_every_role(self, tmp_path):
         pytest.importorskip("pymetis", reason="needs METIS")
-        write_mesh(tmp_path / "ring.ply", torus(24, 16))
+        save(torus(24, 16), tmp_path / "ring.ply")
         (source,) = fetch.sources_of([tmp_path / "ring.ply"], models.NAMED)
         rows = verdicts.judge_mesh(verdicts.MeshJob("coarse-to-fine", source))
         assert [(row["mesh"], row["holds"] in (True, False)) for row in rows] == [("ring", True)]
@@ -199,7 +198,7 @@ class TestTables:
     def test_shares_add_up_and_a_stream_without_blocks_still_keeps_its_promise(self, tmp_path):
         mesh = torus(150, 110)
         noise = np.random.default_rng(2).normal(scale=1e-3, size=mesh.positions.shape)
-        write_mesh(tmp_path / "scan.ply", TriangleMesh(mesh.positions + noise, mesh.faces))
+        save(TriangleMesh(mesh.positions + noise, mesh.faces), tmp_path / "scan.ply")
         (source,) = fetch.sources_of([tmp_path / "scan.ply"], models.NAMED)
         size, info = shares.stream_of(source.mesh())
         with shares.fixed_width(1):
@@ -305,7 +304,7 @@ def test_only_the_file_of_the_list_is_taken_and_what_is_missing_is_named(tmp_pat
     root = tmp_path / "meshes" / "made"
     root.mkdir(parents=True)
     for name in ("a", "b"):
-        write_mesh(root / f"{name}.ply", torus(8, 8))
+        save(torus(8, 8), root / f"{name}.ply")
     right = hashlib.sha256((root / "a.ply").read_bytes()).hexdigest()
     common = {"group": "unseen", "vertices": 64}
     meshes = [
@@ -365,7 +364,7 @@ def study(tmp_path):
     sources = []
     for count in range(24, 42, 2):
         mesh, path = torus(count, 30), tmp_path / f"torus{count}.ply"
-        write_mesh(path, mesh)
+        save(mesh, path)
         sources.append(Source(path.stem, path, "unseen", len(mesh.positions)))
     return models.Study(None, sources, True, tmp_path / "pictures")
 

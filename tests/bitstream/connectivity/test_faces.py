@@ -11,10 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm import BsmError, CorruptError, LimitError, MeshError, OptionError, TruncatedError, read_mesh
+from bsm import BsmError, CorruptError, LimitError, Limits, MeshError, OptionError, TruncatedError, read_mesh
 from bsm._core import Cut, GivenMesh
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
-from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.graph import graph_of_faces
 from tests.bitstream.attributes.test_values import place_of
 from tests.bitstream.fields.fields import SOUPS
@@ -197,7 +196,7 @@ def test_every_truncation_and_wrong_counts_are_noticed(name: str) -> None:
 def test_counts_over_the_limits_are_refused() -> None:
     for name, most in (("vertices", 10), ("faces", 20)):
         with pytest.raises(LimitError, match=name):
-            decode_connectivity(b"", 11, 21, dataclasses.replace(DEFAULT_LIMITS, **{name: most}))
+            decode_connectivity(b"", 11, 21, dataclasses.replace(Limits(), **{name: most}))
 
 
 @pytest.mark.real

@@ -11,12 +11,11 @@ from pathlib import Path
 import pytest
 
 from bsm import BsmError, Limits, read_mesh
-from bsm.files.mesh import written_mesh
 from bsm.files.table import FORMATS, USD_FORMATS, WRITTEN_FORMATS
 from tests.gltf import unpack
 from tests.grids import save_grid
 from tests.motion import bending, save_frames
-from tests.shapes import torus
+from tests.shapes import file_of, torus
 
 MESHIO = {"inp": "abaqus", "bdf": "nastran", "nas": "nastran", "msh": "gmsh", "xdmf": "xdmf", "xmf": "xdmf"}
 VTK = {"vtk": "vtkUnstructuredGridWriter", "vtu": "vtkXMLUnstructuredGridWriter"}  # one of each library of files
@@ -30,12 +29,12 @@ def valid(kind: str, folder: Path) -> bytes:
     """A file of this format, as we or its library write it."""
     mesh = torus(6, 5)
     if kind in WRITTEN_FORMATS:
-        return written_mesh(mesh, kind).data
+        return file_of(mesh, kind)
     if kind == "dae":
         data: bytes = pytest.importorskip("trimesh").Trimesh(mesh.positions, mesh.faces).export(file_type="dae")
         return data
     if kind == "gltf":
-        document, numbers = unpack(written_mesh(mesh, "glb").data)
+        document, numbers = unpack(file_of(mesh, "glb"))
         content = base64.b64encode(numbers).decode()
         document["buffers"][0]["uri"] = f"data:application/octet-stream;base64,{content}"
         return json.dumps(document).encode()

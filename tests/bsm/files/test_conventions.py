@@ -7,14 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bsm import Attribute, FormatError, MeshError, TriangleMesh, __version__, read_mesh
-from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm import Attribute, FormatError, Limits, MeshError, TriangleMesh, __version__, read_mesh, save
 from bsm.cli import main
 from bsm.files.conventions import placement
 from bsm.files.formats.appearance import Texture, appearance, in_mtl
 from bsm.files.formats.metadata import in_words, materials_in
 from bsm.files.formats.polygons import Column, Part, joined_parts
-from bsm.files.mesh import write_mesh, written_mesh
+from bsm.files.mesh import written_mesh
 from bsm.files.motion.frames import Shared
 from bsm.files.sequence import sequence_writer
 from bsm.gltf.coding import MATTE
@@ -45,7 +44,7 @@ def test_a_glb_has_the_size_in_meters_and_y_up(unit, up, tmp_path):
 def test_a_3mf_has_its_unit_and_z_up(unit, named, up, tmp_path):
     pytest.importorskip("lib3mf")
     mesh = TriangleMesh(TRIANGLE, [[0, 1, 2]], (), {"unit": unit, "up": up, "Title": "One"})
-    assert write_mesh(tmp_path / "a.3mf", mesh) == ()
+    assert save(mesh, tmp_path / "a.3mf") == ()
     again = read_mesh(tmp_path / "a.3mf").mesh
     assert {**again.metadata} == {"unit": named, "up": "z", "Title": "One"}
     upward = metres(unit) * np.ptp(TRIANGLE[:, "xyz".index(up)])
@@ -59,17 +58,17 @@ def test_a_3mf_has_its_unit_and_z_up(unit, named, up, tmp_path):
 @pytest.mark.parametrize("size", [1e-7, 1e-3, 1.0, 1e3, 1e6])
 def test_a_3mf_has_enough_digits_for_any_size(size, tmp_path):
     pytest.importorskip("lib3mf")
-    write_mesh(tmp_path / "a.3mf", TriangleMesh(np.float32(size / 3 * TRIANGLE), [[0, 1, 2]]))
+    save(TriangleMesh(np.float32(size / 3 * TRIANGLE), [[0, 1, 2]]), tmp_path / "a.3mf")
     assert read_mesh(tmp_path / "a.3mf").mesh.positions == pytest.approx(size / 3 * TRIANGLE, rel=3e-7)
 
 
 def test_what_lib3mf_does_not_write_is_named(tmp_path):
     pytest.importorskip("lib3mf")
     with pytest.raises(MeshError, match="lib3mf cannot write"):
-        write_mesh(tmp_path / "a.3mf", TriangleMesh(1e12 * TRIANGLE, [[0, 1, 2]]))
+        save(TriangleMesh(1e12 * TRIANGLE, [[0, 1, 2]]), tmp_path / "a.3mf")
     for faces in ([[0, 1, 1]], [[2, 1, 2], [0, 0, 0]]):
         with pytest.raises(MeshError, match=f"^{len(faces)} faces? with one vertex twice.*write PLY"):
-            write_mesh(tmp_path / "a.3mf", TriangleMesh(TRIANGLE, [[0, 1, 2], *faces]))
+            save(TriangleMesh(TRIANGLE, [[0, 1, 2], *faces]), tmp_path / "a.3mf")
 
 
 def test_a_unit_that_is_unknown_is_kept_and_changes_no_size():
@@ -218,11 +217,11 @@ def test_what_usd_says_of_a_texture_comes_back(tmp_path):
 
 def test_what_mtl_says_of_a_texture_comes_back(tmp_path):
     lost = "baseColorTexture.rotation, baseColorTexture.wrap, baseColorTexture.set, unlit of material 0"
-    assert write_mesh(tmp_path / "a.obj", with_two_sets()) == ("b", lost)
+    assert save(with_two_sets(), tmp_path / "a.obj") == ("b", lost)
     assert b"map_Kd -s 2 3 1 -o 0.5 0.25 0 " in (tmp_path / "a.mtl").read_bytes()
     data = written_mesh(with_two_sets({"material.0.map_Kd": 0, "material.0.map_Kd.options": "-clamp on"}), "glb").data
     assert unpack(data)[0]["samplers"] == [{"wrapS": 33071, "wrapT": 33071}]
-    write_mesh(tmp_path / "b.obj", read_mesh(data, "glb").mesh)
+    save(read_mesh(data, "glb").mesh, tmp_path / "b.obj")
     assert b"map_Kd -clamp on b.0.png" in (tmp_path / "b.mtl").read_bytes()
 
 
@@ -231,7 +230,7 @@ def part(*columns):
 
 
 def joined(*parts):
-    found = joined_parts(parts, [(3, 1)] * len(parts), DEFAULT_LIMITS, 1 << 20).checked(DEFAULT_LIMITS)
+    found = joined_parts(parts, [(3, 1)] * len(parts), Limits(), 1 << 20).checked(Limits())
     return {attribute.name: attribute for attribute in found.mesh.attributes}, found.notes
 
 

@@ -8,16 +8,24 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import Attribute, BsmWarning, FormatError, LimitError, Limits, MeshError, TriangleMesh, TruncatedError
-from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm import (
+    Attribute,
+    BsmWarning,
+    FormatError,
+    LimitError,
+    Limits,
+    MeshError,
+    TriangleMesh,
+    TruncatedError,
+    read_mesh,
+)
 from bsm.files.formats.metadata import images_in, materials_in
 from bsm.files.formats.polygons import Column, Polygons, meaning_of
 from bsm.files.libraries import as_mesh
-from bsm.files.mesh import read_mesh, write_mesh, written_mesh
-from bsm.files.sequence import open_sequence
 from tests.bsm.files.test_file_attributes import attribute, png
 from tests.bsm.program import bsm as program
-from tests.shapes import at_corners, boxes, ply_head, torus
+from tests.motion import sequence_in
+from tests.shapes import at_corners, boxes, file_of, ply_head, torus
 from tools.attack.readers import chained_objects, three_mf
 
 
@@ -107,7 +115,7 @@ def test_materials_of_one_name_are_written_with_different_names(tmp_path):
     metadata = {f"material.{i}.name": name for i, name in enumerate(("red", "red", "red_2"))}
     metadata |= {f"material.{i}.Kd": f"{i} 0 0" for i in range(3)}
     mesh = TriangleMesh(SQUARE, [[0, 1, 2], [0, 2, 3], [1, 2, 3]], [material], metadata)
-    left = write_mesh(tmp_path / "a.obj", mesh)
+    left = bsm.save(mesh, tmp_path / "a.obj")
     again = read_mesh(tmp_path / "a.obj").mesh
     assert [m["Kd"] for m in materials_in(again.metadata).values()] == ["0 0 0", "1 0 0", "2 0 0"]
     assert len(set(names(again, "material"))) == 3 and "name of materials red, red_2" in left
@@ -125,7 +133,7 @@ def test_two_hundred_materials_with_an_image_each_come_back(tmp_path):
     data = bsm.encode(read.mesh, preset="grid14")
     decoded = bsm.decode(data, limits=Limits.service())
     assert read.notes == () and dict(decoded.metadata) == dict(read.mesh.metadata)
-    assert write_mesh(tmp_path / "out.obj", decoded) == ()
+    assert bsm.save(decoded, tmp_path / "out.obj") == ()
     again = read_mesh(tmp_path / "out.obj").mesh
     assert [data for _, data in images_in(again.metadata).values()] == [png() + bytes([i]) for i in range(200)]
     assert [m["Ns"] for m in materials_in(again.metadata).values()] == [str(i) for i in range(200)]
@@ -192,25 +200,25 @@ def test_frames_whose_polygons_turn_concave_are_cut_as_the_first(tmp_path):
         corners[2] = inward, inward, 0
         lines = "".join(f"v {x} {y} {z}\n" for x, y, z in corners)
         (tmp_path / f"f_{number}.obj").write_text(f"{lines}f 2 3 4 1\n")
-    frames = open_sequence(str(tmp_path))
+    frames = sequence_in(str(tmp_path))
     assert frames.count == 3 and len([*frames.frames]) == 3
 
 
 def test_two_files_for_a_frame_and_two_series_are_errors_and_hidden_files_are_not_read(tmp_path):
     mesh = torus(5, 4)
     for name in ("f_0.obj", "f_1.obj"):
-        write_mesh(tmp_path / name, mesh)
+        bsm.save(mesh, tmp_path / name)
     (tmp_path / "._f_0.obj").write_bytes(b"\0\5\x16\7")
-    assert open_sequence(str(tmp_path)).count == 2
+    assert sequence_in(str(tmp_path)).count == 2
     for name in ("g_0.obj", "g_1.obj"):
-        write_mesh(tmp_path / name, mesh)
+        bsm.save(mesh, tmp_path / name)
     with pytest.raises(MeshError, match="2 series of frames"):
-        open_sequence(str(tmp_path))
+        sequence_in(str(tmp_path))
     for name in ("g_0.obj", "g_1.obj"):
         (tmp_path / name).unlink()
-    write_mesh(tmp_path / "f_0.ply", mesh)
+    bsm.save(mesh, tmp_path / "f_0.ply")
     with pytest.raises(MeshError, match="two files for one frame"):
-        open_sequence(str(tmp_path))
+        sequence_in(str(tmp_path))
 
 
 @pytest.mark.parametrize(
@@ -225,13 +233,13 @@ def test_two_files_for_a_frame_and_two_series_are_errors_and_hidden_files_are_no
 def test_names_that_tell_no_order_are_refused(names, why, tmp_path):
     for name in names:
         (tmp_path / name).parent.mkdir(exist_ok=True)
-        write_mesh(tmp_path / f"{name}.obj", torus(5, 4))
+        bsm.save(torus(5, 4), tmp_path / f"{name}.obj")
     pattern = str(tmp_path / ("*/*.obj" if "/" in names[0] else "*.obj"))
     if why is None:
-        assert open_sequence(pattern).count == 3
+        assert sequence_in(pattern).count == 3
     else:
         with pytest.raises(MeshError, match=why):
-            open_sequence(pattern)
+            sequence_in(pattern)
 
 
 def test_numbers_and_lines_of_an_obj_that_mean_nothing_to_a_mesh_are_named():
@@ -306,7 +314,7 @@ def seamed(*more):
 
 def test_a_ply_with_seams_keeps_its_vertices(tmp_path):
     mesh = seamed(Attribute("paint", np.arange(36 * 8, dtype=np.uint8)[:, None].repeat(3, 1), "corner", "generic"))
-    again = read_mesh(written_mesh(mesh, "ply").data).mesh
+    again = read_mesh(file_of(mesh, "ply")).mesh
     assert again.positions[: len(mesh.positions)] == pytest.approx(mesh.positions)
     assert again.positions[again.faces] == pytest.approx(mesh.positions[mesh.faces])
     for name in ("texcoord", "paint", "smooth"):
@@ -324,7 +332,7 @@ def test_a_ply_with_seams_keeps_its_vertices(tmp_path):
 def test_other_programs_read_the_seams_of_a_ply(tmp_path):
     trimesh = pytest.importorskip("trimesh")
     mesh = seamed()
-    write_mesh(tmp_path / "a.ply", mesh)
+    bsm.save(mesh, tmp_path / "a.ply")
     theirs = trimesh.load_mesh(tmp_path / "a.ply", process=False)
     assert theirs.triangles == pytest.approx(mesh.positions[mesh.faces])
     assert theirs.visual.uv[theirs.faces] == pytest.approx(at_corners(mesh, attribute(mesh, "texcoord")))
@@ -345,7 +353,7 @@ def test_a_ply_with_whole_numbers_of_64_bits_and_lists_of_vertices():
 @pytest.mark.parametrize("ends", [("\n", "\n"), ("\r\n", "\r\n"), ("\r", "\r"), ("\n", "\r\n"), ("\r\n", "\n")])
 @pytest.mark.parametrize("comment", ["short", "c" * 70_000])
 def test_line_ends_and_lengths_of_ply_headers(ends, comment):
-    data = written_mesh(torus(5, 4), "ply").data
+    data = file_of(torus(5, 4), "ply")
     head, body = data.split(b"end_header\n")
     lines = head.decode().splitlines()
     lines.insert(2, f"comment {comment}")
@@ -370,7 +378,7 @@ def test_solids_of_a_text_are_groups(tmp_path):
     mesh = read_mesh(tmp_path / "a.stl").mesh
     assert names(mesh, "group") == ["Inlet A", "wall #2", "Inlet A"]
     assert attribute(mesh, "group").values[:, 0].tolist() == [0, 1, 2]
-    write_mesh(tmp_path / "b.obj", mesh)
+    bsm.save(mesh, tmp_path / "b.obj")
     assert names(read_mesh(tmp_path / "b.obj").mesh, "group") == ["Inlet A", "wall #2", "Inlet A_2"]
     for other in (b"\xef\xbb\xbf" + text.encode(), text.encode("utf-16"), text.replace("\n", "\r").encode()):
         assert names(read_mesh(other, "stl").mesh, "group") == ["Inlet A", "wall #2", "Inlet A"]
@@ -502,7 +510,7 @@ def test_tiles_name_what_an_obj_or_an_stl_has_and_read_lines_that_go_on(tmp_path
 def test_lossless_refuses_what_single_precision_would_move_and_the_way_out_works(tmp_path):
     near = torus(20, 12)
     far = TriangleMesh(100 * near.positions + [500_000.123, 4_400_000.456, 20], near.faces)
-    write_mesh(tmp_path / "a.ply", far)
+    bsm.save(far, tmp_path / "a.ply")
     done = run("encode", tmp_path / "a.ply", "-o", tmp_path / "a.bsm", "--preset", "lossless")
     assert done.returncode == 10 and not (tmp_path / "a.bsm").exists() and "moves a vertex by 0.2" in done.stderr
     way = done.stderr.split("in place of the preset, give ")[1].split()[:3]
@@ -698,7 +706,7 @@ def test_the_opacity_of_a_dae_is_its_color_and_its_number(mode, color, transpare
     drawn = f'<triangles count="1" material="m">{OF_POINTS}<p>0 1 2</p></triangles>'
     mesh = read_mesh(drawn_dae(drawn, effect), "dae").mesh
     assert mesh.metadata.get("material.0.d", 1.0) == pytest.approx(opacity)
-    glb = read_mesh(written_mesh(mesh, "glb").data, "glb").mesh
+    glb = read_mesh(file_of(mesh, "glb"), "glb").mesh
     assert glb.metadata.get("material.0.alphaMode") == ("BLEND" if opacity < 1 else None)
 
 
@@ -810,18 +818,18 @@ def test_an_obj_in_utf16_and_a_ply_with_a_line_that_is_a_comment():
     text = f"{THREE}g \u00fc\nf 1 2 3\n"
     for encoding in ("utf-16", "utf-8-sig"):
         assert names(read_mesh(text.encode(encoding), "obj").mesh, "group") == ["\u00fc"]
-    head, body = written_mesh(torus(5, 4), "ply").data.split(b"format", 1)
+    head, body = file_of(torus(5, 4), "ply").split(b"format", 1)
     assert len(read_mesh(head + b"Created by somebody\nformat" + body).mesh.faces) == 40
 
 
 def test_an_image_beyond_the_limit_of_small_metadata_comes_back(tmp_path):
-    data = png() + bytes(DEFAULT_LIMITS.metadata_bytes)
+    data = png() + bytes(bsm.Limits().metadata_bytes)
     (tmp_path / "a.png").write_bytes(data)
     (tmp_path / "a.mtl").write_text("newmtl m\nmap_Kd a.png\n")
     (tmp_path / "a.obj").write_text(f"mtllib a.mtl\nusemtl m\n{THREE}f 1 2 3\n")
     assert bsm.decode(bsm.encode(str(tmp_path / "a.obj"), preset="lossless")).metadata["image.0.data"] == data
     with pytest.raises(bsm.OptionError, match="metadata_bytes"):
-        bsm.encode(TriangleMesh(SQUARE, [[0, 1, 2]], (), {"story": "x" * DEFAULT_LIMITS.metadata_bytes}))
+        bsm.encode(TriangleMesh(SQUARE, [[0, 1, 2]], (), {"story": "x" * bsm.Limits().metadata_bytes}))
 
 
 @pytest.mark.parametrize(
@@ -845,21 +853,21 @@ def test_libraries_as_people_write_them(mtl, words, tmp_path):
 def test_factors_stay_in_range_and_far_meshes_go_by_a_node(tmp_path):
     metadata = {"material.0.Kd": "1.5 0 0", "material.0.Ke": "10 10 10", "material.0.d": "1.0"}
     positions = np.add([[0, 0, 0], [1, 0, 0], [0, 1, 0.1]], [500123.25, 100.5, -4649776.75])
-    left = write_mesh(tmp_path / "a.glb", TriangleMesh(positions, [[0, 1, 2]], (), metadata))
+    left = bsm.save(TriangleMesh(positions, [[0, 1, 2]], (), metadata), tmp_path / "a.glb")
     assert left == ("Kd of material 0",)
     again = read_mesh(tmp_path / "a.glb").mesh
     assert again.positions == pytest.approx(positions, abs=1e-6)
     assert again.metadata["material.0.emissiveFactor"] == "223.826 223.826 223.826"
     assert again.metadata["material.0.baseColorFactor"] == "1 0 0 1"
     beyond = TriangleMesh(SQUARE, [[0, 1, 2]], (), {"material.0.baseColorFactor": "2 -1 0 1"})
-    assert write_mesh(tmp_path / "b.obj", beyond) == ("baseColorFactor of material 0",)
+    assert bsm.save(beyond, tmp_path / "b.obj") == ("baseColorFactor of material 0",)
     assert (tmp_path / "b.mtl").read_text().splitlines()[1:] == ["Kd 1 0 0"]
 
 
 def test_the_first_image_of_a_ply_has_the_color(tmp_path):
     metadata = {"material.0.normalTexture": 0, "material.0.baseColorTexture": 1}
     metadata |= {f"image.{number}.data": png() + bytes([number]) for number in range(2)}
-    write_mesh(tmp_path / "a.ply", TriangleMesh(SQUARE, [[0, 1, 2]], (), metadata))
+    bsm.save(TriangleMesh(SQUARE, [[0, 1, 2]], (), metadata), tmp_path / "a.ply")
     assert (tmp_path / "a.ply").read_bytes().partition(b"TextureFile ")[2].startswith(b"a.1.png")
     assert metadata.items() <= read_mesh(tmp_path / "a.ply").mesh.metadata.items()
 
@@ -870,18 +878,18 @@ def test_bodies_that_touch_stay_bodies_and_are_objects_of_a_3mf(way, tmp_path):
     two = TriangleMesh(box.positions, box.faces, [bsm.Attribute("object", np.repeat([0, 1], 12), "face")])
     assert len(bsm.Encoder(two).notes) == 1
     for kind in ("stl", "obj"):
-        write_mesh(tmp_path / f"a.{kind}", two, overwrite=True)
+        bsm.save(two, tmp_path / f"a.{kind}", overwrite=True)
         assert len(bsm.decode(bsm.encode(tmp_path / f"a.{kind}")).positions) == 16
     pytest.importorskip("lib3mf")
-    assert write_mesh(tmp_path / "a.3mf", bsm.decode(bsm.encode(two, preset="lossless"))) == ()
+    assert bsm.save(bsm.decode(bsm.encode(two, preset="lossless")), tmp_path / "a.3mf") == ()
     assert len(read_mesh(tmp_path / "a.3mf").mesh.positions) == 16
 
 
 @pytest.mark.parametrize("kind", ["ply", "off", "vtp"])
 def test_formats_without_materials_say_so(kind, tmp_path):
     mesh = TriangleMesh(SQUARE, [[0, 1, 2]], (), {"material.0.baseColorFactor": "1 0 0 1"})
-    assert "baseColorFactor of material 0" in write_mesh(tmp_path / f"a.{kind}", mesh)
-    assert write_mesh(tmp_path / "a.obj", mesh) == () and "Kd 1 0 0" in (tmp_path / "a.mtl").read_text()
+    assert "baseColorFactor of material 0" in bsm.save(mesh, tmp_path / f"a.{kind}")
+    assert bsm.save(mesh, tmp_path / "a.obj") == () and "Kd 1 0 0" in (tmp_path / "a.mtl").read_text()
 
 
 @pytest.mark.parametrize("kind", ["mesh", "post", "su2", "med", "ugrid", "xyz"])
@@ -899,7 +907,7 @@ def test_comments_of_an_obj_come_back_or_are_named(tmp_path):
         mesh.metadata["comment"] == "3D Slicer output. SPACE=RAS\nby hand" and "comments amid the data (2)" in dropped
     )
     for kind, line in (("obj", "# 3D Slicer output. SPACE=RAS"), ("ply", "comment 3D Slicer output. SPACE=RAS")):
-        write_mesh(tmp_path / f"b.{kind}", mesh)
+        bsm.save(mesh, tmp_path / f"b.{kind}")
         assert line in (tmp_path / f"b.{kind}").read_bytes().decode("latin-1").splitlines()
         assert read_mesh(tmp_path / f"b.{kind}").mesh.metadata["comment"] == mesh.metadata["comment"]
 
@@ -932,7 +940,7 @@ def test_colors_of_corners_stay_in_a_3mf(tmp_path):
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
     attribute = bsm.Attribute("color", colors, semantic="color")
     mesh = bsm.TriangleMesh(square, np.array([[0, 1, 2], [0, 2, 3]]), (attribute,))
-    assert "color" not in write_mesh(tmp_path / "a.3mf", mesh)
+    assert "color" not in bsm.save(mesh, tmp_path / "a.3mf")
     found = read_mesh(tmp_path / "a.3mf").mesh
     shown = next(a for a in found.attributes if a.semantic == "color")
     assert (shown.values[shown.indices] == colors[mesh.faces]).all()

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.files.motion.frames import Wanted
-from bsm.files.sequence import open_sequence
+from tests.motion import sequence_in
 
 SOURCES = Path(bsm.__file__).parent / "files"
 FACE = "GRID,1,{0},0.,0.,0.\nGRID,2,{0},1.,0.,0.\nGRID,3,{0},0.,1.,0.\nCTRIA3,1,1,1,2,3\n"
@@ -108,7 +107,7 @@ def test_tables_of_few_values_are_refused_before_they_are_made(more, tmp_path):
 def test_times_of_few_values_take_as_much_memory_as_one(tmp_path):
     (tmp_path / "a.msh").write_text(gmsh(5000, "".join(values("a", n, 1, "1 2.5\n") for n in range(1000))))
     tracemalloc.start()
-    frames = open_sequence(str(tmp_path / "a.msh"), request=Wanted())
+    frames = sequence_in(str(tmp_path / "a.msh"))
     _, most = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert frames.count == 1000 and most < 1 << 25

@@ -10,8 +10,8 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 import bsm
-from bsm import Attribute, BsmError, Limits, TriangleMesh
-from bsm.files.mesh import read_mesh, size_with_parts, write_mesh, written_mesh
+from bsm import Attribute, BsmError, Limits, TriangleMesh, read_mesh
+from bsm.files.mesh import size_with_parts, written_mesh
 from bsm.files.table import MESH_FORMATS, WRITTEN_FORMATS
 from tests.shapes import at_corners, patch, tetrahedron, torus
 
@@ -180,7 +180,7 @@ def test_many_names_are_one_entry(tmp_path):
     assert source.mesh.metadata["group.names"].split("\n") == names and source.dropped == ()
     stream = bsm.encode(source.mesh, keep_order=True, grid=8)
     assert bsm.decode(stream).metadata == source.mesh.metadata
-    write_mesh(tmp_path / "a.obj", source.mesh)
+    bsm.save(source.mesh, tmp_path / "a.obj")
     again = read_mesh(tmp_path / "a.obj").mesh
     assert again.metadata == source.mesh.metadata
     assert_same(source.mesh, again, ["group", "material"])
@@ -371,7 +371,7 @@ def test_faces_of_an_obj_are_grouped_unless_they_are():
 @pytest.mark.parametrize("kind", MESH_FORMATS)
 def test_there_and_back(kind, tmp_path):
     mesh = dressed()
-    left_out = write_mesh(tmp_path / f"b.{kind}", mesh)
+    left_out = bsm.save(mesh, tmp_path / f"b.{kind}")
     source = read_mesh(tmp_path / f"b.{kind}")
     attributes = {name for name in left_out if name not in mesh.metadata and " " not in name}
     assert attributes == KEPT["npz"] - KEPT[kind]
@@ -395,7 +395,7 @@ def test_glb_there_and_back(tmp_path):
     pytest.importorskip("trimesh")
     pytest.importorskip("PIL")
     mesh = dressed()
-    left_out = write_mesh(tmp_path / "b.glb", mesh)
+    left_out = bsm.save(mesh, tmp_path / "b.glb")
     source = read_mesh(tmp_path / "b.glb")
     assert set(left_out) == {"height", "face_color", "secret"}, "doubles are no floats"
     again = source.mesh
@@ -446,12 +446,12 @@ def test_what_lies_beside_is_called_like_the_file(tmp_path):
         mesh.positions, mesh.faces, (), {**hostile, "material.0.map_Kd": 0, "material.7.Kd": "1\nnewmtl q"}
     )
     assert set(written_mesh(mesh, "obj", tmp_path / "c.obj").beside) == {"c.mtl", "c.0.png"}
-    write_mesh(tmp_path / "c.obj", mesh)
+    bsm.save(mesh, tmp_path / "c.obj")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["c.0.png", "c.mtl", "c.obj"]
     assert "newmtl q" not in (tmp_path / "c.mtl").read_text().splitlines()
     (tmp_path / "d.0.png").write_bytes(b"mine")
     with pytest.raises(FileExistsError):
-        write_mesh(tmp_path / "d.obj", mesh, overwrite=False)
+        bsm.save(mesh, tmp_path / "d.obj", overwrite=False)
     assert (tmp_path / "d.0.png").read_bytes() == b"mine" and not (tmp_path / "d.obj").exists()
 
 
@@ -536,7 +536,7 @@ def test_real_files(meshes, name, expected, tmp_path):
     assert source.dropped == ()
     assert {a.name: len(a.values) for a in source.mesh.attributes} == expected
     for kind in ("ply", "obj"):
-        write_mesh(tmp_path / f"a.{kind}", source.mesh)
+        bsm.save(source.mesh, tmp_path / f"a.{kind}")
         again = read_mesh(tmp_path / f"a.{kind}").mesh
         # OBJ has no alpha, no colors of faces and no other values.
         kept = [n for n in expected if kind == "ply" or n not in ("face_color", "sulc")]
@@ -560,7 +560,7 @@ def test_real_scenes(meshes, name, vertices, attributes, dropped, tmp_path):
     assert len(source.mesh.positions) == vertices and source.dropped == dropped
     assert [a.name for a in source.mesh.attributes] == attributes
     assert (source.mesh.metadata["up"], source.mesh.metadata["unit"]) == ("y", "meters")
-    write_mesh(tmp_path / "a.glb", source.mesh)
+    bsm.save(source.mesh, tmp_path / "a.glb")
     again = read_mesh(tmp_path / "a.glb").mesh
     assert_same(source.mesh, again, attributes, 3e-7)  # trimesh makes normals of length one again
     assert again.metadata == source.mesh.metadata

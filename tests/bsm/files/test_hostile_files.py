@@ -14,17 +14,16 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import CorruptError, FormatError, LimitError, Limits, MeshError, TruncatedError
+from bsm import CorruptError, FormatError, LimitError, Limits, MeshError, TruncatedError, read_mesh
 from bsm.bitstream import errors
 from bsm.cli import main
-from bsm.files.mesh import read_mesh, written_mesh
 from bsm.files.parsing import gunzipped
-from bsm.files.sequence import open_sequence
 from bsm.files.table import format_of_bytes
 from tests.bsm.program import bound, python
 from tests.bsm.program import bsm as program
 from tests.gltf import Built
-from tests.shapes import ply_head
+from tests.motion import sequence_in
+from tests.shapes import file_of, ply_head
 from tests.streams import memory_below
 from tools.attack.readers import Case, chained_objects, grown, problems, three_mf, warm_up
 from tools.vectors.meshes import torus
@@ -50,13 +49,13 @@ def moving(path, count, vertices):
 @pytest.mark.parametrize("limits", [Limits(), Limits.service()])
 def test_attributes_that_move_are_counted(tmp_path, limits):
     moving(tmp_path / "a.npz", 8, 100_000)
-    few = open_sequence(str(tmp_path / "a.npz"), limits=limits)
+    few = sequence_in(str(tmp_path / "a.npz"), limits=limits)
     assert len(few.attributes) == 8
     moving(tmp_path / "a.npz", 60, 100_000)
     with memory_below(50e6), pytest.raises(bsm.LimitError, match="compressed bytes"):
-        open_sequence(str(tmp_path / "a.npz"), limits=limits)
+        sequence_in(str(tmp_path / "a.npz"), limits=limits)
     moving(tmp_path / "a.npz", 300, 3)
-    many = open_sequence(str(tmp_path / "a.npz"), limits=limits)
+    many = sequence_in(str(tmp_path / "a.npz"), limits=limits)
     assert len(many.attributes) == limits.attributes and "left out" in many.notes[0]
 
 
@@ -83,12 +82,12 @@ def test_strange_encodings_of_xml(encoding):
 def test_faces_of_a_pipe_do_not_wrap(vertex):
     given = npy(np.array([[0, 1, vertex]], np.uint64 if vertex > 2**62 else np.int64)) + npy(np.eye(3))
     with pytest.raises(bsm.MeshError, match="refers to vertex"):
-        open_sequence(given, "npy")
+        sequence_in(given, "npy")
 
 
 def test_a_side_that_is_true():
     with pytest.raises(bsm.CorruptError, match="shape"):
-        open_sequence(npy(np.zeros((1, 3), np.int64)).replace(b"(1, 3), }   ", b"(True, 3), }"), "npy")
+        sequence_in(npy(np.zeros((1, 3), np.int64)).replace(b"(1, 3), }   ", b"(True, 3), }"), "npy")
 
 
 def test_a_header_of_an_array_is_bounded():
@@ -151,7 +150,7 @@ def test_too_many_vertices_are_refused_from_the_head(tmp_path, kind, capsys):
 def test_an_npz_of_too_many_vertices(tmp_path):
     moving(tmp_path / "a.npz", 0, 1000)
     with pytest.raises(bsm.LimitError, match="vertices = 1,000 is over the limit of 999; cut it into parts"):
-        open_sequence(str(tmp_path / "a.npz"), limits=Limits(vertices=999))
+        sequence_in(str(tmp_path / "a.npz"), limits=Limits(vertices=999))
 
 
 LARGE = "ply, quads of bytes", "ply, long polygons of bytes", "glb, accessors of no bytes"
@@ -228,7 +227,7 @@ def test_what_gzip_has_compressed_is_bounded():
 
 
 def test_gzip_of_several_members():
-    text = written_mesh(torus(6, 6), "obj").data
+    text = file_of(torus(6, 6), "obj")
     both = gzip.compress(text[:100]) + gzip.compress(text[100:]) + bytes(10)
     assert gunzipped(both, Limits()) == text
     with pytest.raises(TruncatedError):

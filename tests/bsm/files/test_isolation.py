@@ -16,7 +16,6 @@ from bsm.cli import main
 from bsm.files import isolation
 from bsm.files.answer import FRAMES, MESH, found_in, leave
 from bsm.files.landlock import lack
-from bsm.files.mesh import write_mesh
 from bsm.files.motion.frames import Frames, Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
 from bsm.files.table import MESH_FORMATS
@@ -46,7 +45,7 @@ def test_the_mesh_is_the_same(kind, tmp_path):
     mesh = torus(40, 30)
     attributes = (replace(colors, values=colors.values[: len(mesh.positions)]), replace(places, indices=None))
     mesh = replace(mesh, attributes=attributes if kind != "off" else (), metadata={"unit": "mm"})
-    write_mesh(tmp_path / f"a.{kind}", mesh)
+    bsm.save(mesh, tmp_path / f"a.{kind}")
     same(read_mesh(tmp_path / f"a.{kind}", isolated=True), read_mesh(tmp_path / f"a.{kind}"))
     data = (tmp_path / f"a.{kind}").read_bytes()
     same(read_mesh(data, kind, isolated=True), read_mesh(data, kind))
@@ -338,14 +337,14 @@ def test_sequences_are_the_same(name, runs, tmp_path):
 
 
 def test_what_is_no_sequence_is_told(tmp_path):
-    write_mesh(tmp_path / "a.npz", torus(12, 8))
+    bsm.save(torus(12, 8), tmp_path / "a.npz")
     assert open_sequence(tmp_path / "a.npz", isolated=True) is None
     with pytest.raises(FormatError):
         open_sequence(b"PK\x03\x04", isolated=True)
 
 
 def test_the_command_reads_untrusted_files_behind_the_wall(tmp_path):
-    write_mesh(tmp_path / "a.ply", torus(20, 16))
+    bsm.save(torus(20, 16), tmp_path / "a.ply")
     assert main(["encode", str(tmp_path / "a.ply"), "--untrusted", "-q"]) == 0
     assert bsm.decode(tmp_path / "a.bsm").faces.shape == (640, 3)
     (tmp_path / "b.ply").write_bytes(b"ply\nformat ascii 1.0\nelement vertex 2000000\nelement face 1\nend_header\n")

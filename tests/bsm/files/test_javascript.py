@@ -12,10 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import BsmError
+from bsm import BsmError, read_mesh
 from bsm.files.formats import stl
-from bsm.files.mesh import read_mesh, written_mesh
-from tests.shapes import ply_head, tetrahedron, torus
+from tests.shapes import file_of, ply_head, tetrahedron, torus
 
 ROOT = Path(__file__).parents[3]
 WEB = ROOT / "web"
@@ -265,7 +264,7 @@ def test_stls(tmp_path):
     random = np.random.default_rng(3)
     facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 {}\nendloop\nendfacet\n"
     two = f"solid a\n{facet.format(0)}endsolid a\nsolid b c\n{facet.format(-0.0)}{facet.format(2)}endsolid\n"
-    binary = written_mesh(torus(), "stl").data
+    binary = file_of(torus(), "stl")
     cube = np.array([[int(bit) for bit in f"{i:03b}"] for i in range(8)])
     sides = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
     body = cube[sides[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)]
@@ -300,14 +299,14 @@ def test_stls(tmp_path):
 
 @pytest.mark.parametrize("kind", READ)
 def test_what_is_written(kind, tmp_path):
-    files = {f"{i}.{kind}": written_mesh(mesh, kind).data for i, mesh in enumerate((tetrahedron(), torus()))}
+    files = {f"{i}.{kind}": file_of(mesh, kind) for i, mesh in enumerate((tetrahedron(), torus()))}
     assert require_same(written(tmp_path, files)) == 2
 
 
 @pytest.mark.parametrize("kind", READ)
 def test_garbage(kind, tmp_path):
     """Bytes changed at random: both read the same, or both refuse."""
-    random, data = np.random.default_rng(7), written_mesh(tetrahedron(), kind).data
+    random, data = np.random.default_rng(7), file_of(tetrahedron(), kind)
     files = {}
     for number in range(60):
         changed = bytearray(data)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.files.mesh import read_mesh, write_mesh
+from bsm import read_mesh
 from bsm.files.motion.frames import Shared
 from bsm.files.sequence import sequence_writer
 
@@ -291,7 +291,7 @@ def test_a_foreign_library_finds_each_property_or_the_writer_names_it(kind, deco
             write(decoded.positions)
         left = shared.left_out
     else:
-        left = write_mesh(path, decoded)
+        left = bsm.save(decoded, path)
     found = judge(path)
     marks = next((found[name] for name in ("gap.none", "gap_none") if name in found), None)
     if marks is not None:  # formats without numbers that are none

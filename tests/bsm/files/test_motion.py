@@ -22,19 +22,20 @@ from bsm import (
     OptionError,
     TriangleMesh,
     TruncatedError,
+    decode_frames,
     encode_frames,
+    read_mesh,
+    save,
 )
-from bsm.api import decode_frames
 from bsm.files import conventions
 from bsm.files.formats.metadata import named, names_in
-from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.folder import in_order, look_like_frames, times_in
 from bsm.files.motion.frames import Shared, Wanted, painted_like
-from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
+from bsm.files.sequence import open_frames, sequence_kind, sequence_writer
 from bsm.gltf.scene import Keyframes, matrix_of, read_gltf
 from tests.bsm.program import run as bsm
 from tests.gltf import Built, glb, unpack
-from tests.motion import animators_own, bending, save_frames
+from tests.motion import animators_own, bending, save_frames, sequence_in
 from tests.shapes import torus
 
 MOVING = Path(__file__).parent / "moving"
@@ -43,7 +44,7 @@ COUNT = 6
 
 
 def frames_of(path, **keywords):
-    source = open_sequence(str(path), request=Wanted(**keywords))
+    source = sequence_in(str(path), **keywords)
     return source, np.array(list(source.frames))
 
 
@@ -447,11 +448,11 @@ def test_stages_that_are_no_sequence(tmp_path, capsys):
     from pxr import Usd
 
     stage_of(tmp_path / "still.usda", [SQUARE], (0,))
-    assert open_sequence(str(tmp_path / "still.usda")) is None
+    assert sequence_in(str(tmp_path / "still.usda")) is None
     assert read_mesh(tmp_path / "still.usda").mesh.positions.shape == (4, 3)
     Usd.Stage.CreateNew(str(tmp_path / "empty.usda")).Save()
     with pytest.raises(FormatError, match="no meshes"):
-        open_sequence(str(tmp_path / "empty.usda"))
+        sequence_in(str(tmp_path / "empty.usda"))
     unknown = b'#usda 1.0\ndef Mesh "a" {\nfloats[] points = [1]\n}\n'
     package = (MOVING / "painted.usdz").read_bytes()
     for name, data, message in (
@@ -462,7 +463,7 @@ def test_stages_that_are_no_sequence(tmp_path, capsys):
     ):
         (tmp_path / name).write_bytes(data)
         with pytest.raises(FormatError, match=message):
-            open_sequence(str(tmp_path / name))
+            sequence_in(str(tmp_path / name))
     mesh, stage = stage_of(tmp_path / "other.usda", [SQUARE, SQUARE, SQUARE], (0, 1, 2))
     mesh.GetFaceVertexIndicesAttr().Set([0, 1, 2, 0, 2, 3], 0)
     mesh.GetFaceVertexIndicesAttr().Set([0, 1, 3, 1, 2, 3], 2)
@@ -478,7 +479,7 @@ def test_stages_that_are_no_sequence(tmp_path, capsys):
 def written(folder, positions, faces, suffix="ply"):
     folder.mkdir()
     for number, frame in enumerate(positions):
-        write_mesh(folder / f"walk_{number + 7}.{suffix}", TriangleMesh(frame, faces))
+        save(TriangleMesh(frame, faces), folder / f"walk_{number + 7}.{suffix}")
     return sorted(map(str, folder.iterdir()))
 
 
@@ -522,10 +523,10 @@ def test_how_frames_differ_is_reported(tmp_path):
     names = written(tmp_path / "a", positions, faces)
     turned = faces.copy()
     turned[5] = np.roll(turned[5], 1)
-    write_mesh(names[1], TriangleMesh(positions[1], turned))
+    save(TriangleMesh(positions[1], turned), names[1])
     with pytest.raises(MeshError, match=r"walk_8.ply \(frame 1\) has other faces than .*walk_7.ply: face 5 is"):
         list(open_frames(names, None, Limits(), Wanted(), isolated=None).frames)
-    write_mesh(names[1], TriangleMesh(positions[1], faces[:-2]))
+    save(TriangleMesh(positions[1], faces[:-2]), names[1])
     with pytest.raises(MeshError, match="958 faces where there were 960"):
         list(open_frames(names, None, Limits(), Wanted(), isolated=None).frames)
 
@@ -605,12 +606,12 @@ def test_pc2_and_mdd_byte_by_byte(tmp_path):
     assert frames_of(tmp_path / "a.mdd")[0].frame_rate == 4
     shutil.move(tmp_path / "a.obj", tmp_path / "b.obj")
     with pytest.raises(MeshError, match=r"--mesh"):
-        open_sequence(str(tmp_path / "a.pc2"))
+        sequence_in(str(tmp_path / "a.pc2"))
     source, frames = frames_of(tmp_path / "a.pc2", mesh=tmp_path / "b.obj")
     assert np.allclose(frames, positions, atol=1e-6) and np.array_equal(source.faces, faces)
-    write_mesh(tmp_path / "a.obj", torus(5, 4))
+    save(torus(5, 4), tmp_path / "a.obj")
     with pytest.raises(MeshError, match=r"9 points and the mesh .* has 20 vertices"):
-        open_sequence(str(tmp_path / "a.pc2"))
+        sequence_in(str(tmp_path / "a.pc2"))
 
 
 @pytest.mark.parametrize(
@@ -628,10 +629,10 @@ def test_pc2_and_mdd_byte_by_byte(tmp_path):
     ],
 )
 def test_damaged_caches(tmp_path, kind, data, error):
-    write_mesh(tmp_path / "a.obj", torus(5, 4))
+    save(torus(5, 4), tmp_path / "a.obj")
     (tmp_path / f"a.{kind}").write_bytes(data)
     with pytest.raises(error):
-        open_sequence(str(tmp_path / f"a.{kind}"))
+        sequence_in(str(tmp_path / f"a.{kind}"))
 
 
 TIMES = {
@@ -648,7 +649,7 @@ TIMES = {
 def test_the_timing_of_a_cache_comes_back(tmp_path, capsys, name):
     kind, times = TIMES[name]
     mesh = torus(5, 4)
-    write_mesh(tmp_path / "a.obj", mesh)
+    save(mesh, tmp_path / "a.obj")
     frames = np.array([mesh.positions * (1 + 0.1 * t) for t in range(4)])
     if kind == "pc2":
         head = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(mesh.positions), *times, 4)
@@ -672,7 +673,7 @@ def test_the_timing_of_a_cache_comes_back(tmp_path, capsys, name):
 
 def test_times_that_make_no_sense_are_noted(tmp_path, capsys):
     mesh = torus(5, 4)
-    write_mesh(tmp_path / "a.obj", mesh)
+    save(mesh, tmp_path / "a.obj")
     points = np.tile(mesh.positions, (2, 1, 1))
     for kind, head in (
         ("mdd", struct.pack(">ii2f", 2, len(mesh.positions), 1.0, 0.0)),
@@ -704,14 +705,14 @@ def test_other_materials_of_later_frames_are_noted(tmp_path, capsys):
             known = {"material.0.name": "skin", "material.0.baseColorFactor": "1 0 0 1" if number < 2 else "0 1 0 1"}
             faces = mesh.faces if folder == "same" or number < 2 else mesh.faces[:-1]
             moved = TriangleMesh(mesh.positions * (1 + 0.1 * number), faces, metadata=known)
-            write_mesh(tmp_path / folder / f"{number}.npz", moved)
+            save(moved, tmp_path / folder / f"{number}.npz")
         assert bsm("encode", tmp_path / folder, "-o", tmp_path / f"{folder}.bsm", "--quick", *more) == 0
         assert "material.0.baseColorFactor changes at frame 2, but stays as before" in capsys.readouterr().err
 
 
 def test_a_cache_with_nan_names_the_frame(tmp_path, capsys):
     mesh = torus(5, 4)
-    write_mesh(tmp_path / "a.obj", mesh)
+    save(mesh, tmp_path / "a.obj")
     frames = np.tile(mesh.positions, (20, 1, 1)).astype("<f4")
     frames[17, 3, 2] = np.nan
     head = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(mesh.positions), 0, 1, 20)
@@ -730,7 +731,7 @@ def test_a_cache_with_nan_names_the_frame(tmp_path, capsys):
 
 def test_what_is_no_moving_gltf(tmp_path, capsys):
     pytest.importorskip("trimesh")
-    write_mesh(tmp_path / "still.glb", torus(5, 4))
+    save(torus(5, 4), tmp_path / "still.glb")
     assert bsm("encode", tmp_path / "still.glb", "--animation", 0, "-o", tmp_path / "a.bsm") == 3
     assert "still.glb: this glTF has no animation" in capsys.readouterr().err
     with pytest.raises(OptionError, match="no animation 1"):
@@ -797,7 +798,7 @@ def test_bytes_that_are_used_many_times_are_bounded(tmp_path):
     many["scenes"][0]["nodes"] = list(range(len(many["nodes"])))
     (tmp_path / "a.glb").write_bytes(glb(many, binary))
     with pytest.raises(LimitError, match="vertices"):
-        open_sequence(str(tmp_path / "a.glb"), limits=Limits(vertices=100_000), request=Wanted())
+        sequence_in(str(tmp_path / "a.glb"), limits=Limits(vertices=100_000))
     zeros = json.loads(json.dumps(tree))
     zeros["accessors"].append({"componentType": 5126, "type": "VEC3", "count": 1 << 23})
     primitive = zeros["meshes"][0]["primitives"][0]
@@ -903,7 +904,7 @@ def shown_by_three(path, rate, count):
 @pytest.mark.parametrize("name", ["skinned", "morphing"])
 def test_what_blender_wrote(name):
     """Bones that turn and targets that mix, as three.js' own mixer moves them."""
-    frames = np.array(list(open_sequence(str(MOVING / f"{name}.glb"), request=Wanted()).frames))
+    frames = np.array(list(sequence_in(str(MOVING / f"{name}.glb")).frames))
     shown = shown_by_three(MOVING / f"{name}.glb", 24, len(frames))
     distance, same = cKDTree(frames[0]).query(shown[0])
     assert set(same) == set(range(frames.shape[1])) and distance.max() < 1e-5
@@ -962,21 +963,21 @@ def test_parts_of_a_pvd_at_one_time_are_joined_and_a_pvd_is_written(tmp_path):
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
     faces = np.array([[0, 1, 2], [0, 2, 3]])
     for number in range(3):
-        write_mesh(tmp_path / f"p{number}.vtp", TriangleMesh(np.add(square, (3 * number, 0, number)), faces))
+        save(TriangleMesh(np.add(square, (3 * number, 0, number)), faces), tmp_path / f"p{number}.vtp")
     rows = '<DataSet timestep="0.5" file="p0.vtp"/><DataSet timestep="0.5" file="p1.vtp"/>'
     rows += '<DataSet timestep="2" file="p1.vtp"/><DataSet timestep="2" file="p2.vtp"/>'
     head = '<VTKFile type="Collection" version="0.1"><Collection>{}</Collection></VTKFile>'
     (tmp_path / "a.pvd").write_text(head.format(rows))
-    frames = open_sequence(str(tmp_path / "a.pvd"))
+    frames = sequence_in(str(tmp_path / "a.pvd"))
     assert [frame[:, 0].max() for frame in frames.frames] == [4, 7] and frames.frame_rate == pytest.approx(1 / 1.5)
     for nothing in ("", ' timestep=""'):
         first = re.sub(' timestep="[^"]*"', nothing, rows.partition('<DataSet timestep="2"')[0])
         (tmp_path / "b.pvd").write_text(head.format(first))
-        assert open_sequence(str(tmp_path / "b.pvd")).count == 1
+        assert sequence_in(str(tmp_path / "b.pvd")).count == 1
     bsm("encode", tmp_path / "a.pvd", "-f", "--quick", "-o", tmp_path / "a.bsm")
     assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / "out.pvd") == 0
     text = (tmp_path / "out.pvd").read_text()
     found = re.findall('timestep="(.*?)" .*file="(.*?)"', text)
     assert [name for _, name in found] == ["out/00000.vtp", "out/00001.vtp"]
     assert [float(time) for time, _ in found] == pytest.approx([0.5, 2], abs=1e-5)
-    assert open_sequence(str(tmp_path / "out.pvd")).count == 2
+    assert sequence_in(str(tmp_path / "out.pvd")).count == 2

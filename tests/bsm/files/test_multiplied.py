@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import FormatError, Limits
+from bsm import FormatError, Limits, read_mesh
 from bsm.cli import main
-from bsm.files.mesh import read_mesh, write_mesh
 from tests.bsm.files.test_file_attributes import png
 from tests.gltf import Built, unpack
 from tests.shapes import torus
@@ -65,7 +64,7 @@ def test_a_vtp_has_no_doctype_in_any_encoding(encoding):
 
 
 def test_no_output_of_glb_replaces_what_it_reads(tmp_path, capsys):
-    write_mesh(tmp_path / "a.glb", torus(12, 8))
+    bsm.save(torus(12, 8), tmp_path / "a.glb")
     data = (tmp_path / "a.glb").read_bytes()
     (tmp_path / "b.fallback.bin").write_bytes(data)
     assert main(["glb", str(tmp_path / "b.fallback.bin"), "-o", str(tmp_path / "b.glb"), "--fallback", "-f"]) == 2
@@ -80,7 +79,7 @@ def test_no_output_of_glb_replaces_what_it_reads(tmp_path, capsys):
 
 
 def test_facts_have_the_same_keys_in_every_case(tmp_path, capsys):
-    write_mesh(tmp_path / "a.ply", torus(60, 50))
+    bsm.save(torus(60, 50), tmp_path / "a.ply")
     keys = []
     for words in ([], ["--simplify"], ["--simplify", "--preset", "small"], ["--dry-run"]):
         assert main(["encode", str(tmp_path / "a.ply"), "--json", "-f", *words]) == 0

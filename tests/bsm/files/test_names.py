@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm import read_mesh
 from bsm.cli import main
 from bsm.files import unread
-from bsm.files.mesh import read_mesh, written_mesh
-from bsm.files.motion.frames import Wanted
-from bsm.files.sequence import open_sequence
 from bsm.files.table import FORMATS
 from tests.bsm.files.test_file_attributes import attribute
+from tests.motion import sequence_in
+from tests.shapes import file_of
 
 SETTINGS = Path(unread.__file__).with_name("settings.csv")
 
@@ -49,7 +49,7 @@ def properties(data):
 
 def there_and_back(path):
     mesh = read_mesh(path).mesh
-    return properties(written_mesh(bsm.decode(bsm.encode(mesh, preset="lossless")), "ply").data)
+    return properties(file_of(bsm.decode(bsm.encode(mesh, preset="lossless")), "ply"))
 
 
 @pytest.mark.parametrize(
@@ -293,7 +293,7 @@ def test_sets_of_exodus_are_marks_and_displacements_are_values(tmp_path):
 
 
 def test_frames_of_exodus_move_and_keep_the_numbers_of_all_steps(tmp_path):
-    frames = open_sequence(str(exodus(tmp_path / "a.exo", 3)), request=Wanted())
+    frames = sequence_in(str(exodus(tmp_path / "a.exo", 3)))
     moved = [mesh.positions[:, 0].min() for mesh in frames.meshes]
     assert moved == [5, 15, 25] and frames.metadata["energy"] == "7.0 8.0 9.0"
 

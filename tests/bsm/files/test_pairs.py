@@ -6,11 +6,10 @@ import itertools
 import numpy as np
 import pytest
 
-from bsm import Attribute, TriangleMesh, read_mesh
+from bsm import Attribute, TriangleMesh, read_mesh, save
 from bsm.files.conventions import placement, shares_of, to_linear
 from bsm.files.formats.appearance import appearance
 from bsm.files.formats.metadata import materials_in
-from bsm.files.mesh import write_mesh
 from bsm.files.table import WRITTEN_FORMATS
 
 FACES = np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4]])
@@ -70,7 +69,7 @@ def meaning(mesh):
 def test_what_a_mesh_means_stays_or_is_named(first, second, tmp_path):
     lost, mesh = set(), MESH
     for kind in (first, second):
-        lost |= set(write_mesh(tmp_path / f"a.{kind}", mesh))
+        lost |= set(save(mesh, tmp_path / f"a.{kind}"))
         mesh = read_mesh(tmp_path / f"a.{kind}").mesh
     found = meaning(mesh)
     for name, expected in meaning(MESH).items():

@@ -9,11 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from bsm import LimitError
-from bsm.evaluation.sample import knot
+from bsm import LimitError, read_mesh, save
 from bsm.files import pipes
-from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.pipes import Input, as_input, is_pipe
+from tests.shapes import knot
 
 ROOT = Path(__file__).parents[3]
 DATA = bytes(range(256)) * 5
@@ -103,7 +102,7 @@ def test_what_is_a_pipe(tmp_path):
     ],
 )
 def test_the_command_line_takes_what_a_shell_gives(line, tmp_path):
-    write_mesh(tmp_path / "in.ply", knot(300))
+    save(knot(300), tmp_path / "in.ply")
     os.mkfifo(tmp_path / "fifo.ply")
     program = f'bsm() {{ "{sys.executable}" -m bsm "$@"; }}\n'
     feed = "cat in.ply > fifo.ply &\n" if "fifo.ply" in line else ""

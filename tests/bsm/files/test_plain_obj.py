@@ -5,8 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import MeshError
-from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm import Limits, MeshError
 from bsm.files.formats import obj
 
 PLAIN = b"""# made by hand
@@ -83,10 +82,10 @@ def test_other_lines_are_left_to_the_reader_of_all_files(line: bytes) -> None:
 
 def test_errors_say_what_they_said(tmp_path: Path) -> None:
     with pytest.raises(MeshError, match="count from 1"):
-        obj.read_obj(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", DEFAULT_LIMITS)
-    far = obj.read_obj(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf -9 1 2\n", DEFAULT_LIMITS)
+        obj.read_obj(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", Limits())
+    far = obj.read_obj(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf -9 1 2\n", Limits())
     with pytest.raises(MeshError, match="refers to vertex -6"):
-        far.checked(DEFAULT_LIMITS)
+        far.checked(Limits())
 
 
 def test_files_without_points_or_faces_are_plain() -> None:

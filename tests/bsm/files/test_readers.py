@@ -10,12 +10,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm import BsmError, CorruptError, FormatError, LimitError, Limits, MeshError, TriangleMesh, TruncatedError
-from bsm.files.mesh import read_mesh, write_mesh, written_mesh
-from bsm.files.sequence import open_sequence
+from bsm import (
+    BsmError,
+    CorruptError,
+    FormatError,
+    LimitError,
+    Limits,
+    MeshError,
+    TriangleMesh,
+    TruncatedError,
+    read_mesh,
+    save,
+)
 from bsm.files.table import FORMATS, MESH_FORMATS
 from tests.gltf import Built
-from tests.shapes import ply_head, tetrahedron, torus
+from tests.motion import sequence_in
+from tests.shapes import file_of, ply_head, tetrahedron, torus
 
 OURS = tuple(kind for kind in MESH_FORMATS if kind not in ("npz", "vtp"))
 
@@ -25,7 +35,7 @@ OURS = tuple(kind for kind in MESH_FORMATS if kind not in ("npz", "vtp"))
 
 @pytest.mark.parametrize("kind", [*OURS, "npz"])
 def test_compressed_files(kind, tmp_path):
-    (tmp_path / f"a.{kind}.gz").write_bytes(gzip.compress(written_mesh(tetrahedron(), kind).data))
+    (tmp_path / f"a.{kind}.gz").write_bytes(gzip.compress(file_of(tetrahedron(), kind)))
     assert len(read_mesh(tmp_path / f"a.{kind}.gz").mesh.faces) == 4
 
 
@@ -43,7 +53,7 @@ def test_what_is_no_number_is_shown():
 
 
 def test_damaged_compressed_files():
-    whole = gzip.compress(written_mesh(torus(), "ply").data)
+    whole = gzip.compress(file_of(torus(), "ply"))
     with pytest.raises(TruncatedError, match="cut short"):
         read_mesh(whole[:-20])
     with pytest.raises(CorruptError, match="damaged"):
@@ -103,7 +113,7 @@ def test_formats_that_trimesh_writes(trimesh, kind, tmp_path):
     for needed in {"3mf": ("networkx", "lxml", "lib3mf"), "dae": ("collada",)}.get(kind, ()):
         pytest.importorskip(needed)
     trimesh.Trimesh(*torus_arrays(), process=False).export(tmp_path / f"a.{kind}")
-    assert open_sequence(tmp_path / f"a.{kind}") is None, "a 3MF is a ZIP, as an npz is"
+    assert sequence_in(tmp_path / f"a.{kind}") is None, "a 3MF is a ZIP, as an npz is"
     mesh = read_mesh(tmp_path / f"a.{kind}").mesh
     positions, faces = torus_arrays()
     assert mesh.positions[mesh.faces] == pytest.approx(positions[faces], abs=1e-5)
@@ -152,7 +162,7 @@ def triangle_meshes(draw):
 @given(mesh=triangle_meshes())
 def test_any_mesh_survives(kind, mesh, tmp_path_factory):
     path = tmp_path_factory.mktemp("files") / f"mesh.{kind}"
-    write_mesh(path, mesh)
+    save(mesh, path)
     back = read_mesh(path).mesh
     assert np.array_equal(back.faces, mesh.faces)
     assert np.array_equal(back.positions, mesh.positions) or np.allclose(
@@ -162,7 +172,7 @@ def test_any_mesh_survives(kind, mesh, tmp_path_factory):
 
 def test_stl_joins_equal_corners(tmp_path):
     path = tmp_path / "mesh.stl"
-    write_mesh(path, TETRAHEDRON)
+    save(TETRAHEDRON, path)
     source = read_mesh(path)
     assert len(path.read_bytes()) == 84 + 4 * 50
     assert np.array_equal(source.mesh.positions[source.mesh.faces], TETRAHEDRON.positions[TETRAHEDRON.faces])
@@ -174,14 +184,14 @@ def test_stl_joins_equal_corners(tmp_path):
 def test_double_precision_is_kept_where_it_matters(kind, tmp_path):
     far = TriangleMesh(TETRAHEDRON.positions * 0.1 + 1e7, TETRAHEDRON.faces)
     path = tmp_path / f"mesh.{kind}"
-    write_mesh(path, far)
+    save(far, path)
     assert np.array_equal(read_mesh(path).mesh.positions, far.positions)
 
 
 def test_stl_refuses_to_lose_precision(tmp_path):
     path = tmp_path / "mesh.stl"
     with pytest.raises(MeshError, match="double precision"):
-        write_mesh(path, TriangleMesh(TETRAHEDRON.positions * 0.1 + 1e7, TETRAHEDRON.faces))
+        save(TriangleMesh(TETRAHEDRON.positions * 0.1 + 1e7, TETRAHEDRON.faces), path)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -209,13 +219,13 @@ def test_other_line_ends(name, line_end, tmp_path):
 
 def test_the_content_tells_the_format_where_the_name_does_not(tmp_path):
     for kind in (kind for kind in MESH_FORMATS if FORMATS[kind].begins):
-        source = read_mesh(write(tmp_path, f"{kind}.dat", written_mesh(TETRAHEDRON, kind).data))
+        source = read_mesh(write(tmp_path, f"{kind}.dat", file_of(TETRAHEDRON, kind)))
         assert len(source.mesh.faces) == 4
 
 
 @pytest.mark.parametrize("kind", MESH_FORMATS)
 def test_no_library_is_needed_for_our_formats(kind, tmp_path, monkeypatch):
-    write_mesh(tmp_path / f"a.{kind}", TETRAHEDRON)
+    save(TETRAHEDRON, tmp_path / f"a.{kind}")
     monkeypatch.setitem(sys.modules, "trimesh", None)
     assert len(read_mesh(tmp_path / f"a.{kind}").mesh.faces) == 4
 
@@ -275,7 +285,7 @@ def test_bad_files_are_refused(name, tmp_path):
 
 @pytest.mark.parametrize("kind", [*OURS, "npz"])
 def test_every_truncation_is_an_error_or_fewer_faces(kind, tmp_path):
-    whole = written_mesh(TETRAHEDRON, kind).data
+    whole = file_of(TETRAHEDRON, kind)
     for length in range(len(whole)):
         try:
             faces = len(read_mesh(write(tmp_path, f"a.{kind}", whole[:length])).mesh.faces)
@@ -318,7 +328,7 @@ def test_an_array_that_claims_too_much_is_refused_without_allocating(tmp_path):
 
 def test_limits_bound_the_mesh(tmp_path):
     path = tmp_path / "a.ply"
-    write_mesh(path, TETRAHEDRON)
+    save(TETRAHEDRON, path)
     with pytest.raises(LimitError, match="vertices"):
         read_mesh(path, limits=Limits(vertices=3))
     with pytest.raises(LimitError, match="faces"):

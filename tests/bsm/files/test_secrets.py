@@ -13,10 +13,9 @@ import pytest
 
 import bsm
 from bsm.files import landlock
-from bsm.files.motion.frames import Wanted
-from bsm.files.sequence import open_sequence
 from tests.bsm.program import bsm as bsm_of
 from tests.grids import save_grid
+from tests.motion import sequence_in
 
 h5py = pytest.importorskip("h5py", reason="needs the extra simulation")
 pytest.importorskip("lxml", reason="needs the extra simulation")
@@ -403,7 +402,7 @@ def said_of(path: Path, *, isolated: bool | None) -> tuple[str, bool]:
     """Return all words of notes, metadata and errors for a file, and whether the number is in its stream."""
     try:
         if path.suffix in (".pvd", ".series"):
-            frames = open_sequence(path, request=Wanted(), isolated=isolated)
+            frames = sequence_in(path, isolated=isolated)
             assert frames is not None
             words, meshes = (
                 f"{frames.notes}{frames.metadata}",
@@ -486,11 +485,11 @@ def test_frames_of_strangers_are_no_links_to_other_folders(tmp_path):
     (tmp_path / "in" / "0.obj").write_text(TRIANGLE)
     (tmp_path / "in" / "1.obj").symlink_to(tmp_path / "secret.obj")
     with pytest.raises(bsm.FormatError, match="link to another folder"):
-        open_sequence(tmp_path / "in", isolated=True)
+        sequence_in(tmp_path / "in", isolated=True)
     for words in ((), ("--frames", "0:2")):
         done = bsm_of("encode", tmp_path / "in", "-o", tmp_path / "a.bsm", "--untrusted", *words, text=True)
         assert done.returncode != 0 and "link to another folder" in done.stderr
-    assert open_sequence(tmp_path / "in").count == 2
+    assert sequence_in(tmp_path / "in").count == 2
 
 
 def test_a_list_of_strangers_is_parsed_in_their_process(tmp_path, monkeypatch):
@@ -498,7 +497,7 @@ def test_a_list_of_strangers_is_parsed_in_their_process(tmp_path, monkeypatch):
         pytest.skip(f"no wall here: it needs {landlock.lack()}")
     path = written(tmp_path, "pvd, files", "own")
     monkeypatch.setattr("bsm.files.motion.folder.listed", lambda *given: 1 // 0)
-    assert open_sequence(path, isolated=True).count == 2
+    assert sequence_in(path, isolated=True).count == 2
 
 
 @pytest.mark.skipif(os.name != "posix" or sys.platform == "darwin", reason="names are text here")

@@ -6,10 +6,9 @@ import pytest
 import bsm
 from bsm.files import apart
 from bsm.files.formats.cells import _SHAPES, of_meshio
-from bsm.files.mesh import written_mesh
-from bsm.files.motion.frames import Wanted
-from bsm.files.sequence import open_sequence
 from tests.grids import grid, save, save_grid
+from tests.motion import sequence_in
+from tests.shapes import file_of
 
 meshio, _ = pytest.importorskip("meshio"), pytest.importorskip("h5py")
 pytest.importorskip("lxml", reason="needs the extra simulation")
@@ -79,7 +78,7 @@ def test_steps_are_frames(data, tmp_path, monkeypatch):
         writer.write_points_cells(POINTS, {"hexahedron": CUBES})
         for step in range(3):
             writer.write_data(step / 4, point_data={"heat": np.full(12, step / 8)})
-    frames = open_sequence("a.xdmf", request=Wanted())
+    frames = sequence_in("a.xdmf")
     assert [mesh.attributes[0].values[0, 0] for mesh in frames.meshes] == [0, 1 / 8, 1 / 4]
     assert frames.frame_rate == 4 and "left out: the inside of volumes" in frames.notes
     assert "later steps (2)" in bsm.read_mesh("a.xdmf").dropped
@@ -264,7 +263,7 @@ def test_steps_of_exodus_are_frames(tmp_path):
     writer.SetFileName(str(tmp_path / "a.exo"))
     writer.WriteAllTimeStepsOn()
     assert writer.Write()
-    frames = open_sequence(str(tmp_path / "a.exo"), request=Wanted())
+    frames = sequence_in(str(tmp_path / "a.exo"))
     assert frames.count == 3 and frames.frame_rate == 2
     assert [next(a for a in mesh.attributes if a.name == "heat").values[0, 0] for mesh in frames.meshes] == [0, 0.5, 1]
     assert "later steps (2)" in bsm.read_mesh(tmp_path / "a.exo").dropped
@@ -293,7 +292,7 @@ def test_a_folder_and_a_pattern_find_every_format_that_is_read(tmp_path):
     for number in range(3):
         save(tmp_path / f"s_{number}.vtu", grid(np.add(POINTS, (0, 0, number)), HEXAHEDRA))
     for name in (str(tmp_path), str(tmp_path / "s_*.vtu")):
-        frames = open_sequence(name)
+        frames = sequence_in(name)
         assert [frame[:, 2].min() for frame in frames.frames] == [0, 1, 2]
 
 
@@ -313,7 +312,7 @@ def test_the_name_of_a_file_tells_its_format_before_its_lines_do(tmp_path):
     (tmp_path / "a.vtk").write_text(text)
     mesh = bsm.read_mesh(tmp_path / "a.vtk").mesh
     assert {a.name: a.values[:, 0].tolist() for a in mesh.attributes} == {"u": [1, 2, 3], "v": [4, 5, 6]}
-    (tmp_path / "b.vtp").write_bytes(written_mesh(mesh, "vtp").data)
+    (tmp_path / "b.vtp").write_bytes(file_of(mesh, "vtp"))
     text = "<VTKFile type='PPolyData'><PPolyData><PPoints><PDataArray type='Float32' NumberOfComponents='3'/></PPoints>"
     pieces = "<Piece Source='b.vtp'/>" * 2
     (tmp_path / "b.pvtp").write_text(f"{text}{pieces}</PPolyData></VTKFile>")

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.files.motion.frames import Wanted
-from bsm.files.sequence import open_sequence
+from tests.motion import sequence_in
 
 SQUARE = ((1, 0, 0, 0), (2, 1, 0, 0), (3, 1, 1, 0), (4, 0, 1, 0))
 GRIDS = "".join(f"GRID,{n},,{x}.,{y}.,{z}.\n" for n, x, y, z in SQUARE)
@@ -232,7 +231,7 @@ def test_partitions_parameters_and_views_of_gmsh(version, binary, tmp_path):
     found = bsm.read_mesh(path)
     assert area_of(found.mesh) == pytest.approx(2)
     assert ("the group plate" in found.dropped) == (version < 3)  # with SaveAll, Gmsh writes none there
-    moving = open_sequence(str(tmp_path / "view.msh"), request=Wanted())
+    moving = sequence_in(str(tmp_path / "view.msh"))
     assert moving.count == 2 and moving.frame_rate == 1
     for step, mesh in enumerate(moving.meshes):
         assert area_of(mesh) == pytest.approx(2)
@@ -277,7 +276,7 @@ def test_files_of_gmsh(version, binary, order, tmp_path, monkeypatch):
     assert [names[number] for number in numbers] == ["plate" if side else "inside" for side in sides]
 
     if not binary:
-        moving = open_sequence(path, request=Wanted())
+        moving = sequence_in(path)
         assert moving.count == 2 and moving.frame_rate == 1 and "later steps" not in " ".join(moving.notes)
         second = [*moving.meshes][1]
         at = next(a.values[:, 0] for a in second.attributes if a.name == "x")

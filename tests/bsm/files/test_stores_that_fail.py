@@ -3,7 +3,7 @@
 import pytest
 
 import bsm
-from bsm.files.mesh import written_mesh
+from tests.shapes import file_of
 from tools.vectors.meshes import torus
 
 fsspec = pytest.importorskip("fsspec")
@@ -23,7 +23,7 @@ def store():
     files = fsspec.filesystem("memory")
     files.store.clear()
     with files.open("/in/mesh.ply", "wb") as file:
-        file.write(written_mesh(torus(6, 6), "ply").data)
+        file.write(file_of(torus(6, 6), "ply"))
     yield files
     files.store.clear()
 

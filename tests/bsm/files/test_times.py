@@ -5,14 +5,15 @@ import json
 import numpy as np
 import pytest
 
-from bsm import FormatError, MeshError, TriangleMesh
+from bsm import FormatError, MeshError, TriangleMesh, save
 from bsm.files import sequence
-from bsm.files.mesh import read_cut, write_mesh
-from bsm.files.motion.frames import Shared, Wanted
-from bsm.files.sequence import open_sequence, sequence_writer
+from bsm.files.mesh import read_cut
+from bsm.files.motion.frames import Shared
+from bsm.files.sequence import sequence_writer
 from bsm.files.table import FORMATS, MESH_FORMATS
 from tests.bsm.program import run as bsm
 from tests.gltf import glb, unpack
+from tests.motion import sequence_in
 from tests.shapes import tetrahedron
 
 COUNT = 4
@@ -20,7 +21,7 @@ SHAPE = tetrahedron()
 
 
 def opened(path, **keywords):
-    return open_sequence(str(path), request=Wanted(**keywords))
+    return sequence_in(str(path), **keywords)
 
 
 def written(path, kind, metadata):
@@ -42,7 +43,7 @@ def timing(source):
 def test_numbers_of_frames_go_in_and_out(kind, start, step, tmp_path):
     (tmp_path / "in").mkdir()
     for number in range(COUNT):
-        write_mesh(tmp_path / f"in/f_{start + number * step:04d}.{kind}", SHAPE)
+        save(SHAPE, tmp_path / f"in/f_{start + number * step:04d}.{kind}")
     source = opened(tmp_path / "in")
     assert source.metadata.get("frame_start", 0) == start and source.metadata.get("frame_step", 1) == step
     assert written(tmp_path / f"out/g_%04d.{kind}", kind, source.metadata) == []
@@ -58,7 +59,7 @@ def test_times_of_files_and_of_lists_go_in_and_out(form, times, tmp_path):
     (tmp_path / "in").mkdir()
     for number, time in enumerate(times):
         known = {"TimeValue": time} if form == "vtp" else {}
-        write_mesh(tmp_path / f"in/f_{number}.vtp", TriangleMesh(SHAPE.positions + number, SHAPE.faces, (), known))
+        save(TriangleMesh(SHAPE.positions + number, SHAPE.faces, (), known), tmp_path / f"in/f_{number}.vtp")
     rows = [(f"in/f_{number}.vtp", time) for number, time in enumerate(times)][::-1]
     sets = "".join(f'<DataSet timestep="{time}" part="0" file="{name}"/>' for name, time in rows)
     (tmp_path / "a.pvd").write_text(f'<VTKFile type="Collection"><Collection>{sets}</Collection></VTKFile>')
@@ -77,7 +78,7 @@ def test_a_file_that_a_list_names_for_many_times_is_read_once(tmp_path, monkeypa
     monkeypatch.setattr(
         sequence, "read_cut", lambda name, *given, **words: read.append(name) or read_cut(name, *given, **words)
     )
-    write_mesh(tmp_path / "a.ply", SHAPE)
+    save(SHAPE, tmp_path / "a.ply")
     rows = [{"name": "a.ply", "time": time} for time in range(50)]
     (tmp_path / "a.series").write_text(json.dumps({"files": rows}))
     frames = list(opened(tmp_path / "a.series").frames)
@@ -103,7 +104,7 @@ def test_a_list_that_is_broken_is_refused(name, text, tmp_path):
 
 
 def test_a_list_of_parts_or_of_other_folders_is_refused(tmp_path):
-    write_mesh(tmp_path / "a.ply", SHAPE)
+    save(SHAPE, tmp_path / "a.ply")
     (tmp_path / "in").mkdir()
     parts = "".join(f'<DataSet timestep="1" part="{part}" file="a.ply"/>' for part in range(2))
     (tmp_path / "a.pvd").write_text(f"<Collection>{parts}</Collection>")
@@ -130,7 +131,7 @@ def test_a_clip_begins_when_it_did(start, kept, tmp_path):
 def test_the_shell_keeps_the_numbers_of_frames(tmp_path, capsys):
     (tmp_path / "in").mkdir()
     for number in (997, 999, 1001):
-        write_mesh(tmp_path / f"in/f_{number}.ply", TriangleMesh(SHAPE.positions + number, SHAPE.faces))
+        save(TriangleMesh(SHAPE.positions + number, SHAPE.faces), tmp_path / f"in/f_{number}.ply")
     assert bsm("encode", tmp_path / "in", "-o", tmp_path / "a.bsm") == 0
     assert bsm("decode", tmp_path / "a.bsm", "-o", f"{tmp_path}/out/") == 0
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["00997.ply", "00999.ply", "01001.ply"]

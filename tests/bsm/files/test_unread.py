@@ -12,9 +12,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from bsm import BsmError
+from bsm import BsmError, read_mesh
 from bsm.files import unread
-from bsm.files.mesh import read_mesh
 
 EVERY = Path(__file__).parent / "every"
 pytestmark = pytest.mark.slow

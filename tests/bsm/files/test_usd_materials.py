@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm import read_mesh
 from bsm.cli import main
-from bsm.files.mesh import read_mesh
-from bsm.files.sequence import open_sequence
+from tests.motion import sequence_in
 
 PAINTED = Path(__file__).parent / "moving" / "painted.usdz"
 """A ball in red and a box in red and a texture; it moves. Made in Blender."""
@@ -18,7 +18,7 @@ pytest.importorskip("pxr.Usd")
 
 
 def found_in(path):
-    source = open_sequence(str(path))
+    source = sequence_in(str(path))
     assert source is not None
     return source
 

@@ -7,8 +7,7 @@ import pytest
 
 import bsm
 from bsm.files.formats.metadata import images_in
-from bsm.files.motion.frames import Wanted
-from bsm.files.sequence import open_sequence
+from tests.motion import sequence_in
 
 pytest.importorskip("pxr")
 PNG = base64.b64decode(
@@ -79,7 +78,7 @@ def test_instances_that_come_and_go_are_shown_with_runs(counts, tmp_path):
     )
     head = "#usda 1.0\n(\n    startTimeCode = 0\n    endTimeCode = 2\n    timeCodesPerSecond = 24\n)\n"
     (tmp_path / "a.usda").write_text(head + stage(instancer).partition(")\n")[2])
-    frames = open_sequence(str(tmp_path / "a.usda"), request=Wanted(runs=True))
+    frames = sequence_in(str(tmp_path / "a.usda"), runs=True)
     assert [len(np.unique(mesh.faces)) for mesh in frames.meshes] == [4 * count for count in counts]
     assert any("appear, vanish" in note for note in bsm.read_mesh(tmp_path / "a.usda").notes)
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.files.mesh import read_mesh, written_mesh
+from bsm import read_mesh
 from tests.bsm.test_libraries import painted
-from tests.shapes import torus
+from tests.shapes import file_of, torus
 from tests.streams import memory_below
 
 WAYS = list(
@@ -65,9 +65,7 @@ def test_fields_of_many_strings_take_little_memory_and_surplus_base64_is_left():
     arrays = f'<Array type="String" Name="a" format="ascii">{letters}</Array>'
     arrays += f'<DataArray type="UInt8" Name="b" format="binary">{surplus}</DataArray>'
     arrays += '</FieldData><Lines><DataArray type="Int64" format="appended" offset=""/></Lines><FieldData>'  # not read
-    data = written_mesh(torus(), "vtp").data.replace(
-        b"<PolyData>", f"<PolyData><FieldData>{arrays}</FieldData>".encode()
-    )
+    data = file_of(torus(), "vtp").replace(b"<PolyData>", f"<PolyData><FieldData>{arrays}</FieldData>".encode())
     with memory_below(32 << 20):
         read = read_mesh(data)
     assert read.dropped == ("a",) and read.mesh.metadata["b"] == b"x"
@@ -88,7 +86,7 @@ def test_exact_numbers_come_back():
     mesh = torus()
     heat = bsm.Attribute("heat <&> \x01", np.linspace(0, 1, len(mesh.positions)) ** 3)
     far = bsm.TriangleMesh(mesh.positions + 1e7, mesh.faces, (heat,))
-    again = read_mesh(written_mesh(far, "vtp").data).mesh
+    again = read_mesh(file_of(far, "vtp")).mesh
     assert np.array_equal(again.positions, far.positions)
     assert again.attributes[0].name == "heat <&> _" and np.array_equal(again.attributes[0].values, heat.values)
 
@@ -110,14 +108,14 @@ def test_exact_numbers_come_back():
     ],
 )
 def test_what_is_wrong_is_reported(before, after):
-    data = written_mesh(torus(), "vtp").data
+    data = file_of(torus(), "vtp")
     assert data.count(before) >= 1
     with pytest.raises(bsm.BsmError):
         read_mesh(data.replace(before, after))
 
 
 def test_what_is_cut_short_is_reported():
-    data = written_mesh(torus(5, 4), "vtp").data
+    data = file_of(torus(5, 4), "vtp")
     for size in range(100, len(data) - 40, 7):
         with pytest.raises(bsm.BsmError):
             read_mesh(data[:size], "vtp")

@@ -7,7 +7,7 @@ import pytest
 from bsm import DependencyError, LimitError, Limits, MeshError, UnsupportedError, read_mesh
 from bsm.cli import main
 from bsm.files import landlock
-from bsm.files.sequence import open_sequence
+from tests.motion import sequence_in
 
 pytest.importorskip("bsm.files.isolation")
 TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -32,12 +32,12 @@ def test_what_other_libraries_read_is_refused(lacking, tmp_path):
     for name in ("a.usda", "a.pc2"):
         (tmp_path / name).write_bytes(b"#usda 1.0")
         with pytest.raises(error, match=words):
-            open_sequence(tmp_path / name, limits=SERVICE)
+            sequence_in(tmp_path / name, limits=SERVICE)
     for given in (TRIANGLE, tmp_path / "a.obj", tmp_path / "a.dae"):
         with pytest.raises(error, match=words):
             read_mesh(given, isolated=True)
     with pytest.raises(error, match=words):
-        open_sequence(tmp_path / "*.obj", isolated=True)
+        sequence_in(tmp_path / "*.obj", isolated=True)
     assert main(["encode", str(tmp_path / "a.obj"), "--untrusted", "-q"]) == (8 if error is DependencyError else 5)
     assert not (tmp_path / "a.bsm").exists()
 
@@ -46,7 +46,7 @@ def test_what_we_read_ourselves_is_read(lacking, tmp_path):
     (tmp_path / "a.obj").write_bytes(TRIANGLE)
     for given in (TRIANGLE, tmp_path / "a.obj"):
         assert len(read_mesh(given, limits=SERVICE).mesh.faces) == 1
-    assert open_sequence(tmp_path / "*.obj", limits=SERVICE).count == 1
+    assert sequence_in(tmp_path / "*.obj", limits=SERVICE).count == 1
     with pytest.raises(MeshError):
         read_mesh(b"v 0 0 0\n", limits=SERVICE)
     with pytest.raises(LimitError):

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bsm import TriangleMesh
 from bsm.codec.arrays import Matrix
 from bsm.codec.blocks.cells import BENT, Fit, cells_of, prolonged
 from bsm.codec.geometry.graph import Graph, graph_of_faces
-from bsm.codec.geometry.mesh import TriangleMesh
 from tools.vectors.good_base import bowtie, cylinder, flipped, loose, pages, strip
 from tools.vectors.meshes import hub, patch, tangled, tent, torus
 

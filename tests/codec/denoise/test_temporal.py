@@ -7,9 +7,8 @@ from bsm.codec.denoise import FrameDenoiser
 from bsm.codec.denoise.coarse import FEWEST_FRAMES, TemporalFilter, noise_deviation, shrunk
 from bsm.codec.denoise.frames import WINDOW
 from bsm.codec.geometry.metrics import mean_edge_length
-from bsm.evaluation.sample import knot
 from tests.codec.denoise.denoise_shapes import sphere
-from tests.shapes import theta
+from tests.shapes import knot, theta
 from tools.noise import gaussian_along_normals
 
 CLEAN, FACES = sphere(14)

@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bsm import read_mesh
 from bsm.codec.arrays import Floats, Positions
 from bsm.codec.denoise.noise.causes import lattice_step
 from bsm.codec.denoise.noise.view import View, find_view
 from bsm.codec.denoise.surface import Topology
-from bsm.files.mesh import read_mesh
 from tests.codec.denoise.denoise_shapes import cube, find, grid, probe_of, sphere
 from tests.shapes import theta
 from tools.noise import denoise_automatically

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.api import encode_sequence
+from bsm import encode_sequence
 from bsm.bitstream.container.packets import Gop
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.sequence import run_encoding

@@ -13,9 +13,8 @@ from bsm.codec.geometry.metrics import Original, Reference
 from bsm.codec.look.measure import LookMetric, look
 from bsm.codec.static.encoder import KEPT_EXACTLY
 from bsm.encoding.options import encode_options
-from bsm.evaluation.sample import knot
 from tests.codec.static.test_presets import PROMISING
-from tests.shapes import patch, tetrahedron, together, torus
+from tests.shapes import knot, patch, tetrahedron, together, torus
 
 
 def noisy(mesh: bsm.TriangleMesh, amount: float) -> bsm.TriangleMesh:

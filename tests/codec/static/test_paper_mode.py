@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import PRESETS, EncodeOptions, Encoder, OptionError, Paper, TriangleMesh
+from bsm import PRESETS, EncodeOptions, Encoder, Limits, OptionError, Paper, TriangleMesh
 from bsm.bitstream.container.wire import FrameType
-from bsm.bitstream.limits import NAMED_LIMITS, Limits
+from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.blocks import overlap
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.codec.signal import chain

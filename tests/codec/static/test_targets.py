@@ -21,12 +21,11 @@ from bsm import (
     TriangleMesh,
     decode,
     encode,
+    read_mesh,
 )
 from bsm.codec.geometry.metrics import compare
 from bsm.codec.static.targets import SLACK, search_step
-from bsm.evaluation.sample import knot
-from bsm.files.mesh import read_mesh
-from tests.shapes import torus
+from tests.shapes import knot, torus
 from tools.made_shapes import made_shape
 from tools.measure.targets import measured as rows
 

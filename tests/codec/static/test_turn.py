@@ -8,11 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import bsm
-from bsm import Attribute, EncodeOptions, Encoder, Target, TriangleMesh, read_mesh
+from bsm import PRESETS, Attribute, EncodeOptions, Encoder, Target, TriangleMesh, read_mesh
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.turns import turn_of, turned_by
 from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import PRESETS
 from tests.refined import header_of
 from tools.surgery import frames_of, is_brief, stream_of
 from tools.vectors.meshes import together, torus

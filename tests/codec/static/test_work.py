@@ -8,7 +8,6 @@ import pytest
 from bsm import PRESETS, Decoder, EncodeOptions, LimitError, Limits, OptionError, TriangleMesh, decode, encode
 from bsm._core import Decoder as Engine
 from bsm.bitstream.container.header import LAW
-from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.decoding import BLOCK, mask_of
 from bsm.codec.geometry.graph import graph_of_faces
@@ -38,9 +37,9 @@ def dictionary_work(mesh, width):
     return chain.costs(width)[0]
 
 
-def work_of(stream, limits=DEFAULT_LIMITS):
+def work_of(stream, limits=None):
     """What decoding costs by the decoder's own count."""
-    with Decoder(limits) as decoder:
+    with Decoder(limits or Limits()) as decoder:
         decoder.receive_data(stream)
         decoder.decode_rest()
         return decoder.work
