@@ -23,7 +23,8 @@ def pytest_configure(config: pytest.Config) -> None:
     if config.pluginmanager.hasplugin("hypothesispytest"):
         from hypothesis import settings
 
-        settings.register_profile("patient", deadline=None, max_examples=50)
+        examples = int(os.environ.get("BSM_EXAMPLES", "50"))
+        settings.register_profile("patient", deadline=None, max_examples=examples)
         settings.load_profile("patient")
 
 

@@ -1,6 +1,5 @@
 """Small files that take long to encode: their pictures are bounded, and the search for worse ones is sound."""
 
-import json
 from random import Random
 
 import numpy as np
@@ -10,7 +9,6 @@ import bsm
 from bsm.codec.look.pictures import Canvas
 from tools.attack.costly import KINDS, Recipe, changed, drawn, encoded, search
 from tools.attack.costly_files import FILES, File, changed_file, drawn_file, read_file
-from tools.attack.manifests import Folder, used, walk
 
 FEWER = 2.5e8  # samples that a search may draw, about a second
 
@@ -78,16 +76,3 @@ def test_files_that_repeat_something_are_read_or_refused(kind):
 def test_a_short_search_finds_no_file_over_the_bound():
     worst = search(30.0, "test")
     assert worst[0][0] <= 6.0, worst[0]  # on a slow core, as src/bsm/SERVICE.md says
-
-
-def test_mutated_manifests_end_in_results_or_errors_of_ours():
-    assert not list(walk(60, "sample"))
-
-
-def test_a_sound_folder_is_used_and_what_escapes_is_seen(tmp_path, monkeypatch):
-    folder = Folder(tmp_path / "tiles")
-    used(str(folder.path))
-    assert json.loads((folder.path / "manifest.json").read_text()) == folder.manifest
-    monkeypatch.setattr("tools.attack.manifests.used", lambda path: 1 // 0)
-    (problem,) = walk(1, "a")
-    assert "ZeroDivisionError" in problem

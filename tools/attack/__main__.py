@@ -6,11 +6,9 @@ charges  many small and few large of all that can be many: time by what was char
 walk     every frame type and field as large as its bytes allow, held against the law
 readers  every reader of files, with every number as large as it can be, held against the law
 calls    what reading asks of the kernel, by a recorder
-answers  what processes leave that a hostile file has taken over, mutated
 uses     files that say something once and use it many times, held against the law
 growth   files that are large in one place, read at four times the size
 costly   small files of meshes that take long to encode, found by a search
-manifests  manifests and indexes of tiles, mutated by their grammar
 doors    files of others, read by other libraries and compared with what comes back from a stream
 meshes   random meshes by the encoder in C, with sanitizers
 threads  damaged streams by one thread and by four, strict and tolerant
@@ -20,7 +18,7 @@ proof    mutants and random streams by all decoders, on all processors, in all e
 
 from tools.command import dispatch
 
-ALIKE = "sweep readers calls answers growth proof costly manifests uses doors meshes figures threads"
+ALIKE = "sweep readers calls growth proof costly uses doors meshes figures threads"
 COMMANDS = {name: f"{name}:main" for name in ALIKE.split()}
 COMMANDS |= {name: f"bombs:{name}" for name in ("bombs", "charges", "walk")}
 

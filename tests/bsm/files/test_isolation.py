@@ -1,14 +1,17 @@
 """Readers in processes of their own: the same meshes and errors, and a system that ends what takes too much."""
 
+import functools
 import os
 import signal
+import struct
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
-from random import Random
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import bsm
 from bsm import FormatError, LimitError, Limits, MeshFile, read_mesh
@@ -20,7 +23,6 @@ from bsm.files.motion.frames import Frames, Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
 from bsm.files.table import MESH_FORMATS
 from tests.shapes import torus
-from tools.attack.answers import SIZE, answers, fault
 from tools.attack.readers import chained_objects, three_mf
 from tools.attack.uses import of_size, uses
 
@@ -270,11 +272,79 @@ def test_an_answer_counts_as_memory(written, kept, fits, monkeypatch, tmp_path):
     assert ("had both" in str(refused.value)) == fits
 
 
-def test_lies_are_refused():
-    """100,000 of them: `python -m tools.attack answers`."""
+SIZE, HEAD = 1 << 20, 1 << 14  # bytes of shared memory, and those that are changed
+ROW = struct.Struct("<IIQQ")  # kind, type, size and place of a part of an answer
+WIDE = st.integers(0, 15) | st.sampled_from(
+    (255, 1 << 16, SIZE, SIZE // 24, (1 << 31) - 1, 1 << 40, 1 << 63, (1 << 64) - 1)
+)
+
+
+@functools.cache
+def sound_answers():
+    """What processes leave: a mesh, frames with one mesh and with several, and errors."""
+    bare = torus(4, 3)
+    rows = np.arange(len(bare.positions))
+    corners = bsm.Attribute("texcoord", np.linspace(0, 1, 10).reshape(5, 2), "corner", "texcoord", bare.faces % 5)
+    attributes = (bsm.Attribute("color", rows[:, None].astype(np.uint8), semantic="color"), corners)
+    mesh = replace(bare, attributes=attributes, metadata={"unit": "mm", "n": -(1 << 40), "x": 0.5, "b": b"\xff\0"})
+    frames = [bare.positions + number for number in range(3)]
+    meshes = [replace(mesh, positions=positions) for positions in frames]
+    answers = [
+        *(None, MeshFile(bare), MeshFile(mesh, ("a note", "\udcff"), ("lines",))),
+        Frames(bare.faces, 3, iter(frames), attributes, ("a note",), 24.0, {"unit": "mm"}),
+        Frames(bare.faces, 3, iter(()), attributes, (), 24.0, {}, iter(meshes), 7),
+        *(FormatError("no"), LimitError("much", offset=3), bsm.MeshError("a mesh")),
+    ]
+    found = []
+    with isolation.shared(b"") as memory:
+        for answer in answers:
+            leave(memory, answer)
+            found.append(os.pread(memory, HEAD, 0).ljust(HEAD, b"\0"))
+    return found
+
+
+@st.composite
+def mutated_answers(draw):
+    """An answer with numbers of rows, a row, or a byte changed."""
+    data = bytearray(draw(st.sampled_from(sound_answers())))
+    rows = int.from_bytes(data[:8], "little")
+    for _ in range(draw(st.integers(1, 4))):
+        place = 8 + ROW.size * draw(st.integers(0, min(max(rows - 1, 0), 200)))
+        change = draw(st.sampled_from(["count", "byte", "repeat", "delete", "field", "field"]))
+        if change == "count":
+            data[:8] = draw(WIDE | st.just(rows + 1)).to_bytes(8, "little")
+        elif change == "byte":
+            data[draw(st.integers(0, HEAD - 1))] = draw(st.integers(0, 255))
+        elif change == "repeat":
+            data[8 : 8 + ROW.size] = data[place : place + ROW.size]
+        elif change == "delete":
+            del data[place : place + ROW.size]
+        else:
+            row = list(ROW.unpack(data[place : place + ROW.size]))
+            field = draw(st.integers(0, 3))
+            row[field] = draw(WIDE) & (0xFFFFFFFF if field < 2 else (1 << 64) - 1)
+            data[place : place + ROW.size] = ROW.pack(*row)
+        data.extend(bytes(HEAD - len(data)))
+    return bytes(data)
+
+
+@given(data=mutated_answers())
+def test_mutated_answers_end_in_results_or_errors_of_ours(data):
+    """100,000 of them: `BSM_EXAMPLES=100000 pytest tests/bsm/files/test_isolation.py -k mutated`."""
+    limits = replace(Limits.service(), vertices=10_000)
     with isolation.shared(bytes(SIZE)) as memory:
-        for data in answers(Random(7), 1500):
-            assert fault(memory, data, Limits.service()) == ""
+        os.pwrite(memory, data, 0)
+        try:
+            found = found_in(memory, 2 * SIZE, limits, (*MESH, *FRAMES))
+            if isinstance(found, Frames):
+                for _ in found.meshes or found.frames:
+                    pass
+        except bsm.BsmError as error:
+            assert len(str(error)) < 1 << 17
+
+
+def test_lies_are_refused():
+    with isolation.shared(bytes(SIZE)) as memory:
         for number in (0, 9, 400):
             os.pwrite(memory, b"\xff" * 8 + bytes(number), 0)
             with pytest.raises(FormatError, match="left no mesh"):
