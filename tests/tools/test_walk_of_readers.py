@@ -17,8 +17,8 @@ from tests.gltf import unpack
 from tools.attack.calls import recorded
 from tools.attack.doors import EVEN, OTHERS, Apart, attempt, compared, of_polygons
 from tools.attack.growth import growth
-from tools.attack.readers import Case, Sample, grown, numbers, problems, read_all, samples, warm_up, written
-from tools.attack.taken import Taken
+from tools.attack.readers import Sample, grown, numbers, problems, read_all, samples, warm_up, written
+from tools.attack.taken import Case, Taken
 from tools.attack.uses import cases, of_size, uses
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")

@@ -25,9 +25,10 @@ from tools.attack.taken import (
     bounds,
     browser_bounds,
     decode_all,
+    problems_of,
+    report,
     taken_by,
     taken_by_browser,
-    taken_by_each,
     warm_up,
 )
 from tools.attack.walk import cases
@@ -135,9 +136,7 @@ def walk() -> int:
     parser.add_argument("--every", type=int, default=1, metavar="N", help="take one case in N")
     args = parser.parse_args()
     every = [case for case in cases(args.bytes) if case.name.startswith(tuple(args.names or [""]))][:: args.every]
-    found = list(walk_problems({case.name: case.make() for case in every}, args.how))
-    print("\n".join([*found, f"{len(every)} streams, {len(found)} findings"]))
-    return 1 if found else 0
+    return report(walk_problems({case.name: case.make() for case in every}, args.how), f"{len(every)} streams")
 
 
 def walk_problems(streams: Mapping[str, bytes], hows: Sequence[str]) -> Iterator[str]:
@@ -151,9 +150,7 @@ def walk_problems(streams: Mapping[str, bytes], hows: Sequence[str]) -> Iterator
             continue
         for limits in ("default", "service"):
             decodes = [partial(partial, decode_all, stream, how, NAMED_LIMITS[limits]()) for stream in streams.values()]
-            for name, taken in zip(streams, taken_by_each(decodes), strict=True):
-                if problem := taken.problem(*bounds(limits, taken)):
-                    yield f"{name} ({how}, {limits}): {problem}"
+            yield from problems_of([f"{name} ({how})" for name in streams], decodes, limits)
 
 
 def charges() -> int:

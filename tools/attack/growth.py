@@ -10,7 +10,7 @@ from pathlib import Path
 
 from bsm.bitstream.limits import Limits
 from tools.attack.readers import Sample, grown, is_ours, reading, warm_up
-from tools.attack.taken import taken_by_each
+from tools.attack.taken import report, taken_by_each
 from tools.command import parser_of
 
 SIZE = 1 << 16
@@ -39,6 +39,4 @@ def main() -> int:
     most = parser.parse_args().most
     warm_up()
     found = {name: growth(lambda size, name=name: grown(size)[name](), most) for name in filter(is_ours, grown(1))}  # type: ignore[misc]
-    problems = [f"{name}: {problem}" for name, problem in found.items() if problem]
-    print("\n".join([*problems, f"{len(found)} files, {len(problems)} findings"]))
-    return 1 if problems else 0
+    return report((f"{name}: {problem}" for name, problem in found.items() if problem), f"{len(found)} files")

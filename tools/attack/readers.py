@@ -19,7 +19,7 @@ import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, partial
-from itertools import starmap
+from itertools import chain, starmap
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -37,7 +37,7 @@ from bsm.files.sequence import open_sequence, sequence_writer
 from bsm.files.table import MESH_FORMATS, SEQUENCES_READ
 from tests.gltf import Built, Tree, glb, unpack
 from tests.shapes import ply_head
-from tools.attack.taken import Taken, bounds, taken_by_each
+from tools.attack.taken import Case, Taken, problems_of, report
 from tools.command import parser_of
 from tools.vectors.good_attributes import charts, colors, groups, with_attributes
 from tools.vectors.meshes import patch, torus
@@ -61,14 +61,6 @@ class Sample:
 
 Change = Callable[[Tree], None]
 DATA_URI = "data:application/octet-stream;base64,"
-
-
-@dataclass(frozen=True)
-class Case:
-    """A file that is large in one place."""
-
-    name: str
-    make: Callable[[], Sample]
 
 
 # ------------------------------------------------------------------------------------------------------------ samples
@@ -648,10 +640,7 @@ def problems(cases: list[Case], limits: str, most: float = 1.0) -> Iterator[str]
     with tempfile.TemporaryDirectory() as folder:
         cases = [case for case in cases if limits == "service" or is_ours(case.name)]
         works = [partial(reading, case.make, Path(folder), NAMED_LIMITS[limits]()) for case in cases]
-        for case, taken in zip(cases, taken_by_each(works, MOST_SECONDS), strict=True):
-            memory, seconds = bounds(limits, taken)
-            if problem := taken.problem(most * memory, most * seconds):
-                yield f"{case.name} ({limits}): {problem}"
+        yield from problems_of([case.name for case in cases], works, limits, most, MOST_SECONDS)
 
 
 def is_ours(name: str) -> bool:
@@ -714,10 +703,5 @@ def main() -> int:
     if args.list:
         print("\n".join(case.name for case in cases))
         return 0
-    count = 0
-    for limits in args.limits:
-        for problem in problems(cases, limits):
-            count += 1
-            print(problem, flush=True)
-    print(f"{len(cases)} files of {len(samples())} kinds, {len(args.limits) * len(cases)} readings, {count} findings")
-    return 1 if count else 0
+    found = chain.from_iterable(problems(cases, limits) for limits in args.limits)
+    return report(found, f"{len(cases)} files of {len(samples())} kinds, {len(args.limits) * len(cases)} readings")

@@ -1,4 +1,4 @@
-"""What decoding or reading takes: each in a process of its own, held against what it may take."""
+"""The harness of attacks: what inputs take, each in a process of its own, held against what they may take."""
 
 import faulthandler
 import gc
@@ -11,10 +11,11 @@ import sys
 import tempfile
 import time
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from bsm.bitstream.container.gop import METHODS, WITH_ATTRIBUTES, GopMethod
 from bsm.bitstream.container.header import HEADER_FIELDS
@@ -68,6 +69,35 @@ class Taken:
 
 
 Work = Callable[[], Taken]
+Prepared = Callable[[], Work]
+
+
+@dataclass(frozen=True)
+class Case:
+    """An input that is large in one place."""
+
+    name: str
+    make: Callable[[], Any]
+
+
+def problems_of(
+    names: Iterable[str], works: Sequence[Prepared], limits: str, most: float = 1.0, seconds: int = MOST_SECONDS
+) -> Iterator[str]:
+    """Yield which works take more than `most` of what limits allow, or end in something else than a result."""
+    for name, taken in zip(names, taken_by_each(works, seconds), strict=True):
+        memory, time_allowed = bounds(limits, taken)
+        if problem := taken.problem(most * memory, most * time_allowed):
+            yield f"{name} ({limits}): {problem}"
+
+
+def report(problems: Iterable[str], inputs: str) -> int:
+    """Print problems as they come, and what was tried; return the exit code."""
+    count = 0
+    for problem in problems:
+        count += 1
+        print(problem, flush=True)
+    print(f"{inputs}, {count} findings")
+    return 1 if count else 0
 
 
 def bounds(limits: str, taken: Taken) -> tuple[float, float]:
@@ -164,7 +194,7 @@ def taken_by_browser(streams: Sequence[bytes]) -> list[Taken]:
     return found
 
 
-def taken_by_each(works: Sequence[Callable[[], Work]], seconds: int = MOST_SECONDS) -> Iterator[Taken]:
+def taken_by_each(works: Sequence[Prepared], seconds: int = MOST_SECONDS) -> Iterator[Taken]:
     """What each work takes, in processes forked for some of them; `works` prepare it, which is not counted."""
     done = 0
     while done < len(works):
@@ -173,7 +203,7 @@ def taken_by_each(works: Sequence[Callable[[], Work]], seconds: int = MOST_SECON
         done += max(1, len(reports))
 
 
-def _reported_by_child(works: Sequence[Callable[[], Work]], seconds: int) -> list[Taken]:
+def _reported_by_child(works: Sequence[Prepared], seconds: int) -> list[Taken]:
     """What one process tells of the first works: until it dies, or until it keeps so much that it hides what comes."""
     reading, writing = os.pipe()
     sys.stdout.flush()

@@ -24,6 +24,7 @@ from bsm.codec.static.ways.in_cells import Spread
 from tools.attack.decoding import is_sequence
 from tools.attack.mutate import mutate_stream
 from tools.attack.sweep import mutate
+from tools.attack.taken import report
 from tools.command import parser_of
 from tools.surgery import Frames, frames_of, stream_of
 from tools.vectors.good_base import draft
@@ -44,13 +45,8 @@ def main() -> int:
     parser.add_argument("count", type=int, help="streams")
     parser.add_argument("--seed", type=int, default=0, help="default: %(default)s")
     args = parser.parse_args()
-    differing = 0
-    for number, stream in enumerate(streams(args.count, args.seed)):
-        if problem := difference(stream):
-            differing += 1
-            print(f"stream {number}: {problem}: {stream.hex()}", flush=True)
-    print(f"{args.count} streams, {differing} differ")
-    return 1 if differing else 0
+    found = ((stream, difference(stream)) for stream in streams(args.count, args.seed))
+    return report((f"{problem}: {stream.hex()}" for stream, problem in found if problem), f"{args.count} streams")
 
 
 def difference(stream: bytes) -> str:

@@ -15,6 +15,7 @@ import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 
 import numpy as np
 
@@ -22,7 +23,8 @@ from bsm import TriangleMesh, encode
 from bsm.files.formats.npz import write_npy
 from tests.gltf import Tree, glb, unpack
 from tests.shapes import ply_head
-from tools.attack.readers import DATA_URI, Case, Sample, Scene, problems, strip_of, three_mf, warm_up
+from tools.attack.readers import DATA_URI, Sample, Scene, problems, strip_of, three_mf, warm_up
+from tools.attack.taken import Case, report
 from tools.command import parser_of
 from tools.vectors.meshes import patch
 
@@ -439,10 +441,5 @@ def main() -> int:
     warm_up()
     sizes, splits = (args.bytes[:1], SPLITS[:1]) if args.short else (args.bytes, SPLITS)
     found = [case for size in sizes for case in cases(size, splits) if case.name.startswith(args.only)]
-    count = 0
-    for limits in ("default", "service"):
-        for problem in problems(found, limits, MOST):
-            count += 1
-            print(problem, flush=True)
-    print(f"{len(found)} files of {len(list(uses()))} kinds of uses, {count} findings")
-    return 1 if count else 0
+    both = chain.from_iterable(problems(found, limits, MOST) for limits in ("default", "service"))
+    return report(both, f"{len(found)} files of {len(list(uses()))} kinds of uses")

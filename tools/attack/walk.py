@@ -3,8 +3,7 @@
 The list of what there is to make large is that of the code: a field that is new is walked without a word here.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
 from functools import cache, partial
 from pathlib import Path
 from random import Random
@@ -12,20 +11,13 @@ from typing import Any
 
 from bsm.bitstream.container.header import HEADER_FIELDS, Declaration, Field, fields_of
 from bsm.bitstream.container.wire import MAX_ENTRIES, SKIPPABLE_TYPES, FrameType, write_map, write_varint
+from tools.attack.taken import Case
 from tools.surgery import Frames, frames_of, stream_of, with_declaration, with_header
 
 VECTORS = Path(__file__).parents[2] / "spec" / "vectors"
 COUNTS = {"BLOCK": 2, "GOP": 1, "GRID": 2, "REFINEMENT": 3, "VALUES": 3, "ATTRIBUTE": 2, "END": 1}
 """Varints at the beginning of a payload."""
 MOST_VARINT = 2**31 - 1
-
-
-@dataclass(frozen=True)
-class Case:
-    """A stream that is large in one place."""
-
-    name: str
-    make: Callable[[], bytes]
 
 
 @cache
