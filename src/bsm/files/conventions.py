@@ -29,7 +29,7 @@ class Placement:
 
     scale: float
     turn: Doubles
-    held: frozenset[str]
+    expressed: frozenset[str]
 
     @property
     def matrix(self) -> Doubles:
@@ -38,15 +38,19 @@ class Placement:
 
 def placement(metadata: Metadata, kind: str) -> Placement:
     """Return the placement for a format; a mesh without a known unit or axis is taken to have those of the format."""
-    axis, target = str(metadata.get("up", "")).lower(), FORMATS[kind].up
-    has_axis = axis in ("x", "y", "z")
-    turn = np.array(_TO_Y[axis] if has_axis else _TO_Y[target], np.float64)
-    turn = np.array(_TO_Y[target], np.float64).T @ turn
-    mesh_unit, format_unit = metres(str(metadata.get("unit", ""))), metres(FORMATS[kind].unit)
-    expressed = {
-        name for name, holds in (("up", has_axis), ("unit", mesh_unit is not None and format_unit is not None)) if holds
-    }
-    return Placement(mesh_unit / format_unit if mesh_unit and format_unit else 1.0, turn, frozenset(expressed))
+    to_format_axis = np.array(_TO_Y[FORMATS[kind].up], np.float64).T
+    scale, turn = 1.0, to_format_axis @ np.array(_TO_Y[FORMATS[kind].up], np.float64)
+    expressed: set[str] = set()
+    axis = str(metadata.get("up", "")).lower()
+    if axis in _TO_Y:
+        turn = to_format_axis @ np.array(_TO_Y[axis], np.float64)
+        expressed.add("up")
+    mesh_unit = metres(str(metadata.get("unit", "")))
+    format_unit = metres(FORMATS[kind].unit)
+    if mesh_unit is not None and format_unit is not None:
+        scale = mesh_unit / format_unit
+        expressed.add("unit")
+    return Placement(scale, turn, frozenset(expressed))
 
 
 # -------------------------------------------------------------------------------------------------------------- colors
@@ -77,25 +81,26 @@ def linear_colors(colors: Array) -> Array:
     if colors.dtype == np.uint8:
         return np.rint(linear * _WORD).astype(np.uint16)
     narrow = np.rint(linear.clip(0.0, 1.0) * 255).astype(np.uint8)
-    same = colors.dtype == np.uint16 and np.array_equal(srgb_colors(narrow), colors)
-    return narrow if same else linear.astype(np.float32)
+    if colors.dtype == np.uint16 and np.array_equal(srgb_colors(narrow), colors):
+        return np.asarray(narrow)
+    return linear.astype(np.float32)
 
 
 def srgb_colors(colors: Array) -> Array:
     """Return linear colors as those of a mesh: as bytes where bytes become these colors, or else as words or floats."""
     linear = shares_of(colors)
     shares = to_srgb(linear)
-    bytes_ = np.rint(shares.clip(0.0, 1.0) * 255)
+    levels = np.rint(shares.clip(0.0, 1.0) * 255)
     # Half a step of the words in which bytes are written: such values were bytes, and become the same bytes again.
-    if colors.size and np.abs(to_linear(bytes_ / 255) - linear).max() <= 0.51 / _WORD:
-        result: Array = bytes_.astype(np.uint8)
-    elif colors.dtype == np.uint8:
-        result = np.rint(shares * _WORD).astype(np.uint16)
-    else:
-        result = shares.astype(np.float32)
-    return result
+    if colors.size and np.abs(to_linear(levels / 255) - linear).max() <= 0.51 / _WORD:
+        return np.asarray(levels, np.uint8)
+    if colors.dtype == np.uint8:
+        return np.rint(shares * _WORD).astype(np.uint16)
+    return shares.astype(np.float32)
 
 
 def shares_of(colors: Array) -> Doubles:
     """Return floats as they are, and whole numbers as shares of their largest one."""
-    return colors / np.float64(1 if colors.dtype.kind == "f" else np.iinfo(colors.dtype).max)
+    if colors.dtype.kind == "f":
+        return colors.astype(np.float64)
+    return colors / np.float64(np.iinfo(colors.dtype).max)

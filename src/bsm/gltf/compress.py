@@ -15,7 +15,7 @@ from bsm.files.parsing import as_format_error
 from bsm.gltf import document as gltf
 from bsm.gltf.bundles import Bundle, BundleStream, as_mesh, bundles_of, code_bundle
 from bsm.gltf.coding import EXTENSION, Array, Tree
-from bsm.gltf.rewrite import Rewritten, that_share, users_of
+from bsm.gltf.rewrite import Rewritten, group_by_accessors, users_of
 from bsm.gltf.scene import parents_of, places_of
 
 
@@ -70,7 +70,7 @@ def compress(
             progress(sum(sizes[: len(coded)]), sum(sizes))
         coded.append(stream_or_reason)
     coded_primitives, errors = 0, [(0.0, 0.0)]
-    for together in that_share(bundles, users):
+    for together in group_by_accessors(bundles, users):
         streams = {
             number: stream_or_reason
             for number in together

@@ -4,6 +4,7 @@ import copy
 import io
 import re
 from collections.abc import Iterator
+from itertools import chain
 from typing import Any
 from urllib.parse import quote
 
@@ -20,23 +21,23 @@ _WORDS = 90  # bytes of JSON of an accessor or a bufferView
 _MOST = float(np.finfo(np.float32).max)
 
 
-def users_of(bundles: list[Bundle], tree: Tree, numbers_by_others: set[int]) -> dict[int, set[int]]:
-    """Which bundles use each accessor; -1: something else."""
-    users: dict[int, set[int]] = {index: {-1} for index in numbers_by_others}
-    coded: dict[int, int] = {}
+def users_of(bundles: list[Bundle], tree: Tree, foreign_numbers: set[int]) -> dict[int, set[int]]:
+    """Return the bundles that use each accessor; -1: something else."""
+    users: dict[int, set[int]] = {index: {-1} for index in foreign_numbers}
+    bundle_of_holder: dict[int, int] = {}
     for number, bundle in enumerate(bundles):
-        for primitive in (primitive for same in bundle for primitive in same):
+        for primitive in chain.from_iterable(bundle):
             # By identity, as equal dictionaries stand in many places of a tree.
-            holders = (primitive, primitive["attributes"], *primitive.get("targets", []))
-            coded |= {id(holder): number for holder in holders}
+            for holder in (primitive, primitive["attributes"], *primitive.get("targets", [])):
+                bundle_of_holder[id(holder)] = number
     # Everything that refers to an accessor is known here. An accessor may only go when nothing else does.
     for holder, key in references(tree, "accessors"):
-        users.setdefault(holder[key], set()).add(coded.get(id(holder), -1))
+        users.setdefault(holder[key], set()).add(bundle_of_holder.get(id(holder), -1))
     return users
 
 
-def that_share(bundles: list[Bundle], users: dict[int, set[int]]) -> list[list[int]]:
-    """Numbers of bundles, those together that share accessors, if only by others."""
+def group_by_accessors(bundles: list[Bundle], users: dict[int, set[int]]) -> list[list[int]]:
+    """Return the numbers of bundles, those together that share accessors, if only by others."""
     groups = {number: {number} for number in range(len(bundles))}
     for numbers in users.values():
         joined = set().union(*(groups[number] for number in numbers if number >= 0))
@@ -46,46 +47,67 @@ def that_share(bundles: list[Bundle], users: dict[int, set[int]]) -> list[list[i
 
 
 def references(tree: Tree, kind: str) -> Iterator[tuple[Tree, str]]:
-    """Where the schema of glTF refers to accessors or bufferViews: an object, and the key there."""
+    """Yield where the schema of glTF refers to accessors or bufferViews: an object, and the key there."""
     if kind == "accessors":
-        for primitive in (primitive for mesh in tree.get("meshes", []) for primitive in mesh["primitives"]):
-            for holder in (primitive["attributes"], *primitive.get("targets", [])):
-                yield from ((holder, name) for name in holder)
-            yield from [(primitive, "indices")] if "indices" in primitive else []
-        for animation in tree.get("animations", []):
-            yield from ((sampler, end) for sampler in animation["samplers"] for end in ("input", "output"))
-        yield from ((skin, "inverseBindMatrices") for skin in tree.get("skins", []) if "inverseBindMatrices" in skin)
-        return
-    sparse = [accessor["sparse"] for accessor in tree.get("accessors", []) if "sparse" in accessor]
+        return _accessor_references(tree)
+    return _view_references(tree)
+
+
+def _accessor_references(tree: Tree) -> Iterator[tuple[Tree, str]]:
+    for primitive in primitives_of(tree):
+        for holder in (primitive["attributes"], *primitive.get("targets", [])):
+            for name in holder:
+                yield holder, name
+        if "indices" in primitive:
+            yield primitive, "indices"
+    for animation in tree.get("animations", []):
+        for sampler in animation["samplers"]:
+            yield sampler, "input"
+            yield sampler, "output"
+    for skin in tree.get("skins", []):
+        if "inverseBindMatrices" in skin:
+            yield skin, "inverseBindMatrices"
+
+
+def _view_references(tree: Tree) -> Iterator[tuple[Tree, str]]:
     holders = [*tree.get("accessors", []), *tree.get("images", [])]
-    holders += [part for entry in sparse for part in (entry["indices"], entry["values"])]
-    yield from ((holder, "bufferView") for holder in holders if "bufferView" in holder)
+    for accessor in tree.get("accessors", []):
+        if "sparse" in accessor:
+            holders += (accessor["sparse"]["indices"], accessor["sparse"]["values"])
+    for holder in holders:
+        if "bufferView" in holder:
+            yield holder, "bufferView"
     for view in tree.get("bufferViews", []):
-        yield from ((how, "stream") for name, how in view.get("extensions", {}).items() if name == EXTENSION)
+        if EXTENSION in view.get("extensions", {}):
+            yield view["extensions"][EXTENSION], "stream"
+
+
+def primitives_of(tree: Tree) -> Iterator[Tree]:
+    for mesh in tree.get("meshes", []):
+        yield from mesh["primitives"]
 
 
 # An unknown extension may name accessors by any key, so every whole number in it counts as one. Keeping too much is
 # safe.
 def numbers_by_others(node: Any, *, inside: bool = False) -> set[int]:
-    """Numbers in extensions that are not known: they may be those of accessors or bufferViews."""
+    """Return numbers in extensions that are not known: they may be those of accessors or bufferViews."""
+    numbers = set[int]()
     if isinstance(node, dict):
-        numbers = set[int]()
         for key, value in node.items():
             if key == "extensions" and isinstance(value, dict):
-                safe_names = {
-                    name for name in value if OF_LOOKS.fullmatch(name) or name in (EXTENSION, DRACO, *MESHOPT)
-                }
-                numbers |= set().union(
-                    *(numbers_by_others(value[name], inside=name not in safe_names) for name in value)
-                )
+                for name, extension in value.items():
+                    is_safe = OF_LOOKS.fullmatch(name) or name in (EXTENSION, DRACO, *MESHOPT)
+                    numbers |= numbers_by_others(extension, inside=not is_safe)
             elif key != "extras":
                 numbers |= numbers_by_others(value, inside=inside)
-        return numbers
-    if isinstance(node, list):
-        return set().union(*(numbers_by_others(item, inside=inside) for item in node))
-    if isinstance(node, str):
-        return {int(number) for number in re.findall(r"/(\d{1,9})", node)} if inside else set()
-    return {int(node)} if inside and isinstance(node, int | float) and abs(node) < WHOLE else set()
+    elif isinstance(node, list):
+        for item in node:
+            numbers |= numbers_by_others(item, inside=inside)
+    elif inside and isinstance(node, str):
+        numbers |= {int(number) for number in re.findall(r"/(\d{1,9})", node)}
+    elif inside and isinstance(node, int | float) and abs(node) < WHOLE:
+        numbers.add(int(node))
+    return numbers
 
 
 class Rewritten(gltf.Growing):
@@ -123,49 +145,56 @@ class Rewritten(gltf.Growing):
 
     def would_shrink(self, streams: list[BundleStream], freed: list[int]) -> bool:
         """Return whether streams and their words are smaller than the accessors that they replace."""
+        if not streams:
+            return False
         entries = {index: self._document.item("accessors", index) for index in freed}
         views = {entry["bufferView"] for entry in entries.values() if "bufferView" in entry} - self.foreign_numbers
-        accessors_with_bytes = [
-            n for n, e in entries.items() if e.get("bufferView") in views or n in self._document.of_draco
-        ]
         # JSON counts as well: a small mesh may save fewer bytes than its stream needs words.
-        before = _WORDS * (len(freed) + len(views)) + sum(
-            self._document.array(index).nbytes for index in accessors_with_bytes
-        )
-        words = sum(3 + 2 * len(coded.shape.arrays) + len(coded.shape.pieces) for coded in streams)
-        return bool(streams) and sum(len(coded.stream) for coded in streams) + _WORDS * words < before
+        size_before = _WORDS * (len(freed) + len(views))
+        for number, entry in entries.items():
+            if entry.get("bufferView") in views or number in self._document.of_draco:
+                size_before += self._document.array(number).nbytes
+        size = 0
+        for coded in streams:
+            words = 3 + 2 * len(coded.shape.arrays) + len(coded.shape.pieces)
+            size += len(coded.stream) + _WORDS * words
+        return size < size_before
 
     def put(self, bundle: Bundle, coded: BundleStream) -> None:
         """Put a stream in the place of the accessors of a bundle."""
         stream = self.view(coded.stream)
         entries: list[Tree] = self.tree["accessors"]
-        accessors, places = arrays_of(bundle[0][0]), dict[str, int]()
+        accessors = arrays_of(bundle[0][0])
+        places: dict[str, int] = {}
         for name, array in coded.shape.arrays.items():
             component, normalized = coded.accessors[name]
             view = self._view(stream, name, stored(name, array, component), component)
             more: Tree = {"normalized": True} if normalized else {}
-            more |= gltf.bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {}
+            if name.rpartition("/")[2] == "POSITION":
+                more |= gltf.bounds_of(array)
             more |= _words(entries[accessors[name]])
             places[name] = self.accessor(component, len(array), array.shape[1], view, **more)
         component, _ = coded.accessors.get("indices", (UINT, False))
         corners = stored("indices", coded.shape.index, component)
         view = self._view(stream, "indices", corners, component)
-        for same, (start, count) in zip(bundle, coded.shape.pieces, strict=True):
+        for primitives, (start, count) in zip(bundle, coded.shape.pieces, strict=True):
             more = {"byteOffset": start * corners.itemsize} if start else {}
-            more |= _words(entries[same[0]["indices"]] if "indices" in same[0] else {})
+            if "indices" in primitives[0]:
+                more |= _words(entries[primitives[0]["indices"]])
             indices = self.accessor(component, count, 1, view, **more)
-            for primitive in same:
+            for primitive in primitives:
                 primitive["indices"] = indices
                 # Strips and fans were made triangles, which is the default.
                 primitive.pop("mode", None)
-                attributes = {name: places[name] for name in primitive["attributes"] if name in places}
-                primitive["attributes"] = attributes
+                primitive["attributes"] = {name: places[name] for name in primitive["attributes"] if name in places}
                 for number, target in enumerate(primitive.get("targets", [])):
                     target |= {name: places[f"{number}/{name}"] for name in target}
 
     def _view(self, stream: int, name: str, array: Array, component: int) -> int:
         extension: Tree = {"stream": stream, "attribute": name}
-        extension |= {} if component == (UINT if name == "indices" else FLOAT) else {"componentType": component}
+        usual_component = UINT if name == "indices" else FLOAT
+        if component != usual_component:
+            extension["componentType"] = component
         view: Tree = {"buffer": 1, "byteLength": array.nbytes, "extensions": {EXTENSION: extension}}
         if self._fallback:
             view["byteOffset"] = self._virtual
@@ -179,24 +208,31 @@ class Rewritten(gltf.Growing):
     def _take_images(self, rule: ImageRule | None) -> None:
         """Put images inside that lie elsewhere, and write all by a rule where that makes them smaller."""
         for number, image in enumerate(self.tree.get("images", [])):
-            data = self._document.image(number)[1] if rule or "uri" in image else None
+            if not rule and "uri" not in image:
+                continue
+            name, data = self._document.image(number)
+            if not data:
+                continue
+            kind = image.get("mimeType") or gltf.mime_of(data)
             # An image that its rule makes larger stays as it is.
-            smaller_data = smaller(data, rule) if data and rule else None
-            name = self._document.image(number)[0] or f"image {number}"
-            self.images += [compare_image(name, data, smaller_data or data)] if data and rule else []
-            kind = (
-                f"image/{rule.kind}"
-                if rule and smaller_data
-                else image.get("mimeType") or (data and gltf.mime_of(data))
-            )
-            if data and kind and (smaller_data or "uri" in image):
+            smaller_data = smaller(data, rule) if rule else None
+            if rule:
+                self.images.append(compare_image(name or f"image {number}", data, smaller_data or data))
+            if rule and smaller_data:
+                kind = f"image/{rule.kind}"
+            if kind and (smaller_data or "uri" in image):
                 image.pop("uri", None)
                 image |= {"mimeType": kind, "bufferView": self.view(smaller_data or data)}
-            for texture in self.tree.get("textures", []) if smaller_data and kind == "image/webp" else ():
-                if texture.get("source") == number:
-                    del texture["source"]
-                    texture.setdefault("extensions", {})[gltf.WEBP] = {"source": number}
-                    self.use(gltf.WEBP, required=True)
+            if smaller_data and kind == "image/webp":
+                self._name_webp(number)
+
+    def _name_webp(self, image: int) -> None:
+        """Let the textures of an image say that it is a WebP."""
+        for texture in self.tree.get("textures", []):
+            if texture.get("source") == image:
+                del texture["source"]
+                texture.setdefault("extensions", {})[gltf.WEBP] = {"source": image}
+                self.use(gltf.WEBP, required=True)
 
     def finished(self, images: ImageRule | None = None) -> bytes:
         """Return the .glb without replaced data, with external images inside, and with plain geometry elsewhere."""
@@ -205,14 +241,20 @@ class Rewritten(gltf.Growing):
         self._write_draco()
         self._drop_accessors()
         self._place_views()
-        gone = {DRACO, *MESHOPT, *([] if self._virtual else [EXTENSION])}
+        unused_extensions = {DRACO, *MESHOPT}
+        if not self._virtual:
+            unused_extensions.add(EXTENSION)
         for key in ("extensionsUsed", "extensionsRequired"):
             # Everything that these extensions held is plain now, or in a stream.
-            tree[key] = [name for name in tree.get(key, []) if name not in gone]
-        tree["buffers"] = [{"byteLength": self.size}] if self.size else []
+            tree[key] = [name for name in tree.get(key, []) if name not in unused_extensions]
+        tree["buffers"] = []
+        if self.size:
+            tree["buffers"].append({"byteLength": self.size})
         if self._virtual:
-            filled: Tree = {"byteLength": self._virtual, "extensions": {EXTENSION: {"fallback": True}}}
-            tree["buffers"].append(filled | ({"uri": quote(self._fallback)} if self._fallback else {}))
+            virtual_buffer: Tree = {"byteLength": self._virtual, "extensions": {EXTENSION: {"fallback": True}}}
+            if self._fallback:
+                virtual_buffer["uri"] = quote(self._fallback)
+            tree["buffers"].append(virtual_buffer)
             self.use(EXTENSION, required=not self._fallback)
         for key in ("accessors", "bufferViews", "buffers", "extensionsUsed", "extensionsRequired"):
             if not tree.get(key):
@@ -227,20 +269,19 @@ class Rewritten(gltf.Growing):
         blank: Tree = {"componentType": COMPONENTS["uint8"], "count": 1, "type": "SCALAR"}
         self._renumber("accessors", blank)
         kept_entries = self.tree["accessors"]
-        gone = numbers.keys() - {id(entry) for entry in kept_entries}
-        shared = {
-            entry["bufferView"] for entry in entries if id(entry) in gone and "bufferView" in entry
-        } - self.foreign_numbers
+        dropped = numbers.keys() - {id(entry) for entry in kept_entries}
+        shared_views = {entry.get("bufferView") for entry in entries if id(entry) in dropped}
+        shared_views -= {None, *self.foreign_numbers}
         for entry in kept_entries:
             # Only the bytes that somebody still uses move to the new buffer.
-            if entry.get("bufferView") in shared and "sparse" not in entry:
+            if entry.get("bufferView") in shared_views and "sparse" not in entry:
                 strided = "byteStride" in self._document.item("bufferViews", entry["bufferView"])
                 entry["bufferView"] = self.table(self._document.array(numbers[id(entry)]), packed=not strided)
                 entry.pop("byteOffset", None)
 
     def _write_draco(self) -> None:
-        """Write what Draco held of primitives that were not coded."""
-        for primitive in (primitive for mesh in self.tree.get("meshes", []) for primitive in mesh["primitives"]):
+        """Write the arrays that Draco held of primitives that were not coded."""
+        for primitive in primitives_of(self.tree):
             if DRACO not in primitive.get("extensions", {}):
                 continue
             del primitive["extensions"][DRACO]
@@ -256,33 +297,39 @@ class Rewritten(gltf.Growing):
     def _place_views(self) -> None:
         """Drop replaced views, and put the bytes of the others into the new buffer."""
         views: list[Tree] = self.tree.setdefault("bufferViews", [])
-        used = {holder[key] for holder, key in references(self.tree, "bufferViews")}
+        used = {holder[key] for holder, key in references(self.tree, "bufferViews")} | self.foreign_numbers
         for number, view in enumerate(views[: len(self._document.items("bufferViews"))]):
-            packed = [name for name in (EXTENSION, *MESHOPT) if view.get("extensions", {}).pop(name, None)]
-            if "extensions" in view and not view["extensions"]:
+            extensions = view.get("extensions", {})
+            packed = [name for name in (EXTENSION, *MESHOPT) if extensions.pop(name, None)]
+            if "extensions" in view and not extensions:
                 del view["extensions"]
-            unread = number in self._before["bufferViews"] and not {number} & (used | self.foreign_numbers)
-            if number in self._moved or unread or (self._whole and not packed):
+            replaced = number in self._before["bufferViews"] and number not in used
+            if number in self._moved or replaced or (self._whole and not packed):
                 continue
             # Unpacked where it was compressed, since readers of the result need not know that extension.
             data = self._document.view(number)
-            view |= {"buffer": 0, "byteOffset": self.append(data), **({"byteLength": len(data)} if packed else {})}
+            view |= {"buffer": 0, "byteOffset": self.append(data)}
+            if packed:
+                view["byteLength"] = len(data)
         self._renumber("bufferViews", {"buffer": 0, "byteLength": 1})
 
     def _renumber(self, kind: str, blank: Tree) -> None:
         """Drop the entries of a kind that were referenced and no longer are; those that others may name stay there."""
-        entries, places = self.tree.get(kind, []), list(references(self.tree, kind))
+        entries = self.tree.get(kind, [])
+        places = list(references(self.tree, kind))
         every = set(range(len(entries)))
-        stay = self.foreign_numbers & every
-        kept_numbers = {holder[key] for holder, key in places} | (every - self._before[kind]) | stay
+        fixed = self.foreign_numbers & every
+        kept_numbers = {holder[key] for holder, key in places} | (every - self._before[kind]) | fixed
         # Numbers that unknown extensions may name stay. All others close ranks, as validators want no unused entries.
-        free = iter(sorted(every - stay))
-        numbers = {old: old if old in stay else next(free) for old in sorted(kept_numbers)}
+        free = iter(sorted(every - fixed))
+        numbers: dict[int, int] = {}
+        for old in sorted(kept_numbers):
+            numbers[old] = old if old in fixed else next(free)
         for holder, key in places:
             holder[key] = numbers[holder[key]]
-        origin = {new: old for old, new in numbers.items()}
-        size = max(origin, default=-1) + 1
-        self.tree[kind] = [entries[origin[new]] if new in origin else dict(blank) for new in range(size)]
+        self.tree[kind] = [dict(blank) for _ in range(max(numbers.values(), default=-1) + 1)]
+        for old, new in numbers.items():
+            self.tree[kind][new] = entries[old]
 
 
 def _words(accessor: Tree) -> Tree:
@@ -290,7 +337,7 @@ def _words(accessor: Tree) -> Tree:
 
 
 def _short(node: Any) -> Any:
-    """JSON with numbers as short as single precision allows; extras and extensions stay as they are."""
+    """Return JSON with numbers as short as single precision allows; extras and extensions stay as they are."""
     if isinstance(node, dict):
         return {key: value if key in ("extras", "extensions") else _short(value) for key, value in node.items()}
     if isinstance(node, list):
@@ -298,4 +345,6 @@ def _short(node: Any) -> Any:
     if not isinstance(node, float) or abs(node) > _MOST or np.float32(node) != node:
         return node
     # Writers print doubles of single precision with up to 17 digits. Shorter ones mean the same number.
-    return int(node) if node.is_integer() and abs(node) < WHOLE else float(str(np.float32(node)))
+    if node.is_integer() and abs(node) < WHOLE:
+        return int(node)
+    return float(str(np.float32(node)))

@@ -47,18 +47,22 @@ class _Scene(Growing):
         self.left_out: tuple[str, ...] = ()
 
     def numbers(self, values: Array, *, bounds: bool = False, shares: bool = False) -> int:
-        more: Tree = {"normalized": True} if shares and values.dtype.kind == "u" else {}
-        more |= bounds_of(values) if bounds else {}
+        more: Tree = {}
+        if shares and values.dtype.kind == "u":
+            more["normalized"] = True
+        if bounds:
+            more |= bounds_of(values)
         rows, width = values.shape
         return self.accessor(COMPONENTS[values.dtype.name], rows, width, self.table(values), **more)
 
     # A weight of one at its own frame and zero elsewhere: a table of T x T numbers, nearly all of them zero. Sparse, it
     # takes bytes in proportion to T.
     def ones(self, places: Ints, count: int) -> int:
-        """An accessor of zeros, with ones at some places: the bytes grow with the places only."""
-        views = self.view(places.astype(np.uint32).tobytes()), self.view(np.ones(len(places), np.float32).tobytes())
-        indices = {"bufferView": views[0], "componentType": UINT}
-        sparse = {"count": len(places), "indices": indices, "values": {"bufferView": views[1]}}
+        """Add an accessor of zeros, with ones at some places: the bytes grow with the places only."""
+        index_view = self.view(places.astype(np.uint32).tobytes())
+        value_view = self.view(np.ones(len(places), np.float32).tobytes())
+        indices = {"bufferView": index_view, "componentType": UINT}
+        sparse = {"count": len(places), "indices": indices, "values": {"bufferView": value_view}}
         return self.accessor(FLOAT, count, 1, sparse=sparse)
 
     def place(self, mesh: Tree, **more: Any) -> None:
@@ -71,7 +75,9 @@ class _Scene(Growing):
 
     def show(self, mesh: TriangleMesh, stem: str) -> None:
         """Place a mesh; its `primitives` come with the vertices of the mesh that theirs are."""
-        origin = np.zeros(3) if single_suffices(mesh.positions) else np.rint(mesh.positions.mean(axis=0))
+        origin = np.zeros(3)
+        if not single_suffices(mesh.positions):
+            origin = np.rint(mesh.positions.mean(axis=0))
         if origin.any():  # nodes have double precision, in which they place meshes that lie far away
             mesh = replace(mesh, positions=mesh.positions - origin)
         if not single_suffices(mesh.positions):
@@ -81,79 +87,105 @@ class _Scene(Growing):
         material, part = formats.face_numbers(split, "material"), formats.face_numbers(split, "part")
         sorting = [np.zeros(len(split.faces), np.int64) if a is None else a.values for a in (part, material)]
         # A primitive has one material and a node one name, so faces are sorted by both.
-        kinds, of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
+        kinds, kind_of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
         arrays, vertex_attributes = _at_vertices(split)
-        placed, expressed = placed_node(mesh.metadata, origin)
-        names, names_taken, written = formats.names_in(mesh.metadata, "part"), set[str](), {*expressed, "part.names"}
-        images, material_words = formats.images_in(mesh.metadata), formats.materials_in(mesh.metadata)
+        node, expressed = placed_node(mesh.metadata, origin)
+        names = formats.names_in(mesh.metadata, "part")
+        written = {*expressed, "part.names", *(f"part.{number}.name" for number in names)}
         self._sets = sum(name.startswith("TEXCOORD_") for name in arrays)
-        materials = {n: self._material(n, words, images, written) for n, words in material_words.items()}
-        # The default material of glTF is white metal, which reflects a black room.
-        bare = [n for n in kinds[:, 1].tolist() if materials.get(n) is None]  # which viewers draw as black metal
-        materials |= dict.fromkeys(bare, self.add("materials", dict(MATTE))) if bare else {}
-        opacity = next((a.values[:, 3:] for a in vertex_attributes if a.semantic == "color"), np.zeros((0, 1)))
-        if opacity.size and conventions.shares_of(opacity).min() < 1:
-            for which in {materials[n] for n in kinds[:, 1].tolist()}:  # shows the opacity of vertices
-                # Without it, viewers ignore the opacity of vertices.
-                self.tree["materials"][which].setdefault("alphaMode", "BLEND")
+        materials = self._materials(mesh.metadata, kinds[:, 1].tolist(), written)
+        self._blend_opacity(vertex_attributes, {materials[number] for number in kinds[:, 1].tolist()})
         self.primitives: list[tuple[Tree, Ints]] = []
-        for place, (number, its_material) in enumerate(kinds.tolist()):
-            used, corners = np.unique(split.faces[of_face.reshape(-1) == place], return_inverse=True)
-            node_name = str(names.get(number) or (mesh.metadata.get("name") if len(kinds) == 1 else None) or stem)
-            # Blender and others rename nodes of equal names, each in its own way.
-            node_name = next(
-                n for n in (node_name, *(f"{node_name}_{i}" for i in range(1, len(kinds) + 1))) if n not in names_taken
-            )
-            names_taken.add(node_name)
-            accessors = {
-                name: self.numbers(values[used], bounds=name == "POSITION", shares=name.startswith("COLOR_"))
-                for name, values in arrays.items()
-            }
-            primitive: Tree = {
-                "attributes": accessors,
-                "indices": self.numbers(corners.reshape(-1, 1).astype(np.uint32)),
-            }
-            primitive["material"] = materials[its_material]
-            self.place({"name": node_name, "primitives": [primitive]}, name=node_name, **placed)
-            self.primitives.append((primitive, vertex_origins[used]))
-        written |= {f"part.{number}.name" for number in names}
+        node_names: set[str] = set()
+        for place, (part_number, material_number) in enumerate(kinds.tolist()):
+            vertices, corners = np.unique(split.faces[kind_of_face.reshape(-1) == place], return_inverse=True)
+            accessors: Tree = {}
+            for name, values in arrays.items():
+                is_color = name.startswith("COLOR_")
+                accessors[name] = self.numbers(values[vertices], bounds=name == "POSITION", shares=is_color)
+            primitive: Tree = {"attributes": accessors}
+            primitive["indices"] = self.numbers(corners.reshape(-1, 1).astype(np.uint32))
+            primitive["material"] = materials[material_number]
+            mesh_name = mesh.metadata.get("name") if len(kinds) == 1 else None
+            node_name = _unused_name(str(names.get(part_number) or mesh_name or stem), node_names)
+            node_names.add(node_name)
+            self.place({"name": node_name, "primitives": [primitive]}, name=node_name, **node)
+            self.primitives.append((primitive, vertex_origins[vertices]))
         rest = {name: value for name, value in mesh.metadata.items() if name not in written}
         extras = {name: value for name, value in rest.items() if isinstance(value, str) or as_numbers(value)}
-        self.tree["scenes"][0] |= {"extras": extras} if extras else {}
+        if extras:
+            self.tree["scenes"][0]["extras"] = extras
         # Extras come back, but no other program looks for a material there.
         unseen = [name for name in rest if name not in extras or name.startswith("material.")]
         self.left_out += formats.left_out(mesh, [*vertex_attributes, material, part], unseen)
+
+    def _materials(self, metadata: Metadata, numbers: list[int], written: set[str]) -> dict[int, int]:
+        """Add the materials of a mesh and, for faces without one, a matte one; return their places by number."""
+        images = formats.images_in(metadata)
+        materials: dict[int, int] = {}
+        for number, words in formats.materials_in(metadata).items():
+            place = self._material(number, words, images, written)
+            if place is not None:
+                materials[number] = place
+        # The default material of glTF is white metal, which reflects a black room: viewers draw it black.
+        bare_numbers = [number for number in numbers if number not in materials]
+        if bare_numbers:
+            materials |= dict.fromkeys(bare_numbers, self.add("materials", dict(MATTE)))
+        return materials
+
+    def _blend_opacity(self, attributes: list[Attribute], materials: set[int]) -> None:
+        """Let materials show the opacity of vertices, which viewers ignore otherwise."""
+        color = next((attribute for attribute in attributes if attribute.semantic == "color"), None)
+        if color is None or color.components < 4 or not len(color.values):
+            return
+        if conventions.shares_of(color.values[:, 3:]).min() < 1:
+            for place in materials:
+                self.tree["materials"][place].setdefault("alphaMode", "BLEND")
 
     def _material(
         self, number: int, words: Material, images: Mapping[int, tuple[str, bytes]], written: set[str]
     ) -> int | None:
         """Add a material; None if glTF can express nothing of it. `written` gets the names of expressed properties."""
         look, _ = within(appearance(words))
-        gltf_words, material, surface, absent = in_gltf(look), Tree(), Tree(), list[Texture]()
-        extensions: Tree = {UNLIT: {}} if gltf_words.pop("unlit", False) else {}
-        used = set[str]()
+        material: Tree = {}
+        surface: Tree = {}
+        extensions: Tree = {}
+        extensions_used: set[str] = set()
+        absent: list[Texture] = []
+        gltf_words = in_gltf(look)
+        if gltf_words.pop("unlit", False):
+            extensions[UNLIT] = {}
         for name, value in gltf_words.items():
             if isinstance(value, Texture):
-                info, sampler = words_of(value if value.set < self._sets else replace(value, set=0))
-                if (texture := self._texture(*images.get(value.image, ("", b"")), sampler)) is None:
+                texture = value if value.set < self._sets else replace(value, set=0)
+                info, sampler = words_of(texture)
+                index = self._texture(*images.get(value.image, ("", b"")), sampler)
+                if index is None:
                     absent.append(value)
                     continue
                 written |= {f"image.{value.image}.data", f"image.{value.image}.name"}
-                used |= info.get("extensions", {}).keys()
-                value = {"index": texture, **info}
-            elif name == "emissiveFactor" and (most := max(value)) > 1:
+                extensions_used |= info.get("extensions", {}).keys()
+                value = {"index": index, **info}
+            elif name == "emissiveFactor" and max(value) > 1:
                 # Factors of glTF end at 1; brighter ones need this extension.
-                extensions[STRENGTH] = {"emissiveStrength": most}
-                value = [number / most for number in value]
-            (surface if name.startswith(("baseColor", "metallic", "roughness")) else material)[name] = value
-        material |= {"pbrMetallicRoughness": surface} if surface else {}
-        material |= {"extensions": extensions} if extensions else {}
-        for extension in sorted(used | extensions.keys()):
+                strength = max(value)
+                extensions[STRENGTH] = {"emissiveStrength": strength}
+                value = [share / strength for share in value]
+            if name.startswith(("baseColor", "metallic", "roughness")):
+                surface[name] = value
+            else:
+                material[name] = value
+        if surface:
+            material["pbrMetallicRoughness"] = surface
+        if extensions:
+            material["extensions"] = extensions
+        for extension in sorted(extensions_used | extensions.keys()):
             self.use(extension, required=False)
-        fields_held = {name for name in held_by("glTF") if getattr(look, name.partition(".")[0]) not in absent}
-        textures = ((name, value) for name, value in vars(look).items() if isinstance(value, Texture))
-        fields_held -= {f"{name}.set" for name, texture in textures if texture.set >= self._sets}
-        written |= {f"material.{number}.{name}" for name in words.keys() - {*lost(words, fields_held)}}
+        fields = {name for name in held_by("glTF") if getattr(look, name.partition(".")[0]) not in absent}
+        for name, value in vars(look).items():
+            if isinstance(value, Texture) and value.set >= self._sets:
+                fields.discard(f"{name}.set")
+        written |= {f"material.{number}.{name}" for name in words.keys() - {*lost(words, fields)}}
         return self.add("materials", material) if material else None
 
     def _texture(self, name: str, data: bytes, sampler: Tree) -> int | None:
@@ -163,24 +195,41 @@ class _Scene(Growing):
             return None
         # Materials often share an image, and it should be in the file once.
         if data not in self._images:
-            name_entry = {"name": name} if name else {}
-            self._images[data] = self.add("images", {"bufferView": self.view(data), "mimeType": kind, **name_entry})
+            image: Tree = {"bufferView": self.view(data), "mimeType": kind}
+            if name:
+                image["name"] = name
+            self._images[data] = self.add("images", image)
         texture: Tree = {"source": self._images[data]}
         if kind == "image/webp":
             texture = {"extensions": {WEBP: texture}}
             self.use(WEBP, required=True)
-        texture |= {"sampler": self.add("samplers", sampler)} if sampler else {}
+        if sampler:
+            texture["sampler"] = self.add("samplers", sampler)
         return self.add("textures", texture)
+
+
+def _unused_name(name: str, taken_names: set[str]) -> str:
+    """Return a name that no node has: programs rename nodes of equal names, each in its own way."""
+    number = 0
+    unused_name = name
+    while unused_name in taken_names:
+        number += 1
+        unused_name = f"{name}_{number}"
+    return unused_name
 
 
 def placed_node(metadata: Metadata, origin: Doubles | None = None) -> tuple[Tree, frozenset[str]]:
     """Return the properties of a node that holds a mesh around an origin, and the metadata that they express."""
-    placed = conventions.placement(metadata, "glb")
-    turn = _TURNS.get(str(metadata.get("up")).lower())
-    node = {"rotation": turn} if turn else {}
+    placement = conventions.placement(metadata, "glb")
+    node: Tree = {}
+    rotation = _TURNS.get(str(metadata.get("up")).lower())
+    if rotation:
+        node["rotation"] = rotation
     if origin is not None and origin.any():
-        node["translation"] = (placed.matrix @ origin).tolist()
-    return node | ({"scale": [placed.scale] * 3} if placed.scale != 1.0 else {}), placed.held
+        node["translation"] = (placement.matrix @ origin).tolist()
+    if placement.scale != 1.0:
+        node["scale"] = [placement.scale] * 3
+    return node, placement.expressed
 
 
 def write_glb(mesh: TriangleMesh, stem: str) -> formats.Written:
@@ -190,7 +239,7 @@ def write_glb(mesh: TriangleMesh, stem: str) -> formats.Written:
 
 
 def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]:
-    """What glTF has of each vertex, by its names, and the attributes that these are."""
+    """Return the arrays that glTF has of each vertex, by its names, and the attributes that these are."""
     arrays: dict[str, Array] = {"POSITION": mesh.positions.astype(np.float32)}
     vertex_attributes: list[Attribute] = []
     counts: Counter[str] = Counter()
@@ -201,7 +250,8 @@ def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]
         name = _NAMES.get((attribute.semantic, width), "")
         if name == "NORMAL":
             values = unit_rows(values.astype(np.float64), _UP).astype(np.float32)
-            name = name if name not in arrays else ""
+            if name in arrays:
+                name = ""
         elif name == "TEXCOORD":  # glTF counts from the top, we from the bottom
             # This turns the picture over; the image itself stays as it is.
             values = np.column_stack([values[:, 0], 1 - values[:, 1]]).astype(np.float32)
@@ -210,10 +260,12 @@ def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]
         elif re.fullmatch(r"color\d?", attribute.name) and width in (3, 4) and values.dtype == np.float32:
             name = "COLOR"  # above 1, as glTF had them
         if name in ("TEXCOORD", "COLOR"):
+            number = counts[name]
             counts[name] += 1
-            name = f"{name}_{counts[name] - 1}"
+            name = f"{name}_{number}"
         if not name:
-            name, values = f"_{attribute.name}", attribute.values.astype(np.float32)
+            name = f"_{attribute.name}"
+            values = attribute.values.astype(np.float32)
             # Custom attributes may be floats of 32 bits only. One that would be rounded is left out, and a note names
             # it.
             if not (values == attribute.values).all():
@@ -296,23 +348,25 @@ class _Moving(_Scene):
         return [] if self.painted is None else [conventions.to_linear(conventions.shares_of(self.painted.values))]
 
     def add_frame(self, mesh: TriangleMesh) -> None:
-        run, frame = self._runs[-1], mesh.positions
+        run = self._runs[-1]
         # Refused rather than written: most viewers would show nothing, or crash.
         if self.frames - run.begun == MOST_FRAMES:
             raise LimitError(
                 f"a GLB holds each frame as a morph target, of which viewers take {MOST_FRAMES}; "
                 "take fewer with --frames A:B, or write USD"
             )
-        now = (frame, vertex_normals(frame, self.faces), *self._painted(mesh))
+        arrays = (mesh.positions, vertex_normals(mesh.positions, self.faces), *self._painted(mesh))
         with np.errstate(over="ignore"):
-            deltas = [(values - first).astype(np.float32) for values, first in zip(now, run.first, strict=True)]
+            deltas = [(values - first).astype(np.float32) for values, first in zip(arrays, run.first, strict=True)]
         # JSON has no infinity, and the bounds of an accessor are JSON.
         if not all(np.isfinite(delta).all() for delta in deltas):
             raise MeshError(f"frame {self.frames} is beyond single precision, which GLB has")
         self.frames += 1
         for primitive, rows in run.primitives:
-            moved = zip(("POSITION", "NORMAL", "COLOR_0"), deltas, strict=False)
-            target = {n: self.numbers(d[rows], bounds=True) for n, d in moved if n != "COLOR_0" or d.any()}
+            target: Tree = {}
+            for name, delta in zip(("POSITION", "NORMAL", "COLOR_0"), deltas, strict=False):
+                if name != "COLOR_0" or delta.any():
+                    target[name] = self.numbers(delta[rows], bounds=True)
             primitive["targets"].append(target)
 
     def animate(self, frame_times: Doubles) -> None:
@@ -320,21 +374,16 @@ class _Moving(_Scene):
         samplers: list[Tree] = []
         channels: list[Tree] = []
 
-        def move(nodes: range, path: str, times: Array, values: int, way: str) -> None:
-            keys = self.numbers(frame_times[times].astype(np.float32)[:, None], bounds=True)
-            samplers.append({"input": keys, "output": values, "interpolation": way})
-            place = len(samplers) - 1
+        def move(nodes: range, path: str, frames: Array, values: int, interpolation: str) -> None:
+            keys = self.numbers(frame_times[frames].astype(np.float32)[:, None], bounds=True)
+            place = len(samplers)
             channels.extend({"sampler": place, "target": {"node": node, "path": path}} for node in nodes)
+            samplers.append({"input": keys, "output": values, "interpolation": interpolation})
 
         ends = [*(run.begun for run in self._runs[1:]), self.frames]
         for run, end in zip(self._runs, ends, strict=True):
             count = end - run.begun - 1
-            for primitive, rows in run.primitives:
-                if any("COLOR_0" in one for one in primitive["targets"]):  # then all have to; without bytes it is 0
-                    # All targets of a primitive must have the same attributes. An accessor without bytes is zero
-                    # everywhere.
-                    zeros = self.accessor(FLOAT, len(rows), run.first[2].shape[1])
-                    primitive["targets"] = [{"COLOR_0": zeros} | target for target in primitive["targets"]]
+            self._complete_colors(run)
             if count:
                 weights = self.ones(count + np.arange(count) * (count + 1), (count + 1) * count)
                 move(run.nodes, "weights", np.arange(run.begun, end), weights, "LINEAR")
@@ -343,14 +392,24 @@ class _Moving(_Scene):
                     self.tree["meshes"][self.tree["nodes"][node]["mesh"]]["weights"] = [0.0] * count
             if len(self._runs) > 1:
                 # glTF cannot hide a node. A scale of zero does, and every viewer plays it.
-                times = np.array([0, run.begun, end][run.begun == 0 : 3 - (end == self.frames)])
-                visibility = np.array([0, 1, 0][run.begun == 0 : 3 - (end == self.frames)])
-                sizes = np.tile(visibility[:, None], 3) * np.array(
-                    self.tree["nodes"][run.nodes[0]].get("scale", [1.0] * 3)
-                )
-                move(run.nodes, "scale", times, self.numbers(sizes.astype(np.float32)), "STEP")
+                frames, visibility = [run.begun], [1]
+                if run.begun > 0:
+                    frames, visibility = [0, *frames], [0, *visibility]
+                if end < self.frames:
+                    frames, visibility = [*frames, end], [*visibility, 0]
+                scale = np.array(self.tree["nodes"][run.nodes[0]].get("scale", [1.0] * 3))
+                scales = np.array(visibility)[:, None] * scale
+                move(run.nodes, "scale", np.array(frames), self.numbers(scales.astype(np.float32)), "STEP")
         if channels:
             self.add("animations", {"name": "frames", "samplers": samplers, "channels": channels})
+
+    def _complete_colors(self, run: _Run) -> None:
+        """Give colors to all targets of a primitive if one has them: they must have the same attributes."""
+        for primitive, rows in run.primitives:
+            if any("COLOR_0" in target for target in primitive["targets"]):
+                # An accessor without bytes is zero everywhere.
+                zeros = self.accessor(FLOAT, len(rows), run.first[2].shape[1])
+                primitive["targets"] = [{"COLOR_0": zeros} | target for target in primitive["targets"]]
 
 
 def vertex_normals(positions: Positions, faces: Faces) -> Doubles:

@@ -10,7 +10,6 @@ import math
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import chain
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -35,13 +34,24 @@ class Texture:
     set: int = 0  # of texture coordinates
 
     def in_words(self, word: str) -> Material:
-        """The entries of a material that say this: the number of the image, options as in MTL, and others."""
-        scale, offset = (" ".join(f"{number:.9g}" for number in pair) for pair in (self.scale, self.offset))
-        options = [f"-s {scale} 1 -o {offset} 0"] * ((scale, offset) != ("1 1", "0 0"))
-        options += ["-clamp on"] * (both := self.wrap == ("clamp", "clamp"))
-        wrap = "" if both or self.wrap == ("repeat", "repeat") else " ".join(self.wrap)
-        more: Material = {"options": " ".join(options), "rotation": self.rotation, "wrap": wrap, "set": self.set}
-        return {word: self.image, **{f"{word}.{name}": value for name, value in more.items() if value}}
+        """Return the entries of a material that say this: the number of the image, options as in MTL, and others."""
+        words: Material = {word: self.image}
+        scale = " ".join(f"{number:.9g}" for number in self.scale)
+        offset = " ".join(f"{number:.9g}" for number in self.offset)
+        options: list[str] = []
+        if scale != "1 1" or offset != "0 0":
+            options.append(f"-s {scale} 1 -o {offset} 0")
+        if self.wrap == ("clamp", "clamp"):
+            options.append("-clamp on")
+        if options:
+            words[f"{word}.options"] = " ".join(options)
+        if self.rotation:
+            words[f"{word}.rotation"] = self.rotation
+        if self.wrap not in (("clamp", "clamp"), ("repeat", "repeat")):
+            words[f"{word}.wrap"] = " ".join(self.wrap)
+        if self.set:
+            words[f"{word}.set"] = self.set
+        return words
 
 
 @dataclass(frozen=True)
@@ -78,12 +88,13 @@ the entries about each texture; the last row has the words of no field."""
 
 def fields_of(kind: str) -> dict[str, list[str]]:
     """Return the fields that each word of a format says."""
-    rows = [row for row in _ROWS[:-1] if "*" not in row["field"]]
-    words_and_fields = [(word, row["field"]) for row in rows for word in row[kind].replace("~", "").split()]
-    return {
-        word: [name for word_of_field, name in words_and_fields if word_of_field == word]
-        for word, _ in words_and_fields
-    }
+    fields: dict[str, list[str]] = {}
+    for row in _ROWS[:-1]:
+        if "*" in row["field"]:
+            continue
+        for word in row[kind].replace("~", "").split():
+            fields.setdefault(word, []).append(row["field"])
+    return fields
 
 
 def held_by(kind: str) -> set[str]:
@@ -123,18 +134,24 @@ def as_numbers(value: object) -> list[float]:
 
 def appearance(words: Material) -> Appearance:
     """Read the words of a material; where both say a field, that of glTF counts."""
-    fields, fields_by_word = dict[str, Any](), dict[str, tuple[str, ...]]()
+    fields: dict[str, Any] = {}
+    fields_by_word: dict[str, tuple[str, ...]] = {}
     for word, names in (*_GLTF.items(), *_MTL.items()):
-        if word in words and (values := _read(word, names, words)):
+        values = _read(word, names, words) if word in words else {}
+        if values:
             fields_by_word[word] = tuple(values)
             fields = values | fields
-            fields_by_word |= {f"{word}.{entry}": (f"{names[0]}.{entry}",) for entry in _about(words, word)}
-    metal, rough = (words.get(f"map_{word}") for word in ("Pm", "Pr"))
-    if isinstance(rough, int) and (metal == rough or (metal is None and not any(as_numbers(words.get("Pm", 0))))):
-        fields.setdefault("surface_texture", Texture(rough))  # gray: green is the roughness, blue counts as metal
+            for entry in _texture_fields(words, word):
+                fields_by_word[f"{word}.{entry}"] = (f"{names[0]}.{entry}",)
+    metal, roughness = words.get("map_Pm"), words.get("map_Pr")
+    is_metal = any(as_numbers(words.get("Pm", 0)))
+    if isinstance(roughness, int) and (metal == roughness or (metal is None and not is_metal)):
+        # Gray: green is the roughness, blue counts as metal.
+        fields.setdefault("surface_texture", Texture(roughness))
         fields_by_word |= dict.fromkeys(("map_Pr", "map_Pm"), ("surface_texture",))
     if any(map(is_mtl, words)):  # what MTL means where it says nothing
-        fields.setdefault("metallic", 1.0 if metal is not None and "map_Pr" in fields_by_word else 0.0)
+        has_metal_image = metal is not None and "map_Pr" in fields_by_word
+        fields.setdefault("metallic", 1.0 if has_metal_image else 0.0)
         if "map_Ke" in words and not any(fields.get("emission", ())):
             fields["emission"] = (1.0, 1.0, 1.0)
     if "map_d" in words and words["map_d"] == words.get("map_Kd"):  # the image of the color also holds the opacity
@@ -148,23 +165,32 @@ def appearance(words: Material) -> Appearance:
 
 def _read(word: str, names: Sequence[str], words: Material) -> dict[str, Any]:
     """Return the fields that a word says; none where it makes no sense."""
-    value, numbers = words[word], as_numbers(str(words[word]).removeprefix("-halo"))
+    value = words[word]
     name, usual = names[0], getattr(USUAL, names[0])
     if usual is None:
-        about = {key: value for fields in _about(words, word).values() for key, value in fields.items()}
-        return {name: Texture(value, **about)} if isinstance(value, int) else {}
+        if not isinstance(value, int):
+            return {}
+        texture = Texture(value)
+        for fields in _texture_fields(words, word).values():
+            texture = replace(texture, **fields)
+        return {name: texture}
     if isinstance(usual, str):
         return {name: str(value)} if name == "name" or value in ("OPAQUE", "MASK", "BLEND") else {}
     if isinstance(usual, bool):
         return {name: bool(value)}
+    numbers = as_numbers(str(value).removeprefix("-halo"))
     if len(numbers) != len(np.atleast_1d(usual)) + len(names) - 1:
         return {}
     if word == "Kd" and is_black_beside_image(words):
         return {name: usual}
     if isinstance(usual, tuple):
-        color = tuple(as_numbers(as_text(to_linear(np.array(numbers)))) if word in _MTL else numbers[:3])
-        return dict(zip(names, (color, *numbers[3:])))
-    return {name: as_numbers(as_text(1 - numbers[0]))[0] if word == "Tr" else numbers[0]}
+        color = numbers[:3]
+        if word in _MTL:
+            color = as_numbers(as_text(to_linear(np.array(numbers))))
+        return dict(zip(names, (tuple(color), *numbers[3:])))
+    if word == "Tr":  # which is the transparency
+        return {name: as_numbers(as_text(1 - numbers[0]))[0]}
+    return {name: numbers[0]}
 
 
 def is_black_beside_image(words: Material) -> bool:
@@ -172,28 +198,36 @@ def is_black_beside_image(words: Material) -> bool:
     return "map_Kd" in words and as_numbers(words.get("Kd")) == [0.0] * 3
 
 
-def _about(words: Material, word: str) -> dict[str, dict[str, Any]]:
-    """Return the fields of a texture that the entries about it say, but for entries that make no sense."""
-    options, wrap = str(words.get(f"{word}.options", "")), tuple(str(words.get(f"{word}.wrap", "")).split())
-    rotation, which = as_numbers(words.get(f"{word}.rotation")), words.get(f"{word}.set")
-    entries: dict[str, dict[str, Any]] = {"wrap": {"wrap": wrap}} if len(wrap) == 2 and {*wrap} <= {*WAYS} else {}
-    entries |= {"rotation": {"rotation": rotation[0]}} if len(rotation) == 1 else {}
-    entries |= {"set": {"set": which}} if isinstance(which, int) and which >= 0 else {}
+def _texture_fields(words: Material, word: str) -> dict[str, dict[str, Any]]:
+    """Return the fields of a texture by the entries that say them, but for entries that make no sense."""
+    fields: dict[str, dict[str, Any]] = {}
+    wrap = tuple(str(words.get(f"{word}.wrap", "")).split())
+    if len(wrap) == 2 and {*wrap} <= {*WAYS}:
+        fields["wrap"] = {"wrap": wrap}
+    rotation = as_numbers(words.get(f"{word}.rotation"))
+    if len(rotation) == 1:
+        fields["rotation"] = {"rotation": rotation[0]}
+    coordinate_set = words.get(f"{word}.set")
+    if isinstance(coordinate_set, int) and coordinate_set >= 0:
+        fields["set"] = {"set": coordinate_set}
+    options = str(words.get(f"{word}.options", ""))
     if re.fullmatch(f"(?:{_MOVE})+", options):
-        options_given = {name: tuple(as_numbers(numbers)[:2]) for name, numbers, _ in re.findall(_MOVE, options)}
-        moved = {
-            "scale": (*options_given.get("s", ()), 1.0, 1.0)[:2],
-            "offset": (*options_given.get("o", ()), 0.0, 0.0)[:2],
-        }
-        entries["options"] = moved | ({"wrap": ("clamp", "clamp")} if "" in options_given else {})
-    return entries
+        values = {option: tuple(as_numbers(numbers)[:2]) for option, numbers, _ in re.findall(_MOVE, options)}
+        scale = (*values.get("s", ()), 1.0, 1.0)[:2]
+        offset = (*values.get("o", ()), 0.0, 0.0)[:2]
+        fields["options"] = {"scale": scale, "offset": offset}
+        if "" in values:
+            fields["options"]["wrap"] = ("clamp", "clamp")
+    return fields
 
 
 def within(look: Appearance) -> tuple[Appearance, list[str]]:
     """Return an appearance in the ranges that formats have, and the fields that lay beyond; only light may exceed 1."""
     most = {"color": 1.0, "opacity": 1.0, "metallic": 1.0, "roughness": 1.0, "emission": math.inf, "cutoff": math.inf}
-    clipped = ((name, np.clip(getattr(look, name), 0.0, limit).tolist()) for name, limit in most.items())
-    inside: dict[str, Any] = {name: tuple(value) if isinstance(value, list) else value for name, value in clipped}
+    inside: dict[str, Any] = {}
+    for name, limit in most.items():
+        value = np.clip(getattr(look, name), 0.0, limit).tolist()
+        inside[name] = tuple(value) if isinstance(value, list) else value
     return replace(look, **inside), [name for name, value in inside.items() if value != getattr(look, name)]
 
 
@@ -202,8 +236,9 @@ def in_gltf(look: Appearance) -> dict[str, Any]:
     words: dict[str, Any] = {}
     for word, names in _GLTF.items():
         first, *more = (getattr(look, name) for name in names)
-        if first is not None and any(map(look.says, names)):
-            words[word] = [*first, *more] if isinstance(first, tuple) else first
+        if first is None or not any(map(look.says, names)):
+            continue
+        words[word] = [*first, *more] if isinstance(first, tuple) else first
     return words
 
 
@@ -211,53 +246,69 @@ def in_mtl(words: Material) -> Material:
     """Return a material in the words of MTL: those that it has, and those for fields that the words of glTF say."""
     look, _ = within(appearance(words))
     mtl_words: Material = {word: value for word, value in words.items() if is_mtl(word) or word == "name"}
-    fields = {name for word, names in look.stated.items() if not is_mtl(word) for name in names}
-    fields -= {*chain.from_iterable(_MTL.get(word, ()) for word in mtl_words)}
+    fields: set[str] = set()
+    for word, names in look.stated.items():
+        if not is_mtl(word):
+            fields.update(names)
+    fields.difference_update(*(_MTL.get(word, ()) for word in mtl_words))
     for word, (name, *_) in _MTL.items():
-        value = getattr(look, name)
         if name not in fields:
             continue
         fields.remove(name)
+        value = getattr(look, name)
         if isinstance(value, Texture):
             mtl_words |= {key: entry for key, entry in value.in_words(word).items() if key == word or is_mtl(key)}
         elif name == "mode":
-            mtl_words |= {word: mtl_words["map_Kd"]} if value != "OPAQUE" and "map_Kd" in mtl_words else {}
+            if value != "OPAQUE" and "map_Kd" in mtl_words:
+                mtl_words[word] = mtl_words["map_Kd"]
+        elif isinstance(value, tuple):
+            mtl_words[word] = as_text(to_srgb(np.array(value)))
         elif name != "opacity" or (value != 1 and look.mode == "BLEND"):
-            mtl_words[word] = as_text(to_srgb(np.array(value)) if isinstance(value, tuple) else value)
+            mtl_words[word] = as_text(value)
     return mtl_words
 
 
 def parse_mtl(data: bytes, images: dict[str, int]) -> dict[str, Material]:
     """Return the materials of a library by name; `images` numbers the files of their images."""
-    materials, current = dict[str, Material](), Material()
+    materials: dict[str, Material] = {}
+    current: Material = {}
     for line in continued(plain_text(data)).splitlines():
-        keyword, rest = map(text_of, [*line.split(None, 1), b"", b""][:2])
-        keyword, rest = _OF_MTL.get(keyword.lower(), keyword), re.sub(r"\s#(\s.*)?$", "", rest)
+        first_word, rest = map(text_of, [*line.split(None, 1), b"", b""][:2])
+        keyword = _OF_MTL.get(first_word.lower(), first_word)
+        rest = re.sub(r"\s#(\s.*)?$", "", rest)
+        value = rest.partition("#")[0].strip()
         if keyword.lower() == "newmtl":
             current = materials.setdefault(rest, {})
         elif rest and MTL_IMAGES.fullmatch(keyword):
             options, name = _MTL_OPTIONS.findall(rest)[0]
             name = re.sub(r"^([\"'])(.+)\1$", r"\2", name)
             current[keyword] = images.setdefault(name, len(images))
-            current |= {f"{keyword}.options": options.strip()} if options else {}
-        elif (value := rest.partition("#")[0].strip()) and not keyword.startswith("#"):
-            numbers = value.replace(",", " ").split()  # one number is a gray
-            value = " ".join(numbers * 3 if len(numbers) == 1 else numbers) if keyword in _MTL_COLORS else value
-            current[keyword] = value
+            if options:
+                current[f"{keyword}.options"] = options.strip()
+        elif value and not keyword.startswith("#"):
+            current[keyword] = _color_words(value) if keyword in _MTL_COLORS else value
     return materials
+
+
+def _color_words(value: str) -> str:
+    """Return the three numbers of a color; one number is a gray."""
+    numbers = value.replace(",", " ").split()
+    return " ".join(numbers * 3 if len(numbers) == 1 else numbers)
 
 
 def write_mtl(materials: Mapping[int, Material], names: Mapping[int, str], images: Mapping[int, str]) -> bytes:
     lines: list[str] = []
     for number, material in materials.items():
         lines.append(f"newmtl {names[number]}")
-        for keyword, value in (statements := in_mtl(material)).items():
-            if refers_to_image(keyword):
-                options = statements.get(f"{keyword}.options")
-                name = images.get(value) if isinstance(value, int) else None
-                lines += [" ".join(filter(None, [keyword, str(options or ""), name]))] if name else []
-            elif keyword != "name" and not keyword.endswith(".options"):
+        statements = in_mtl(material)
+        for keyword, value in statements.items():
+            if keyword == "name" or keyword.endswith(".options"):
+                continue
+            if not refers_to_image(keyword):
                 lines.append(f"{keyword} {value}")
+            elif isinstance(value, int) and images.get(value):
+                options = str(statements.get(f"{keyword}.options") or "")
+                lines.append(" ".join(filter(None, [keyword, options, images[value]])))
     return "".join(one_line(line) + "\n" for line in lines).encode()
 
 
@@ -277,10 +328,12 @@ def one_line(text: str) -> str:
 def lost(words: Material, fields_held: Collection[str]) -> list[str]:
     """Return the words that say more than the fields that a format holds, or have numbers beyond its range."""
     look = appearance(words)
-    usual = {name for name in vars(USUAL) if getattr(look, name) == getattr(USUAL, name)}
-    usual |= {"mode"} if look.mode == "BLEND" and look.opacity < 1 else set()
-    fine = {*fields_held, *usual}.difference(within(look)[1])
-    return [word for word in words if not {*look.stated.get(word, ("",))} <= fine]
+    expressed = {*fields_held}
+    expressed |= {name for name in vars(USUAL) if getattr(look, name) == getattr(USUAL, name)}
+    if look.mode == "BLEND" and look.opacity < 1:
+        expressed.add("mode")
+    expressed.difference_update(within(look)[1])
+    return [word for word in words if not {*look.stated.get(word, ("",))} <= expressed]
 
 
 def as_text(value: Any) -> str:

@@ -36,14 +36,16 @@ def columns_of(
     active: Mapping[str, Semantic] | None = None,
     components: Mapping[str, Sequence[str]] | None = None,
 ) -> Iterator[Column]:
-    """Arrays of numbers by name, some of which are known to mean something, or name their components."""
+    """Yield arrays of numbers by name, some of which are known to mean something, or name their components."""
+    meanings = active or {}
+    component_names = components or {}
     for name, table in data.items():
         values = np.array(table)
-        values = values[:, None] if values.ndim == 1 else values.reshape(len(values), -1)
         if values.dtype.kind not in "biuf":
             losses[f"{name} ({values.dtype.name} values)"] = None
             continue
-        yield named_column(name, values, domain, (active or {}).get(name), (components or {}).get(name, ()))
+        rows = values[:, None] if values.ndim == 1 else values.reshape(len(values), -1)
+        yield named_column(name, rows, domain, meanings.get(name), component_names.get(name, ()))
 
 
 _WINDOW = 1 << 12
@@ -51,46 +53,63 @@ _WINDOW = 1 << 12
 
 def runs(flat: Ints, shape: Callable[[Ints], tuple[int, slice]]) -> Iterator[Ints]:
     """Tables of alike rows in a flat list; the first numbers of a row tell its length, and the columns to compare."""
-    at = 0
-    while at < len(flat):
-        width, same = shape(flat[at : at + 4])
+    begin = 0
+    while begin < len(flat):
+        width, compared = shape(flat[begin : begin + 4])
         # A window: comparing all that is left at every change of kind would take the square of the file.
-        rows = flat[at : at + _WINDOW * width]
-        table = rows[: len(rows) // width * width].reshape(-1, width)
-        if not len(table):
+        window = flat[begin : begin + _WINDOW * width]
+        count = len(window) // width
+        if not count:
             raise TruncatedError("the last cell is cut short")
-        alike = (table[:, same] == table[0, same]).all(axis=1)
-        count = len(table) if alike.all() else int(np.argmin(alike))
+        table = window[: count * width].reshape(-1, width)
+        alike = (table[:, compared] == table[0, compared]).all(axis=1)
+        if not alike.all():
+            count = int(np.argmin(alike))
         yield table[:count]
-        at += count * width
+        begin += count * width
 
 
 def _sides(kind: str, table: Ints, cells: Ints, points: Doubles) -> list[_Side]:
-    """The sides of cells of one kind, outside ahead; none of kinds that are not known."""
+    """Return the sides of cells of one kind, outside ahead; none of kinds that are not known."""
     if kind == "polygon":
         return [(cells, np.full((len(cells), 4), -2), [table], False)]
-    faces, edges, most = _SHAPES.get(kind.rstrip("0123456789"), ("", "", 0))
-    ends, size, sides = [{*edge} for edge in edges.split()], len({*faces} - {" "}), list[_Side]()
-    if not size or table.shape[1] not in (size, size + len(ends), most):
+    shape = kind.rstrip("0123456789")
+    if shape not in _SHAPES:
         return []
-    step, is_solid = 1 + (table.shape[1] > size), " " in faces
+    faces, edges, most_nodes = _SHAPES[shape]
+    ends = [{*edge} for edge in edges.split()]
+    is_solid = " " in faces
+    corner_count = len({*faces} - {" "})
+    if table.shape[1] not in (corner_count, corner_count + len(ends), most_nodes):
+        return []
+    step = 2 if table.shape[1] > corner_count else 1  # quadratic cells have a node on each edge
+    sides: list[_Side] = []
     for face in faces.split():
-        nodes = [(int(a), size + ends.index({a, b}))[:step] for a, b in zip(face, face[1:] + face[0], strict=True)]
-        ring = table[:, np.ravel(nodes)]
+        nodes: list[int] = []
+        for corner, following in zip(face, face[1:] + face[0], strict=True):
+            nodes.append(int(corner))
+            if step == 2:
+                nodes.append(corner_count + ends.index({corner, following}))
+        ring = table[:, nodes]
         if is_solid:
-            at = points[ring[:, ::step]].swapaxes(0, 1)
-            ahead, middle = np.cross(at[2] - at[0], at[-1] - at[1]), points[table[:, :size]].mean(axis=1)
-            # Solvers differ in the order of corners, wedges above all, so where outside is follows from the cell's
-            # middle.
-            inward = (ahead * (at.mean(axis=0) - middle)).sum(axis=1) < 0
-            ring[inward] = np.roll(ring[inward, ::-1], 1, axis=1)
+            _turn_outward(ring, points[ring[:, ::step]], points[table[:, :corner_count]].mean(axis=1))
         # A side is known by its corners, sorted: two cells run around the side between them in opposite directions.
         key = np.pad(np.sort(ring[:, ::step]), ((0, 0), (0, 4 - len(face))), constant_values=-1)
         pieces = [ring]
         if step == 2:
-            pieces = [*(ring[:, [at, at + 1, at - 1]] for at in range(0, ring.shape[1], 2)), ring[:, 1::2]]
+            pieces = [ring[:, [at, at + 1, at - 1]] for at in range(0, ring.shape[1], 2)]
+            pieces.append(ring[:, 1::2])
         sides.append((cells, key, pieces, is_solid))
     return sides
+
+
+def _turn_outward(ring: Ints, corners: Doubles, middles: Doubles) -> None:
+    """Turn the sides around, shape (n, k), whose normals point to the middles of their cells."""
+    # Solvers differ in the order of corners, wedges above all, so where outside is follows from the cell's middle.
+    places = corners.swapaxes(0, 1)
+    normals = np.cross(places[2] - places[0], places[-1] - places[1])
+    inward = (normals * (places.mean(axis=0) - middles)).sum(axis=1) < 0
+    ring[inward] = np.roll(ring[inward, ::-1], 1, axis=1)
 
 
 def skin(
@@ -109,40 +128,22 @@ def skin(
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise MeshError(f"positions must have shape (n, 3), not {points.shape}")
     points = np.pad(points, ((0, 0), (0, 3 - points.shape[1])))
-    alike, count = defaultdict[tuple[str, int], list[tuple[Ints, Ints]]](list), 0
-    for kind, rows in blocks:
-        tables = (
-            [np.asarray(row, np.int64)[None] for row in rows]
-            if isinstance(rows, list)
-            else [np.asarray(rows, np.int64)]
-        )
-        for table in tables:
-            alike[kind, table.shape[1]].append((np.arange(count, count + len(table)), table))
-            count += len(table)
-    sides, lost = list[_Side](), dict[str, None]()
-    for (kind, _), cells_of_kind in alike.items():
-        cells, table = map(np.concatenate, zip(*cells_of_kind, strict=True))
+    lost: dict[str, None] = {}
+    sides: list[_Side] = []
+    for kind, cells, table in _tables_of_kinds(blocks):
         if table.size and not 0 <= table.min() <= table.max() < len(points):
             raise MeshError(f"a cell of the type {kind} refers to a vertex that is not there")
-        of_kind = _sides(kind, table, cells, points)
-        lost |= {} if of_kind else {f"cells of the type {kind} ({len(table)})": None}
-        sides += of_kind
-    numbers = row_numbers(np.concatenate([np.empty((0, 4), np.int64), *(key for _, key, _, _ in sides)]))
-    # A side of two cells lies inside.
-    once = np.split(np.bincount(numbers)[numbers] == 1, np.cumsum([len(side[0]) for side in sides])[:-1])
-    outer_sides = [(side, alone | (not side[3])) for side, alone in zip(sides, once, strict=False)]
-    pieces = [
-        (cells[columns_of_points], table[columns_of_points])
-        for (cells, _, tables, _), columns_of_points in outer_sides
-        for table in tables
-    ]
-    every = [(cells, np.full(len(cells), table.shape[1]), table.ravel()) for cells, table in pieces]
-    owner, sizes, flat = map(np.concatenate, zip(*[(np.empty(0, np.int64),) * 3, *every], strict=True))
+        sides_of_kind = _sides(kind, table, cells, points)
+        if not sides_of_kind:
+            lost[f"cells of the type {kind} ({len(table)})"] = None
+        sides += sides_of_kind
+    owner, sizes, flat = _outer_polygons(sides)
     order = np.argsort(owner, kind="stable")
     corners = flat[ranges((np.cumsum(sizes) - sizes)[order], sizes[order])]
-    has_skin = any(is_skin for _, _, _, is_skin in sides)
-    used = np.unique(corners) if has_skin else np.arange(len(points))
-    lost |= {INSIDE: None} if has_skin else {}
+    used = np.arange(len(points))
+    if any(is_skin for _, _, _, is_skin in sides):
+        used = np.unique(corners)
+        lost[INSIDE] = None
     columns_of_points = {name: np.asarray(values)[used] for name, values in of_points.items()}
     columns_of_cells = {name: np.asarray(values)[owner[order]] for name, values in of_cells.items()}
     columns = (*columns_of(columns_of_points, "vertex", lost), *columns_of(columns_of_cells, "face", lost))
@@ -150,15 +151,59 @@ def skin(
     return Polygons(points[used], sizes[order], corners, (), (*lost, *losses), columns, metadata or {})
 
 
+def _tables_of_kinds(blocks: Sequence[tuple[str, Any]]) -> Iterator[tuple[str, Ints, Ints]]:
+    """Yield the cells of all blocks that are alike in shape and width: their numbers, and a row of points for each."""
+    tables_alike = defaultdict[tuple[str, int], list[tuple[Ints, Ints]]](list)
+    count = 0
+    for kind, rows in blocks:
+        # Polygons come as a list, each of a length of its own.
+        if isinstance(rows, list):
+            tables = [np.asarray(row, np.int64)[None] for row in rows]
+        else:
+            tables = [np.asarray(rows, np.int64)]
+        for table in tables:
+            numbers = np.arange(count, count + len(table))
+            tables_alike[kind, table.shape[1]].append((numbers, table))
+            count += len(table)
+    for (kind, _), parts in tables_alike.items():
+        cells, table = map(np.concatenate, zip(*parts, strict=True))
+        yield kind, cells, table
+
+
+def _outer_polygons(sides: list[_Side]) -> tuple[Ints, Ints, Ints]:
+    """Return the cells, the sizes and the corners of all sides but those of solids that two cells have."""
+    nothing = np.empty(0, np.int64)
+    numbers = row_numbers(np.concatenate([np.empty((0, 4), np.int64), *(key for _, key, _, _ in sides)]))
+    # A side of two cells lies inside.
+    is_single = np.bincount(numbers)[numbers] == 1
+    owners, sizes, corners = [nothing], [nothing], [nothing]
+    begin = 0
+    for cells, _, tables, is_solid in sides:
+        rows: Any = slice(None)
+        if is_solid:
+            rows = is_single[begin : begin + len(cells)]
+        begin += len(cells)
+        for table in tables:
+            outer = table[rows]
+            owners.append(cells[rows])
+            sizes.append(np.full(len(outer), table.shape[1]))
+            corners.append(outer.ravel())
+    return np.concatenate(owners), np.concatenate(sizes), np.concatenate(corners)
+
+
 def of_meshio(mesh: Any) -> Polygons:
-    """The surfaces of a meshio mesh and the skin of its volumes, in the order of its cells."""
-    losses = list[str]()
+    """Return the surfaces of a meshio mesh and the skin of its volumes, in the order of its cells."""
+    losses: list[str] = []
     blocks = [(block.type, [*block.data] if block.type.startswith("poly") else block.data) for block in mesh.cells]
     for what in ("point_sets", "cell_sets", "field_data", "info"):
         names = ", ".join(map(str, getattr(mesh, what, None) or ()))
-        losses += [f"{what.replace('_', ' ')} ({names})"] if names else []
-    of_cells = {name: [*map(np.asarray, values)] for name, values in mesh.cell_data.items()}
-    alike = {name: rows for name, rows in of_cells.items() if len({row.shape[1:] for row in rows}) == 1}
-    joined_rows = {name: np.concatenate(rows) for name, rows in alike.items()}
-    losses += [name for name in of_cells if name not in joined_rows]
-    return skin(mesh.points, blocks, mesh.point_data, joined_rows, losses)
+        if names:
+            losses.append(f"{what.replace('_', ' ')} ({names})")
+    of_cells: dict[str, Any] = {}
+    for name, values in mesh.cell_data.items():
+        tables = [*map(np.asarray, values)]
+        if len({table.shape[1:] for table in tables}) == 1:
+            of_cells[name] = np.concatenate(tables)
+        else:
+            losses.append(name)
+    return skin(mesh.points, blocks, mesh.point_data, of_cells, losses)

@@ -126,32 +126,37 @@ def fetched(
     metadata: Metadata, read: Callable[[str], bytes | str]
 ) -> tuple[dict[str, Value], list[str], tuple[str, ...]]:
     """Return metadata with the contents of the files that they name, notes on those that `read` has not, and losses."""
-    contents, notes, images = dict(metadata), list[str](), dict[str, int]()
+    contents = dict(metadata)
+    notes: list[str] = []
+    images: dict[str, int] = {}
     libraries: list[dict[str, Material]] = []
     folders: dict[str, str] = {}
     for line in str(contents.get("mtllib", "")).split("\n"):
-        library_data = read(line)
-        for name in [line] if isinstance(library_data, bytes) or len(line.split()) < 2 else line.split():
-            if isinstance(library := read(name), bytes):
-                image_names, within = {*images}, name.replace("\\", "/").rpartition("/")[0]
+        names = [line]
+        if len(line.split()) > 1 and not isinstance(read(line), bytes):
+            names = line.split()
+        for name in names:
+            library = read(name)
+            if isinstance(library, bytes):
+                known_images = {*images}
                 libraries.append(parse_mtl(library, images))
-                folders |= dict.fromkeys(images.keys() - image_names, within) if within else {}
+                folder = name.replace("\\", "/").rpartition("/")[0]
+                if folder:
+                    folders |= dict.fromkeys(images.keys() - known_images, folder)
             elif name:
                 notes.append(f"the materials in {name} were left out: {library}")
-    of_libraries, lost = _add_libraries(contents, libraries)
-    notes += of_libraries
+    library_notes, lost = _add_libraries(contents, libraries)
+    notes += library_notes
     contents |= {f"image.{number}.name": name for name, number in images.items()}
     for key in [key for key in contents if key.startswith("image.") and key.endswith(".name")]:
-        name, place = str(contents[key]), key.removesuffix("name") + "data"
+        name = str(contents[key])
+        place = key.removesuffix("name") + "data"
         if place in contents:
             continue
         if _TILES.search(name):
             lost.append(f"the images {name}, of which a material has one")
             continue
-        image = read(f"{folders[name]}/{name}") if name in folders else read(name)
-        image = read(name) if isinstance(image, str) and name in folders else image
-        if isinstance(image, bytes) and kind_of_image(image) is None:
-            image = "its format is not known"
+        image = _read_image(name, folders.get(name), read)
         if isinstance(image, bytes):
             contents[place] = image
         else:
@@ -159,22 +164,42 @@ def fetched(
     return contents, notes, tuple(lost)
 
 
+def _read_image(name: str, folder: str | None, read: Callable[[str], bytes | str]) -> bytes | str:
+    """Return an image beside its library, or else beside the mesh, or why there is none."""
+    image: bytes | str = ""
+    if folder is not None:
+        image = read(f"{folder}/{name}")
+    if isinstance(image, str):
+        image = read(name)
+    if isinstance(image, bytes) and kind_of_image(image) is None:
+        return "its format is not known"
+    return image
+
+
 def _add_libraries(
     contents: dict[str, Value], libraries: Sequence[Mapping[str, Material]]
 ) -> tuple[list[str], list[str]]:
     """Add the materials of libraries, the first of each name, those that faces name first; return notes and losses."""
     numbers = {str(material.get("name", "")): number for number, material in materials_in(contents).items()}
-    materials = {name: material for library in reversed(libraries) for name, material in library.items()}
-    absent = [name for name in numbers if name and name not in materials] if libraries else []
+    materials: dict[str, Material] = {}
+    for library in reversed(libraries):
+        materials |= library
+    notes: list[str] = []
+    absent = [name for name in numbers if name and name not in materials]
+    if libraries and absent:
+        notes.append(f"no library has these materials: {', '.join(absent[:_MOST_NAMED])}")
     black = [name for name, material in materials.items() if is_black_beside_image(material)]
+    if black:
+        notes.append(f"black beside an image, which other formats get white: {', '.join(black[:_MOST_NAMED])}")
     free = count(max(numbers.values(), default=-1) + 1)
     for name, material in materials.items():
-        numbers[name] = numbers[name] if name in numbers else next(free)
+        if name not in numbers:
+            numbers[name] = next(free)
         contents |= described({numbers[name]: {"name": name, **material}})
-    notes = {"no library has these materials": absent, "black beside an image, which other formats get white": black}
-    again = {name: None for library in libraries for name in library if library[name] != materials[name]}
-    lost = [f"the material {name} of a later library" for name in again]
-    return [f"{note}: {', '.join(names[:_MOST_NAMED])}" for note, names in notes.items() if names], lost
+    repeated: dict[str, None] = {}
+    for library in libraries:
+        repeated |= dict.fromkeys(name for name in library if library[name] != materials[name])
+    return notes, [f"the material {name} of a later library" for name in repeated]
 
 
 def plain_fields(fields: Mapping[str, Any]) -> tuple[dict[str, Value], list[str]]:
@@ -328,22 +353,28 @@ _MOST_NAMED = 3
 def in_words(names: Iterable[str], metadata: Metadata) -> list[str]:
     """Return metadata as a user knows them: "opacity of material Glass", "the image oak.png"."""
     phrases: list[str] = []
-    of_materials: dict[str, dict[str, None]] = {}
-    for name in (name for name in names if not name.startswith((CALLED, COMPONENTS))):
-        kind, number, what = match.groups() if (match := _ENTRY.fullmatch(name)) else ("", "", name)
+    words_of_materials: dict[str, dict[str, None]] = {}
+    for name in names:
+        if name.startswith((CALLED, COMPONENTS)):
+            continue
+        match = _ENTRY.fullmatch(name)
+        if match is None:
+            phrases.append(name)
+            continue
+        kind, number, entry = match.groups()
         thing_name = str(metadata.get(f"{kind}.{number}.name") or number)
         if kind == "material":
-            of_materials.setdefault(thing_name, {})[_IN_WORDS.get(what, what)] = None
-        elif kind == "image":
-            phrases += [f"the image {thing_name}"] if what == "data" or f"{kind}.{number}.data" not in metadata else []
-        else:
-            phrases.append(name)
-    alike: dict[str, list[str]] = {}
-    for thing_name, words in of_materials.items():
-        alike.setdefault(", ".join(words), []).append(thing_name)
-    for what, those in alike.items():
-        more = f" and {len(those) - _MOST_NAMED} more" if len(those) > _MOST_NAMED else ""
-        phrases.append(f"{what} of material{'s' * (len(those) > 1)} {', '.join(those[:_MOST_NAMED])}{more}")
+            words_of_materials.setdefault(thing_name, {})[_IN_WORDS.get(entry, entry)] = None
+        elif entry == "data" or f"image.{number}.data" not in metadata:
+            phrases.append(f"the image {thing_name}")
+    materials_by_words: dict[str, list[str]] = {}
+    for material, words in words_of_materials.items():
+        materials_by_words.setdefault(", ".join(words), []).append(material)
+    for words_text, materials in materials_by_words.items():
+        plural = "s" if len(materials) > 1 else ""
+        more = len(materials) - _MOST_NAMED
+        ending = f" and {more} more" if more > 0 else ""
+        phrases.append(f"{words_text} of material{plural} {', '.join(materials[:_MOST_NAMED])}{ending}")
     return phrases
 
 

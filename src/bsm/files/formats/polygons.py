@@ -63,95 +63,138 @@ class Column:
 def attributes_of(
     columns: Iterable[Column], vertices: int, polygons: int, places: Ints, owner: Ints
 ) -> tuple[tuple[Attribute, ...], dict[str, str], dict[str, str]]:
-    """The attributes that columns are, their names in the file as metadata, and why the others are none, by name."""
+    """Return columns as attributes, their names in the file as metadata, and why the others are none, by name."""
     rows = {"vertex": vertices, "face": polygons}
     attributes: dict[str, Attribute] = {}
     file_names: dict[str, str] = {}
     refused: dict[str, str] = {}
     for column in columns:
         distinct = _distinct(column, attributes)
+        count = len(column.values)
         try:
-            if rows.get(column.domain, len(column.values)) != len(column.values):
-                raise MeshError(f"there are {len(column.values)} of them for {rows[column.domain]}")
+            if rows.get(column.domain, count) != count:
+                raise MeshError(f"there are {count} of them for {rows[column.domain]}")
             attribute = distinct.of_triangles(distinct.name, places, owner)
         except MeshError as error:
             refused[PLURALS.get(column.name, column.name)] = str(error)
             continue
         attributes[distinct.name] = attribute
-        names = {CALLED: distinct.file_name, COMPONENTS: "\n".join(distinct.components)}
-        file_names |= {f"{kind}{attribute.name}": words for kind, words in names.items() if words}
+        if distinct.file_name:
+            file_names[f"{CALLED}{attribute.name}"] = distinct.file_name
+        component_names = "\n".join(distinct.components)
+        if component_names:
+            file_names[f"{COMPONENTS}{attribute.name}"] = component_names
     return tuple(attributes.values()), file_names, refused
 
 
-def _distinct(column: Column, names_taken: Collection[str]) -> Column:
-    """Return a column under a name that no other one has; what its file calls it is kept."""
-    name = unused_name(column.name, column.domain, names_taken)
-    return column if name == column.name else replace(column, name=name, file_name=column.file_name or column.name)
+def _distinct(column: Column, taken_names: Collection[str]) -> Column:
+    """Return a column under a name that no other one has; its name in the file is kept."""
+    name = unused_name(column.name, column.domain, taken_names)
+    if name == column.name:
+        return column
+    return replace(column, name=name, file_name=column.file_name or column.name)
 
 
 def joined_columns(parts: Sequence[Part]) -> tuple[list[Column], list[str]]:
     """Return the columns of parts, joined, those of fewer numbers filled up (by an opacity of 1, or zeros); notes."""
-    by_name: list[dict[str, Column]] = [{} for _ in parts]
-    for part, named_so in zip(parts, by_name, strict=True):
+    columns_by_name: list[dict[str, Column]] = []
+    for part in parts:
+        named_columns: dict[str, Column] = {}
         for column in part.columns:
-            distinct = _distinct(column, named_so)
-            named_so[distinct.name] = distinct
-    columns: list[Column] = []
+            distinct = _distinct(column, named_columns)
+            named_columns[distinct.name] = distinct
+        columns_by_name.append(named_columns)
+    joined: list[Column] = []
     notes: list[str] = []
-    for name in dict.fromkeys(name for named_so in by_name for name in named_so):
-        alike = _made_alike(parts, [named_so.get(name) for named_so in by_name], notes)
-        columns.append(_concatenated(parts, alike))
-        if lacking := alike.count(None):
-            filled = "white" if columns[-1].semantic == "color" else "zeros"
-            notes.append(f"parts without {PLURALS.get(name, name)} were given {filled}: {lacking}")
-    return columns, notes
+    for name in dict.fromkeys(chain.from_iterable(columns_by_name)):
+        columns = [named_columns.get(name) for named_columns in columns_by_name]
+        alike = _made_alike(parts, columns, notes)
+        column = _concatenated(parts, alike)
+        joined.append(column)
+        missing = alike.count(None)
+        if missing:
+            filling = "white" if column.semantic == "color" else "zeros"
+            notes.append(f"parts without {PLURALS.get(name, name)} were given {filling}: {missing}")
+    return joined, notes
 
 
 def _made_alike(parts: Sequence[Part], columns: list[Column | None], notes: list[str]) -> list[Column | None]:
     """Return the columns of one name in the meaning, the width and the domain that hold those of all parts."""
-    every = [column for column in columns if column is not None]
-    name, meanings, most = every[0].name, {c.semantic for c in every}, max(c.values.shape[1] for c in every)
-    if len(meanings) > 1:
-        columns = [c and replace(c, semantic="generic") for c in columns]
-    if any(c.values.shape[1] < most for c in every):
-        more = [((0, 0), (0, most - c.values.shape[1])) if c else () for c in columns]
-        columns = [
-            c and replace(c, values=np.pad(c.values, m, constant_values=_blank(c))) for c, m in zip(columns, more)
-        ]
-        if meanings - {"color", "texcoord"}:
-            notes.append(f"parts whose {name} has fewer than {most} numbers were given zeros after them")
+    present = [column for column in columns if column is not None]
+    name = present[0].name
+    meanings = {column.semantic for column in present}
+    width = max(column.values.shape[1] for column in present)
+    is_narrow = any(column.values.shape[1] < width for column in present)
+    if is_narrow and meanings - {"color", "texcoord"}:
+        notes.append(f"parts whose {name} has fewer than {width} numbers were given zeros after them")
     # Zeros would be black holes in every viewer.
-    if meanings == {"normal"} and None in columns:
+    needs_normals = meanings == {"normal"} and None in columns
+    if needs_normals:
         notes.append(f"parts without normals were given those of their faces: {columns.count(None)}")
-        columns = [c or Column(name, part.normals(), "face", "normal") for part, c in zip(parts, columns, strict=True)]
-    if len({column.domain for column in columns if column}) > 1:
-        columns = [column and part.at_corners(column) for part, column in zip(parts, columns, strict=True)]
-    return columns
+    domains = {column.domain for column in present}
+    if needs_normals:
+        domains.add("face")
+    alike: list[Column | None] = []
+    for part, column in zip(parts, columns, strict=True):
+        if column is None and needs_normals:
+            column = Column(name, part.normals(), "face", "normal")
+        if column is not None:
+            if len(meanings) > 1:
+                column = replace(column, semantic="generic")
+            column = _widened(column, width)
+            if len(domains) > 1:
+                column = part.at_corners(column)
+        alike.append(column)
+    return alike
+
+
+def _widened(column: Column, width: int) -> Column:
+    """Return a column whose values have a number of components, those after its own blank."""
+    missing = width - column.values.shape[1]
+    if not missing:
+        return column
+    values = np.pad(column.values, ((0, 0), (0, missing)), constant_values=_blank(column))
+    return replace(column, values=values)
 
 
 def _blank(column: Column) -> int:
-    """The opacity of a color, or zero."""
-    return {"uint8": 255, "uint16": 65535}.get(column.values.dtype.name, 1) if column.semantic == "color" else 0
+    """Return the opacity of an opaque color, or zero."""
+    if column.semantic != "color":
+        return 0
+    return {"uint8": 255, "uint16": 65535}.get(column.values.dtype.name, 1)
 
 
 def _concatenated(parts: Sequence[Part], columns: list[Column | None]) -> Column:
     """Return the columns of parts as one; parts that have none get zeros, or white."""
-    there = [column for column in columns if column is not None]
-    if there[0].semantic == "color" and len({c.values.dtype for c in there}) > 1:  # bytes here, floats there
-        columns = [c and replace(c, values=shares_of(c.values).astype(np.float32)) for c in columns]
+    present = [column for column in columns if column is not None]
+    if present[0].semantic == "color" and len({column.values.dtype for column in present}) > 1:
+        # Bytes here, floats there.
+        columns = [column and _with_shares(column) for column in columns]
     model = next(filter(None, columns))
-    tables, places, begin = [], [], 0
+    tables: list[Array] = []
+    places: list[Ints] = []
+    begin = 0
     for part, column in zip(parts, columns, strict=True):
         if column is None:
-            count = {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)}[model.domain]
-            size = min(count, 1) if model.domain == "corner" else count
-            values = np.full((size, model.values.shape[1]), _blank(model), model.values.dtype)
-            column = replace(model, values=values, indices=np.zeros(count, np.int64))
+            column = _blank_column(part, model)
+        indices = np.empty(0, np.int64) if column.indices is None else column.indices
         tables.append(column.values)
-        places.append(begin + (np.empty(0, np.int64) if column.indices is None else column.indices))
+        places.append(begin + indices)
         begin += len(column.values)
-    at_corners = np.concatenate(places) if model.domain == "corner" else None
-    return replace(model, values=np.concatenate(tables), indices=at_corners)
+    indices_of_corners = np.concatenate(places) if model.domain == "corner" else None
+    return replace(model, values=np.concatenate(tables), indices=indices_of_corners)
+
+
+def _with_shares(column: Column) -> Column:
+    return replace(column, values=shares_of(column.values).astype(np.float32))
+
+
+def _blank_column(part: Part, model: Column) -> Column:
+    """Return a column of blank values for a part: one value for all corners, or one for each vertex or face."""
+    count = {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)}[model.domain]
+    size = min(count, 1) if model.domain == "corner" else count
+    values = np.full((size, model.values.shape[1]), _blank(model), model.values.dtype)
+    return replace(model, values=values, indices=np.zeros(count, np.int64))
 
 
 def polygon_normals(positions: Doubles, sizes: Ints, corners: Ints) -> Doubles:
@@ -195,53 +238,67 @@ def grouped(what: str, names: Sequence[str], of_face: Ints) -> tuple[list[Column
     return columns, named(list(numbers), what) if any(numbers) else {}
 
 
-def unused_name(name: str, domain: str, names_taken: Collection[str]) -> str:
-    longer = name if name.startswith(domain) else f"{domain}_{name}"
-    candidates = chain((name, longer), (f"{name}{number}" for number in count(2)))
-    return next(candidate for candidate in candidates if candidate not in names_taken)
+def unused_name(name: str, domain: str, taken_names: Collection[str]) -> str:
+    if name not in taken_names:
+        return name
+    longer_name = name if name.startswith(domain) else f"{domain}_{name}"
+    if longer_name not in taken_names:
+        return longer_name
+    return next(candidate for candidate in map(f"{name}{{}}".format, count(2)) if candidate not in taken_names)
 
 
 def compact(values: Array) -> Array:
-    """Floats in single precision where that moves none by more than a millionth of their range."""
-    wide = values.dtype == np.float64 and values.size and np.isfinite(values).all() and single_suffices(values)
-    return values.astype(np.float32) if wide else values
+    """Return floats in single precision where that moves none by more than a millionth of their range."""
+    if values.dtype == np.float64 and values.size and np.isfinite(values).all() and single_suffices(values):
+        return values.astype(np.float32)
+    return values
 
 
 def color_column(values: Array, domain: Domain, *, written_whole: bool = False) -> Column:
-    """Colors as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known."""
-    has_color = np.isfinite(values).all(axis=1) if values.dtype.kind == "f" else np.ones(len(values), np.bool_)
+    """Return colors as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known."""
+    if values.dtype.kind != "f":
+        return Column("color", values, domain, "color" if values.dtype in (np.uint8, np.uint16) else "generic")
+    has_color = np.isfinite(values).all(axis=1)
     if has_color.any() and not has_color.all():  # some have no color, and the others tell what they are
         known_colors = color_column(values[has_color], domain, written_whole=written_whole)
-        is_bytes = known_colors.values.dtype == np.uint8 and (written_whole or values[has_color].max() > 1)
-        return replace(known_colors, values=compact(values / 255 if is_bytes else values))
-    if values.dtype.kind == "f" and values.size and np.isfinite(values).all():
-        exact = values if written_whole or values.max() > 1 else values * 255
-        bytes_ = np.rint(exact)
-        if bytes_.min() >= 0 and bytes_.max() <= 255 and np.abs(bytes_ - exact).max() <= 255e-6:
-            return Column("color", bytes_.astype(np.uint8), domain, "color")
-        in_range = values.min() >= 0 and values.max() <= 1
-        return Column("color", compact(values), domain, "color" if in_range else "generic")
-    return Column("color", values, domain, "color" if values.dtype in (np.uint8, np.uint16) else "generic")
+        if known_colors.values.dtype == np.uint8 and (written_whole or values[has_color].max() > 1):
+            values = values / 255
+        return replace(known_colors, values=compact(values))
+    if not values.size or not has_color.all():
+        return Column("color", values, domain)
+    exact = values if written_whole or values.max() > 1 else values * 255
+    levels = np.rint(exact)
+    if levels.min() >= 0 and levels.max() <= 255 and np.abs(levels - exact).max() <= 255e-6:
+        return Column("color", levels.astype(np.uint8), domain, "color")
+    in_range = values.min() >= 0 and values.max() <= 1
+    return Column("color", compact(values), domain, "color" if in_range else "generic")
 
 
 def named_column(
     name: str, values: Array, domain: Domain, meaning: Semantic | None = None, components: Sequence[str] = ()
 ) -> Column:
-    """Values as libraries name them, shape (k, c), and their components; None: their name gives their meaning."""
-    lower = name.lower()
-    if meaning is None:
-        kind = "color" if lower in _COLORS else "texcoord" if lower in _TEXCOORDS else name
-        meaning = meaning_of(kind, values.shape[1])
-    column = color_column(values, domain) if meaning == "color" else Column(name, values, domain, meaning)
-    return Column(name, column.values, domain, column.semantic, components=tuple(components))
+    """Return values as libraries name them, shape (k, c), and their components; None: their name tells the meaning."""
+    lower_name = name.lower()
+    if meaning is None and lower_name in _COLORS:
+        meaning = meaning_of("color", values.shape[1])
+    elif meaning is None and lower_name in _TEXCOORDS:
+        meaning = meaning_of("texcoord", values.shape[1])
+    elif meaning is None:
+        meaning = meaning_of(name, values.shape[1])
+    if meaning == "color":
+        color = color_column(values, domain)
+        values, meaning = color.values, color.semantic
+    return Column(name, values, domain, meaning, components=tuple(components))
 
 
 def meaning_of(name: str, components: int = 3) -> Semantic:
     """Return the meaning of values by their name, if as many components can mean that."""
     widths: dict[Semantic, tuple[int, ...]] = {"color": (3, 4), "normal": (3,), "texcoord": (2, 3)}
     match = re.match(r"(?:(?:vertex|corner|face)_)?(color|normal|texcoord)s?(?![a-z])", name.lower())
-    fits = (meaning for meaning in widths if match and match[1] == meaning and components in widths[meaning])
-    return next(fits, "generic")
+    for meaning, counts in widths.items():
+        if match and match[1] == meaning and components in counts:
+            return meaning
+    return "generic"
 
 
 CUT = "polygons were cut into triangles"
@@ -303,43 +360,55 @@ class Polygons:
     metadata: Metadata = field(default_factory=dict)
 
     def checked(self, limits: Limits, received: int = 1 << 62, cut: Cut | None = None) -> MeshFile:
+        """Return the mesh of triangles, after checks of counts, indices and coordinates."""
         positions, sizes, corners = self.positions, self.sizes, self.corners
         triangles = int(np.maximum(sizes - 2, 0).sum())
         require_counts(limits, vertices=len(positions), faces=triangles)
-        memory = PER_TRIANGLE if (sizes == 3).all() else PER_CUT
+        per_triangle = PER_TRIANGLE if (sizes == 3).all() else PER_CUT
         # Before any triangle is made.
-        limits.check_memory(memory * triangles + PER_CORNER * len(corners), len(positions), received)
-        if not (sizes > 0).any():
-            reason = f"; it has {', '.join(self.dropped)}" if self.dropped else "; point clouds are not supported"
-            raise NoFacesError(f"the file has no faces that can be read{reason}")
-        outside = (corners < 0) | (corners >= len(positions))
-        if outside.any():
-            index = int(corners[np.argmax(outside)])
-            raise MeshError(f"a face refers to vertex {index}, outside 0..{len(positions) - 1}")
-        if not np.isfinite(positions).all():
-            row = int(np.argmin(np.isfinite(positions).all(axis=1)))
-            raise MeshError(f"vertex {row} has a coordinate that is not finite; remove or repair it")
+        limits.check_memory(per_triangle * triangles + PER_CORNER * len(corners), len(positions), received)
+        self._require_sound()
         notes = list(self.notes)
+        left_out = list(self.dropped)
         thin = int((sizes < 3).sum())
-        left_out = [*self.dropped, *([f"faces with fewer than three corners ({thin})"] if thin else [])]
+        if thin:
+            left_out.append(f"faces with fewer than three corners ({thin})")
         if (sizes > 3).any():
             notes.append(f"{CUT}: {int((sizes > 3).sum())}")
-        places, owner, folded = (cut or triangulate)(positions, sizes, corners)
+        cut_polygons = cut or triangulate
+        places, owner, folded = cut_polygons(positions, sizes, corners)
         if folded:
             notes.append(f"{CROSSING}: {folded}")
-        without = list[str]()
-        narrow = (one for column in self.columns for one in _narrow(column))
-        finite = [one for column in narrow for one in _finite(column, without)]
-        attributes, file_names, refused = attributes_of(finite, len(positions), len(sizes), places, owner)
-        wide = {column.name: [*_component_names(column)] for column in self.columns if _is_wide(column)}
-        file_names |= {f"{COMPONENTS}{name}": "\n".join(names) for name, names in wide.items()}
-        metadata, too_large = fitting({**self.metadata, **file_names}, limits.metadata_bytes)
-        left_out += without
-        dropped = (*left_out, *refused, *too_large)
-        notes += [f"left out: {', '.join(left_out)}"] if left_out else []
-        notes += [f"left out: {name}, because {why}" for name, why in (refused | too_large).items()]
-        faces = corners[places].astype(np.int32)
-        return MeshFile(TriangleMesh(positions, sealed(faces), attributes, metadata), tuple(notes), dropped)
+        finite_columns: list[Column] = []
+        component_names: dict[str, str] = {}
+        for column in self.columns:
+            if _is_wide(column):
+                component_names[f"{COMPONENTS}{column.name}"] = "\n".join(_component_names(column))
+            for narrow_column in _narrow(column):
+                finite_columns += _finite(narrow_column, left_out)
+        attributes, file_names, refused = attributes_of(finite_columns, len(positions), len(sizes), places, owner)
+        metadata = {**self.metadata, **file_names, **component_names}
+        metadata, too_large = fitting(metadata, limits.metadata_bytes)
+        reasons = refused | too_large
+        if left_out:
+            notes.append(f"left out: {', '.join(left_out)}")
+        notes += [f"left out: {name}, because {reason}" for name, reason in reasons.items()]
+        mesh = TriangleMesh(positions, sealed(corners[places].astype(np.int32)), attributes, metadata)
+        return MeshFile(mesh, tuple(notes), (*left_out, *refused, *too_large))
+
+    def _require_sound(self) -> None:
+        """Refuse polygons without faces, or with vertices that are not there or not finite."""
+        if not (self.sizes > 0).any():
+            reason = f"it has {', '.join(self.dropped)}" if self.dropped else "point clouds are not supported"
+            raise NoFacesError(f"the file has no faces that can be read; {reason}")
+        outside = (self.corners < 0) | (self.corners >= len(self.positions))
+        if outside.any():
+            index = int(self.corners[np.argmax(outside)])
+            raise MeshError(f"a face refers to vertex {index}, outside 0..{len(self.positions) - 1}")
+        finite = np.isfinite(self.positions)
+        if not finite.all():
+            row = int(np.argmin(finite.all(axis=1)))
+            raise MeshError(f"vertex {row} has a coordinate that is not finite; remove or repair it")
 
 
 def turned_corners(sizes: Ints, turned: Array) -> Ints:
@@ -389,25 +458,37 @@ class Part:
         """Return the part without some of its polygons."""
         is_kept = np.ones(len(self.sizes), np.bool_)
         is_kept[faces] = False
-        of_corners = np.repeat(is_kept, self.sizes)
-        columns = [
-            c if c.domain == "vertex" else replace(c, values=c.values[is_kept]) if c.domain == "face"
-            else replace(c, indices=(np.arange(len(of_corners)) if c.indices is None else c.indices)[of_corners])
-            for c in self.columns
-        ]  # fmt: skip
-        sizes, corners, materials = self.sizes[is_kept], self.corners[of_corners], self.materials[is_kept]
-        return replace(self, sizes=sizes, corners=corners, materials=materials, columns=columns)
+        corner_is_kept = np.repeat(is_kept, self.sizes)
+        columns: list[Column] = []
+        for column in self.columns:
+            if column.domain == "face":
+                column = replace(column, values=column.values[is_kept])
+            elif column.domain == "corner":
+                indices = np.arange(len(corner_is_kept)) if column.indices is None else column.indices
+                column = replace(column, indices=indices[corner_is_kept])
+            columns.append(column)
+        return replace(
+            self,
+            sizes=self.sizes[is_kept],
+            corners=self.corners[corner_is_kept],
+            materials=self.materials[is_kept],
+            columns=columns,
+        )
 
     def placed(self, matrix: Doubles) -> Part:
         """Return the part where a matrix moves it; mirrors turn its polygons around."""
-        linear, order = matrix[:3, :3], np.arange(len(self.corners))
+        linear = matrix[:3, :3]
+        order = np.arange(len(self.corners))
         if np.linalg.det(linear) < 0:
             order = turned_corners(self.sizes, np.ones(len(self.sizes), np.bool_))
-        columns = [c if c.indices is None else replace(c, indices=c.indices[order]) for c in self.columns]
-        for place, column in enumerate(columns):
+        columns: list[Column] = []
+        for column in self.columns:
+            if column.indices is not None:
+                column = replace(column, indices=column.indices[order])
             if column.semantic == "normal":
-                values = turned_normals(column.values.astype(np.float64), linear)
-                columns[place] = replace(column, values=compact(values))
+                normals = turned_normals(column.values.astype(np.float64), linear)
+                column = replace(column, values=compact(normals))
+            columns.append(column)
         with np.errstate(invalid="ignore"):  # a later check refuses infinite values
             positions = self.positions @ linear.T + matrix[:3, 3]
         return replace(self, positions=positions, corners=self.corners[order], columns=columns)
@@ -415,10 +496,18 @@ class Part:
 
 def without_hidden(part: Part, losses: dict[str, None]) -> Part:
     """Return a part without the cells that VTK hides, and without their marks."""
-    of_faces = (column.values[:, 0] for column in part.columns if (column.name, column.domain) == (GHOSTS, "face"))
-    marks = next(of_faces, np.zeros(0, np.uint8))
-    part = replace(part, columns=[column for column in part.columns if column.name != GHOSTS])
-    if len(marks) != len(part.sizes) or not (hidden := np.flatnonzero(marks.astype(np.int64) & _HIDDEN)).size:
+    marks = np.zeros(0, np.uint8)
+    columns: list[Column] = []
+    for column in part.columns:
+        if column.name != GHOSTS:
+            columns.append(column)
+        elif column.domain == "face" and not len(marks):
+            marks = column.values[:, 0]
+    part = replace(part, columns=columns)
+    if len(marks) != len(part.sizes):
+        return part
+    hidden = np.flatnonzero(marks.astype(np.int64) & _HIDDEN)
+    if not hidden.size:
         return part
     losses[f"hidden cells ({len(hidden)})"] = None
     return part.without(hidden)
@@ -437,27 +526,34 @@ def joined_parts(
     if counts is None:  # the parts are there already
         parts_given = list(parts_given)
         counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for part in parts_given]
-    vertices, triangles = (sum(count[place] for count in counts) for place in range(2))
+    vertices = sum(count for count, _ in counts)
+    triangles = sum(count for _, count in counts)
     require_counts(limits, vertices=vertices, faces=triangles)
     memory = PER_JOINED * triangles + PER_PART * len(counts)
     limits.check_memory(memory, vertices, received)
     parts: list[Part] = []
-    kinds: set[tuple[str, Domain]] = set()
+    column_kinds: set[tuple[str, Domain]] = set()
     for part in parts_given:
         if len(part.corners) and not 0 <= part.corners.min() <= part.corners.max() < len(part.positions):
             raise MeshError(f"a face of {part.name or 'a part'} refers to a vertex that it does not have")
         parts.append(part)
-        kinds |= {(column.name, column.domain) for column in part.columns}
-        limits.check_memory(memory + PER_JOINED * len(kinds) * max(triangles, vertices // 3), vertices, received)
-    begin = np.cumsum([0, *(len(part.positions) for part in parts)])
-    nothing = np.empty(0, np.int64)
+        column_kinds |= {(column.name, column.domain) for column in part.columns}
+        column_memory = PER_JOINED * len(column_kinds) * max(triangles, vertices // 3)
+        limits.check_memory(memory + column_memory, vertices, received)
     columns, notes = joined_columns(parts)
-    corners = np.concatenate([nothing, *(part.corners + first for part, first in zip(parts, begin))])
-    sizes = np.concatenate([nothing, *(part.sizes for part in parts)])
-    materials = np.concatenate([nothing, *(part.materials for part in parts)])
+    nothing = np.empty(0, np.int64)
+    positions, sizes, corners, materials = [np.empty((0, 3))], [nothing], [nothing], [nothing]
+    first = 0
+    for part in parts:
+        positions.append(part.positions)
+        sizes.append(part.sizes)
+        corners.append(part.corners + first)
+        materials.append(part.materials)
+        first += len(part.positions)
     metadata: dict[str, str | int | float | bytes] = {}
-    if len(np.unique(materials)) > 1:
-        columns.append(Column("material", materials.astype(np.int32)[:, None], "face"))
+    material_numbers = np.concatenate(materials)
+    if len(np.unique(material_numbers)) > 1:
+        columns.append(Column("material", material_numbers.astype(np.int32)[:, None], "face"))
     if len(parts) > 1:
         owner = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.sizes) for part in parts])
         notes = [f"{len(parts)} parts were joined to one mesh", *notes]
@@ -465,33 +561,37 @@ def joined_parts(
         metadata |= named([part.name for part in parts], "part")
     elif parts and parts[0].name:
         metadata["name"] = parts[0].name
-    positions = np.concatenate([np.empty((0, 3)), *(part.positions for part in parts)])
-    return Polygons(positions, sizes, corners, tuple(notes), (), tuple(columns), metadata)
+    return Polygons(
+        np.concatenate(positions),
+        np.concatenate(sizes),
+        np.concatenate(corners),
+        tuple(notes),
+        (),
+        tuple(columns),
+        metadata,
+    )
 
 
 def joined_files(files: Sequence[MeshFile], names: Sequence[str], limits: Limits) -> MeshFile:
     """Return the meshes of files as the parts of one."""
     if len(files) == 1:
         return files[0]
-    parts = []
-    for name, mesh in zip(names, (file.mesh for file in files), strict=True):
-        columns = [
-            Column(
-                a.name,
-                a.values,
-                a.domain,
-                a.semantic,
-                None if a.indices is None else a.indices.ravel().astype(np.int64),
-            )
-            for a in mesh.attributes
-        ]
-        corners = mesh.faces.ravel().astype(np.int64)
-        polygons = Polygons(mesh.positions, np.full(len(mesh.faces), 3), corners, (), (), tuple(columns))
-        parts.append(part_of(polygons, Path(name).stem))
+    parts = [part_of(_polygons_of(file.mesh), Path(name).stem) for file, name in zip(files, names, strict=True)]
     joined = joined_parts(parts, None, limits, 1 << 62)
-    notes = dict.fromkeys(note for file in files for note in file.notes)
+    notes = dict.fromkeys(chain.from_iterable(file.notes for file in files))
     metadata = {**files[0].mesh.metadata, **joined.metadata}
     return replace(joined, notes=(*notes, *joined.notes), metadata=metadata).checked(limits)
+
+
+def _polygons_of(mesh: TriangleMesh) -> Polygons:
+    columns: list[Column] = []
+    for attribute in mesh.attributes:
+        column = Column(attribute.name, attribute.values, attribute.domain, attribute.semantic)
+        if attribute.indices is not None:
+            column = replace(column, indices=attribute.indices.ravel().astype(np.int64))
+        columns.append(column)
+    sizes = np.full(len(mesh.faces), 3)
+    return Polygons(mesh.positions, sizes, mesh.faces.ravel().astype(np.int64), (), (), tuple(columns))
 
 
 _MOST_NARROW = 32
@@ -503,11 +603,13 @@ def _is_wide(column: Column) -> bool:
 
 
 def _component_names(column: Column) -> Sequence[str]:
-    """The names of the components of a column in its file, or those by axes if it is a tensor, or numbers."""
+    """Return the names of the components of a column in its file, or those by axes if it is a tensor, or numbers."""
     width = column.values.shape[1]
     if len({*column.components}) == width:
         return column.components
-    return _AXES[width].split() if width in _AXES else [str(place) for place in range(width)]
+    if width in _AXES:
+        return _AXES[width].split()
+    return list(map(str, range(width)))
 
 
 def _narrow(column: Column) -> list[Column]:
@@ -520,17 +622,20 @@ def _narrow(column: Column) -> list[Column]:
 
 
 def _finite(column: Column, dropped: list[str]) -> list[Column]:
-    """A column with the median of the others for values that are not finite, and one that marks these."""
-    lost = ~np.isfinite(column.values) if column.values.dtype.kind == "f" else np.zeros(0, np.bool_)
+    """Return a column with the median of the others for values that are not finite, and one that marks these."""
+    if column.values.dtype.kind != "f":
+        return [column]
+    lost = ~np.isfinite(column.values)
     if not lost.any() or lost.all():
         return [column]
     name = PLURALS.get(column.name, column.name)
     dropped.append(f"values of {name} that are not numbers ({int(lost.sum())}); {column.name}{NONE} marks them")
-    usual = column.values.dtype.type(np.median(column.values[~lost]))
-    rows = np.asarray(lost.any(axis=1))
-    marks = replace(column, name=f"{column.name}{NONE}", values=rows.astype(np.uint8)[:, None])
-    marks = replace(marks, semantic="generic", file_name="", components=())
-    return [replace(column, values=np.where(lost, usual, column.values)), marks]
+    median = column.values.dtype.type(np.median(column.values[~lost]))
+    marks = np.asarray(lost.any(axis=1)).astype(np.uint8)[:, None]
+    mark_column = replace(
+        column, name=f"{column.name}{NONE}", values=marks, semantic="generic", file_name="", components=()
+    )
+    return [replace(column, values=np.where(lost, median, column.values)), mark_column]
 
 
 def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, Ints, int]:

@@ -237,7 +237,7 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     # lib3mf would refuse the whole mesh with a number in place of a reason.
     if repeated := int((mesh.faces == np.roll(mesh.faces, 1, axis=1)).any(axis=1).sum()):
         raise MeshError(f"{counted(faces=repeated)} with one vertex twice, which 3MF does not have; {_ELSE}")
-    metadata_held = {"up", "unit"} & ({*place.held} | ({"unit"} if size else set()))
+    metadata_held = {"up", "unit"} & ({*place.expressed} | ({"unit"} if size else set()))
     numbers, materials = formats.face_numbers(mesh, "material"), formats.materials_in(mesh.metadata)
     which = np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
     sorting, objects = _objects(mesh)
