@@ -2,29 +2,35 @@
 
     python examples/service.py --port 8000
     curl --data-binary @bunny.ply http://127.0.0.1:8000/encode?preset=fine -o bunny.bsm
+    curl -F file=@bunny.ply http://127.0.0.1:8000/encode -o bunny.bsm
     curl --data-binary @bunny.bsm http://127.0.0.1:8000/decode -o bunny.ply
+    curl http://127.0.0.1:8000/health
 
 Reading and decoding keep to `Limits.service()`, in processes: one that takes too long is killed, one that dies is
-replaced. Uploads, their time, connections and what waits are bounded. Answers name the class of an error.
+replaced. Uploads, their time, connections and what waits are bounded. Answers name the class of an error. Each
+warning, such as contents that no stream holds, is a header `X-BSM-Warning`, and a line of the logger `bsm`.
 The standard library alone serves; put a proper server in front of it on the open web.
 """
 
 from __future__ import annotations
 
 import argparse
+import logging
 import multiprocessing
 import re
 import signal
 import socket
 import sys
 import tempfile
+import warnings
+from collections.abc import Iterator
 from contextlib import suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from multiprocessing.connection import Connection
 from pathlib import Path
 from queue import Empty, Queue
 from threading import BoundedSemaphore, Timer
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import parse_qs, quote, urlsplit
 
 import bsm
 
@@ -34,7 +40,11 @@ MOST_CONNECTIONS = 16
 PRESETS = tuple(name for name, preset in bsm.PRESETS.items() if preset.contract is not None)
 """Those with a promise: others need a target, or send whatever the mesh takes."""
 SPAWN = multiprocessing.get_context("spawn")
-Answer = tuple[int, "str | bytes"]
+MOST_WARNINGS = 20
+"""Headers of an answer; a mesh can lose more."""
+LOGGER = logging.getLogger("bsm.service")
+Answer = tuple[int, "str | bytes", tuple[str, ...]]
+"""Status, body and warnings."""
 
 
 def encode(data: bytes, preset: str) -> bytes:
@@ -56,15 +66,47 @@ WORK = {"/encode": encode, "/decode": decode}
 
 
 def answer_to(path: str, data: bytes, preset: str) -> Answer:
-    """Status and body: a sentence that begins with the class of the error where there is one."""
+    """Do the work; the body of an error is a sentence that begins with its class."""
     try:
-        return 200, WORK[path](data, preset)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", bsm.BsmWarning)
+            body = WORK[path](data, preset)
+        notes = [str(warning.message) for warning in caught if issubclass(warning.category, bsm.BsmWarning)]
+        return 200, body, tuple(map(without_names, notes[:MOST_WARNINGS]))
     except bsm.BsmError as error:
-        # The answer is about the upload; it must not show names of files here.
-        sentence = re.sub(r"(?<![^\s'\"(])/\S+", "(a file)", str(error))
-        return 413 if isinstance(error, bsm.LimitError) else 422, f"{type(error).__name__}: {sentence}"
+        status = 413 if isinstance(error, bsm.LimitError) else 422
+        return status, f"{type(error).__name__}: {without_names(str(error))}", ()
     except Exception as error:
-        return 413 if isinstance(error, MemoryError) else 500, type(error).__name__
+        return 413 if isinstance(error, MemoryError) else 500, type(error).__name__, ()
+
+
+def without_names(sentence: str) -> str:
+    """Return a sentence about an upload without the names of files on this machine."""
+    return re.sub(r"(?<![^\s'\"(])/\S+", "(a file)", sentence)
+
+
+def file_in_form(content_type: str, body: bytes) -> bytes:
+    """Return the first file of a form, as `curl -F file=@bunny.ply` sends it, or the body if it is no form."""
+    boundary = re.fullmatch(r'multipart/form-data\s*;.*?boundary="?([\w\'()+,./:=? -]{1,70}?)"?\s*', content_type)
+    if boundary is None:
+        return body
+    line = b"--" + boundary[1].encode()
+    for begin in find_all(body, line):
+        head_end = body.find(b"\r\n\r\n", begin)
+        end = body.find(b"\r\n" + line, head_end)
+        if head_end < 0 or end < 0:
+            break
+        if b"filename" in body[begin:head_end].lower():
+            return body[head_end + 4 : end]
+    raise ValueError("the form has no file: curl -F file=@bunny.ply")
+
+
+def find_all(body: bytes, line: bytes) -> Iterator[int]:
+    """Yield the places of the lines that separate the parts of a form."""
+    place = body.find(line)
+    while place >= 0:
+        yield place
+        place = body.find(b"\r\n" + line, place + len(line))
 
 
 def work_for(pipe: Connection) -> None:
@@ -117,8 +159,8 @@ class Worker:
                 self.replace()
             else:
                 self.replace()
-                return 503, f"TimeoutError: this takes more than {seconds:g} s"
-        return 503, "MemoryError: the processes that worked on this have died"
+                return 503, f"TimeoutError: this takes more than {seconds:g} s", ()
+        return 503, "MemoryError: the processes that worked on this have died", ()
 
 
 class Server(ThreadingHTTPServer):
@@ -131,7 +173,8 @@ class Server(ThreadingHTTPServer):
         self.connections = BoundedSemaphore(MOST_CONNECTIONS)
         self.busy = BoundedSemaphore(jobs)
         self.workers: Queue[Worker] = Queue()
-        for worker in [Worker() for _ in range(jobs + 1)]:  # one is ready while another one begins
+        self.all_workers = [Worker() for _ in range(jobs + 1)]  # one is ready while another one begins
+        for worker in self.all_workers:
             worker.wait()
             self.workers.put(worker)
         super().__init__(address, Handler)
@@ -156,7 +199,7 @@ class Server(ThreadingHTTPServer):
     def work(self, request: tuple[str, bytes, str]) -> Answer:
         """Let a worker do it, as soon as one is free."""
         if not self.busy.acquire(timeout=self.seconds):
-            return 503, f"all workers have been busy for {self.seconds:g} s"
+            return 503, f"all workers have been busy for {self.seconds:g} s", ()
         try:
             worker = self.workers.get(timeout=self.seconds)
             try:
@@ -164,13 +207,13 @@ class Server(ThreadingHTTPServer):
             finally:
                 self.workers.put(worker)
         except Empty:
-            return 503, "no worker is ready"
+            return 503, "no worker is ready", ()
         finally:
             self.busy.release()
 
 
 class Handler(BaseHTTPRequestHandler):
-    """Answers POST /encode?preset=NAME and POST /decode."""
+    """Answers POST /encode?preset=NAME, POST /decode and GET /health."""
 
     server: Server
 
@@ -198,6 +241,17 @@ class Handler(BaseHTTPRequestHandler):
         with suppress(OSError):
             super().finish()
 
+    def log_message(self, format: str, *words: object) -> None:
+        """Log a request; the base class would write to standard error."""
+        LOGGER.info("%s " + format, self.address_string(), *words)
+
+    def do_GET(self) -> None:
+        """Say whether uploads can be taken."""
+        if urlsplit(self.path).path != "/health":
+            return self.answer(404, "GET /health")
+        alive = any(worker.process.is_alive() for worker in self.server.all_workers)
+        return self.answer(200 if alive else 503, "ok" if alive else "no worker is alive")
+
     def do_POST(self) -> None:
         """Take one upload."""
         try:
@@ -218,15 +272,23 @@ class Handler(BaseHTTPRequestHandler):
         self.patience.cancel()
         if len(data) < int(lengths[0]):
             return self.answer(408, f"the upload did not come within {self.server.seconds:g} s")
+        try:
+            data = file_in_form(self.headers.get("Content-Type", ""), data)
+        except ValueError as error:
+            return self.answer(400, str(error))
         return self.answer(*self.server.work((url.path, data, preset)))
 
-    def answer(self, status: int, body: str | bytes) -> None:
-        """Send a stream or mesh, or a sentence."""
+    def answer(self, status: int, body: str | bytes, notes: tuple[str, ...] = ()) -> None:
+        """Send a stream or mesh, or a sentence, and warnings."""
         content = body if isinstance(body, bytes) else f"{body}\n".encode()
         self.send_response(status)
         self.send_header("Content-Type", "application/octet-stream" if isinstance(body, bytes) else "text/plain")
         self.send_header("X-Content-Type-Options", "nosniff")
         self.send_header("Content-Length", str(len(content)))
+        for note in notes:
+            LOGGER.warning("%s: %s", self.path, note)
+            # A line break would begin another header; other letters than those of ASCII have no agreed form in one.
+            self.send_header("X-BSM-Warning", quote(note, safe=" !#$&'()*+,/:;=?@[]<>{}|^`\"~"))
         self.end_headers()
         self.wfile.write(content)
 
@@ -238,6 +300,7 @@ def main() -> None:
     parser.add_argument("--jobs", type=int, default=2, help="requests that are worked on at a time")
     parser.add_argument("--seconds", type=float, default=60.0, help="for an upload to come, and for the work on it")
     args = parser.parse_args()
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
     signal.signal(signal.SIGTERM, lambda *_: sys.exit())
     server = Server((args.host, args.port), args.jobs, args.seconds)
     print(f"http://{args.host}:{server.server_address[1]}", flush=True)

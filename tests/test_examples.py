@@ -3,6 +3,7 @@
 import os
 import re
 import select
+import shutil
 import signal
 import socket
 import subprocess
@@ -168,6 +169,37 @@ def test_a_service_that_takes_uploads(service):
     assert post(f"{service}/other", b"")[0] == 404
     many = off(bsm.TriangleMesh(np.zeros((3, 3)), [[0, 1, 2]])).replace(b"3 1 0", b"99999999999 1 0")
     assert post(f"{service}/encode", many)[0] in (413, 422)
+
+
+def test_a_service_takes_forms_says_its_health_and_sends_warnings(service):
+    mesh = knot(300)
+    loose = bsm.TriangleMesh(np.vstack([mesh.positions, [9.0, 9.0, 9.0]]), mesh.faces)
+    # The bytes of a binary file may be line breaks, and look like the end of a part.
+    file = written_mesh(loose, "ply").data
+    parts = (
+        b'--x1\r\nContent-Disposition: form-data; name="preset"\r\n\r\nsmall\r\n'
+        b'--x1\r\nContent-Disposition: form-data; name="file"; filename="a.ply"\r\n'
+        b"Content-Type: application/octet-stream\r\n\r\n" + file + b"\r\n--x1--\r\n"
+    )
+    kind = {"Content-Type": "multipart/form-data; boundary=x1"}
+    with urllib.request.urlopen(urllib.request.Request(f"{service}/encode", parts, kind), timeout=120) as answer:
+        stream, notes = answer.read(), answer.headers.get_all("X-BSM-Warning")
+    assert bsm.compare(mesh, stream).max_error_relative < 0.05
+    assert notes == ["left out 1 vertex that no face uses"]
+    for wrong in (parts.replace(b"filename", b"nofile"), parts[:-9], b"--x1", b""):
+        request = urllib.request.Request(f"{service}/encode", wrong, kind)
+        with pytest.raises(urllib.error.HTTPError, match="400"):
+            urllib.request.urlopen(request, timeout=120)
+    with urllib.request.urlopen(f"{service}/health", timeout=60) as answer:
+        assert (answer.status, answer.read()) == (200, b"ok\n")
+
+
+@pytest.mark.skipif(shutil.which("curl") is None, reason="no curl")
+def test_a_service_takes_what_curl_sends_as_a_form(service, tmp_path):
+    bsm.save(knot(300), tmp_path / "a.obj")
+    command = ["curl", "-sf", "-F", f"file=@{tmp_path}/a.obj", f"{service}/encode", "-o", tmp_path / "a.bsm"]
+    subprocess.run(command, check=True, timeout=120)
+    assert len(bsm.decode(tmp_path / "a.bsm").faces) == len(knot(300).faces)
 
 
 @pytest.mark.parametrize(

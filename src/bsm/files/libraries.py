@@ -32,7 +32,9 @@ _WITH_NOTES = ("bsm.cli", "bsm.commands.", "bsm.jobs.", "bsm.viewer.contents")
 
 # The number of frames between here and the user's code differs from door to door, so it is counted in the stack.
 def warn(notes: Iterable[str]) -> None:
-    """Warn of changes and losses, in the line of the user's code that called `bsm`; commands print notes instead."""
+    """Warn of changes and losses, in the line of the user's code that called `bsm`; commands print notes instead.
+
+    The logger `bsm` gets each note, too."""
     modules = [str(frame.f_globals.get("__name__", "")) for frame, _ in walk_stack(sys._getframe(1))]
     if any(name.startswith(_WITH_NOTES) for name in modules):
         return
@@ -40,7 +42,20 @@ def warn(notes: Iterable[str]) -> None:
     ours = {"bsm", *sys.stdlib_module_names} - {"__main__"}
     level = next((level for level, name in enumerate(modules, 2) if name.partition(".")[0] not in ours), 2)
     for note in notes:
+        _log(note)
         warnings.warn(note, BsmWarning, stacklevel=level)
+
+
+def _log(note: str) -> None:
+    """Send a note to the logger `bsm`, if the program logs at all."""
+    # Not imported: loading it takes a program that does not log several milliseconds.
+    logging = sys.modules.get("logging")
+    if logging is None:
+        return
+    logger = logging.getLogger("bsm")
+    # Without a handler, Python would print the note a second time.
+    if logger.hasHandlers():
+        logger.warning("%s", note)
 
 
 def as_mesh(mesh: Any) -> TriangleMesh:
