@@ -175,7 +175,7 @@ def test_a_service_takes_forms_says_its_health_and_sends_warnings(service):
     mesh = knot(300)
     loose = bsm.TriangleMesh(np.vstack([mesh.positions, [9.0, 9.0, 9.0]]), mesh.faces)
     # The bytes of a binary file may be line breaks, and look like the end of a part.
-    file = written_mesh(loose, "ply").data
+    file = file_of(loose, "ply")
     parts = (
         b'--x1\r\nContent-Disposition: form-data; name="preset"\r\n\r\nsmall\r\n'
         b'--x1\r\nContent-Disposition: form-data; name="file"; filename="a.ply"\r\n'
