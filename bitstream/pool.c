@@ -11,7 +11,7 @@
 #ifdef BSMDEC_POOL
 #include <sys/mman.h>
 
-enum { PAGE = 1 << 21, SMALL = 1 << 12, UNIT = 1 << 15, UNITS = 1 << 11, REGION = UNITS * UNIT };
+enum { PAGE = 1 << 21, LEAST_PAGE = 1 << 12, UNIT = 1 << 15, UNITS = 1 << 11, REGION = UNITS * UNIT };
 enum { ENOUGH = 1 << 22, LARGE = 1 << 22 };
 
 /* The beginning of its own memory, which is much more than most decoders take: pages never written take none. */
@@ -41,7 +41,7 @@ static void *take_units(Region *region, size_t units) {
     return NULL;
 }
 
-static size_t whole_pages(size_t size) { return (size + SMALL - 1) / SMALL * SMALL; }
+static size_t whole_pages(size_t size) { return (size + LEAST_PAGE - 1) / LEAST_PAGE * LEAST_PAGE; }
 
 /* Pages from the system, huge ones and small ones for the rest: malloc would keep the parts between aligned ones. */
 static void *take_pages(size_t size) {
