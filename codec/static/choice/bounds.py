@@ -33,7 +33,7 @@ FINEST_PART = 0.1
 pixel in a picture of 512. Of a gap between parts, as much is left."""
 FLAT = 1e-9  # area of a face that has none, over the square of its longest side
 NO_FACE_LOST, FEW_LOST = 0.5, 200  # the widest look with which no face loses its area; one in so many with wider ones
-SLIVERS = 1e-3  # of the faces: so many edges may fold on a grid
+SLIVERS = 2e-3  # of the faces: so many edges may fold on a grid
 MOST_PARTS = 64  # of more parts than these, none is asked how near it is to others
 
 

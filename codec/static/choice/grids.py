@@ -24,8 +24,8 @@ from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_going, encode_grid, grid_of, sampled_size
 
 MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
-SAVED = 0.5  # bytes with images, over those without, below which images explain most
-HALVES = 1, 2, 7  # how often the usual step is halved then
+HALVES = 0, 1, 2, 7  # how often the usual step is halved: where images are near to places, finer steps may be cheaper
+UNSURE = 1.0  # standard deviation of what a wider step saves with images, over the guess
 STAYING = 1.05  # times the bytes with images to which vertices go: those where they stay
 
 
@@ -236,7 +236,7 @@ class Frame:
         rounded_positions = self.prepared.units.into(grid.positions(places))
         squares = [squares_of(p - self.prepared.positions).sum() for p in (moved.positions, rounded_positions)]
         far = squares[0] > math.exp(2.0 * DOUBT) * squares[1]
-        return bool(far and moved.draft.size > SAVED * self.light_size)
+        return bool(far and moved.draft.size > 0.5 * self.light_size)
 
 
 class Gridded:
@@ -296,12 +296,10 @@ class Gridded:
         coded = self.frame.with_images
         saving = min(varying, coded.draft.size - fixed) / 2.0
         if self._going:
-            # Where images explain most, finer steps may take fewer bytes: images are nearer to places.
-            halves = HALVES if coded.draft.size < SAVED * size else ()
-            return Estimate(coded.draft.size, SLACK, saving, coded, self._also(halves))
-        return Estimate(STAYING * coded.draft.size, 2.0 * SLACK, saving)
+            return Estimate(coded.draft.size, SLACK, saving, coded, self._also(HALVES), UNSURE)
+        return Estimate(STAYING * coded.draft.size, 2.0 * SLACK, saving, slope_doubt=UNSURE)
 
-    def _also(self, halves: tuple[int, ...] = ()) -> tuple[float, ...]:
+    def _also(self, halves: tuple[int, ...] = (0,)) -> tuple[float, ...]:
         """The step with which a search for a look of 1 begins, and it halved so often, as far as they are finer.
 
         Where parts or spacings repeat, bytes hardly depend on steps, but on luck. The steps are the same for all looks.
@@ -309,7 +307,7 @@ class Gridded:
         if not self._images and not self.frame.spacing:
             return ()
         usual = self._bounds.usual_step
-        steps = [max(on_ladder(usual / 2.0**half), self.least) for half in (0, *halves)]
+        steps = [max(on_ladder(usual / 2.0**half), self.least) for half in halves]
         return tuple(step for step in steps if step < 0.99 * self.first)
 
     def at(self, step: float) -> Trial:

@@ -26,8 +26,11 @@ class Law:
     `mean` and `spread` are the expected value at each step, and the scale of the logistic distribution around it.
     """
 
-    def __init__(self, steps: Matrix, first: float, guess: float, doubt: float, slope: float, luck: float) -> None:
+    def __init__(
+        self, steps: Matrix, first: float, guess: float, doubt: float, slope: float, luck: float, slope_doubt: float
+    ) -> None:
         self._steps, self._slope, self._luck = steps, slope, luck**2
+        self._trust_in_slope = 1.0 / (2.0 * slope_doubt * slope) ** 2
         self.places, self.values = [first], [guess]
         self._doubt = doubt
         self._squares = TRUST * self._luck
@@ -64,7 +67,7 @@ class Law:
         slope = self._slope
         if self.count:
             centered = places[1:] - places[1:].mean()
-            trust_in_slope = self._luck / (4.0 * slope_doubt)
+            trust_in_slope = self._luck * self._trust_in_slope
             slope += centered @ (values[1:] - slope * centered) / (centered @ centered + trust_in_slope)
         weights = 1.0 / (doubts**2 + self._luck + slope_doubt * distances**2)
         total = weights.sum(axis=1)
@@ -84,8 +87,8 @@ class Prospect:
         self.way, self.estimate, self.steps = way, estimate, way.ladder
         self.first = self.index_of(way.first)
         place, slope = float(self.steps[self.first]), -estimate.saving / estimate.size
-        self.sizes = Law(self.steps, place, math.log(estimate.size), estimate.doubt, slope, SLACK)
-        self.errors = Law(self.steps, place, 0.0, DOUBT, rise, luck)
+        self.sizes = Law(self.steps, place, math.log(estimate.size), estimate.doubt, slope, SLACK, estimate.slope_doubt)
+        self.errors = Law(self.steps, place, 0.0, DOUBT, rise, luck, DOUBT)
         self.left = np.full(len(self.steps), UNCODED)
         self.coded: dict[int, Trial] = {}
 

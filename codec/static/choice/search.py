@@ -30,6 +30,7 @@ from bsm.codec.static.targets import SLACK, TRIES, WIDEST, Contract, secant
 QUICK, PRICE = 2e-3, 9e-4
 """Prices of a stage of a trial, as shares of the bytes, over the fourth root of the number of vertices."""
 MOST_REFUSALS = 6  # of trials in which faces lose their areas or fold: then, such a trial is taken
+RISE = 2.0 * SLACK  # of bytes, as a logarithm, from which on no finer steps are coded than the usual one
 USUAL = 2.0  # times the bytes of the default, up and down, within which its own stream may be the best of a size
 
 
@@ -147,7 +148,7 @@ class OneSearch:
             index, size = prospect.index_of(trial.step), self.size_of(way, trial)
             prospect.add(index, trial, size)
             self._trace.note("code", way.name, step=trial.step, size=math.exp(size), reason="finer than the first one")
-            if size > least + DOUBT:
+            if size > least + RISE:
                 return
             least = min(least, size)
 

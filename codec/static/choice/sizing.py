@@ -15,7 +15,6 @@ from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.trace import Trace
 from bsm.codec.static.choice.trials import BYTES, Trial, Way
 from bsm.codec.static.preamble_encoding import Draft
-from bsm.codec.static.targets import TRIES
 
 RUNG = math.log(2.0) / 8.0
 SPARSE = 3  # rungs from one trial to the next, where the search found none that fits
@@ -82,23 +81,23 @@ class SizeSearch:
         low, high = -1, len(rungs)  # too fine; coarse enough
         index = int(abs(rungs - math.log(way.first)).argmin())
         # Sizes depend on luck, so a slope may lead nowhere: until a rung fits and another does not, strides double.
-        stride = 1
-        for _ in range(TRIES + 3):
+        # Between such rungs bytes fall about evenly; every other time the middle is taken, where they do not.
+        stride, halves = 1, False
+        while high - low > 1:
             over = excess(index)
             if over > 0.0:
                 low = index
             else:
                 high = index
-            if high - low <= 1:
-                break
             if low >= 0 and high < len(rungs):
-                # Between two rungs that are coded bytes fall about evenly.
-                share = excess(low) / (excess(low) - excess(high))
-                index = min(max(low + round(share * (high - low)), low + 1), high - 1)
-                continue
-            jump = max(math.floor(abs(over) / (self._saving * RUNG)), stride)
-            stride *= 2
-            index = min(max(index + (jump if over > 0.0 else -jump), low + 1), high - 1)
+                share = 0.5 if halves else excess(low) / (excess(low) - excess(high))
+                target = low + round(share * (high - low))
+                halves = not halves
+            else:
+                jump = max(math.floor(abs(over) / (self._saving * RUNG)), stride)
+                target = index + (jump if over > 0.0 else -jump)
+                stride *= 2
+            index = min(max(target, low + 1), high - 1)
         if high < len(rungs):
             return high
         # Wide steps move vertices so far that images no longer help: sizes fall, and rise again.

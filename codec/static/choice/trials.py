@@ -46,6 +46,7 @@ class Estimate:
     saving: float  # bytes that a step e times as wide saves
     trial: Trial | None = None  # that of the first step, where it is coded
     also: tuple[float, ...] = ()  # steps whose trials are coded with the first one, until bytes rise
+    slope_doubt: float = DOUBT  # standard deviation of that saving, over itself
     kin: str = ""  # ways with the same word err together: the first trial of one corrects the estimates of the others
 
 

@@ -192,7 +192,7 @@ def test_a_target_beside_the_look_takes_little_more(meshes: Path) -> None:
 def test_a_small_size_has_a_look_although_steps_near_it_fold_edges(meshes: Path) -> None:
     mesh = read_mesh(str(meshes / "static" / "nicolo.ply")).mesh.bare
     result = Encoder(mesh, replace(PRESETS["none"], target=Target("bpv", 4.0))).result()
-    assert 3.7 < result.bpv <= 4.0
+    assert 3.8 < result.bpv <= 4.0
     assert bsm.look(mesh, b"".join(result.frames)).distance < 13.0
 
 
