@@ -245,7 +245,7 @@ def _watch(answer: int, memory: int, request: dict[str, Any], begin: int) -> Non
             last = os.read(words, 1 << 16)[-4096:]
         os.write(answer, _END.pack(status, used.ru_maxrss << 10, used.ru_utime + used.ru_stime, last))
     finally:
-        # Not sys.exit: what is registered to run at exit belongs to the server, of which this is a copy.
+        # Not sys.exit: this process is a copy of the server, whose exit handlers must not run here.
         os._exit(0)
 
 

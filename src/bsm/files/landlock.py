@@ -1,4 +1,4 @@
-"""Landlock of Linux: which files a process that reads files of others may open, whatever its libraries try."""
+"""Landlock of Linux: it limits the files that a reader of untrusted files, or one of its libraries, can open."""
 
 import importlib
 import itertools
@@ -16,7 +16,7 @@ PROCESSORS = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
 """Processors whose calls of the kernel are known, and their numbers in seccomp."""
 
 
-# Asked once for a process: what it finds cannot change while it runs, and every file asks.
+# Cached, since every file asks, and the answer cannot change while the process runs.
 @cache
 def lack() -> str | None:
     """Return what this system lacks to keep files of others from readers."""
@@ -36,8 +36,8 @@ def folders_of(paths: Iterable[str]) -> set[str]:
     return {os.path.dirname(way(path)) for path in paths for way in (os.path.abspath, os.path.realpath)}
 
 
-# Landlock only knows what is allowed. So the list is of what Python and its packages need to be loaded, and of the
-# folder of the file, whose other files a mesh may name.
+# Landlock takes only a list of allowed paths. Python and its packages must still be loaded, and a mesh may name other
+# files in its folder.
 def close_files(folders: set[str]) -> None:
     """Let this process read nothing but the files in these folders, and those of Python and its packages."""
     landlock: Any = importlib.import_module("landlockpy")
@@ -50,7 +50,7 @@ def close_files(folders: set[str]) -> None:
         rules.restrict()
 
 
-# For the server, once, as listing folders of all modules takes longer than reading a small file.
+# Cached, since listing the folders of all modules takes longer than reading a small file.
 @cache
 def libraries() -> tuple[str, ...]:
     """Return the folders of Python, of packages and of libraries; not all of `sys.path`, where a checkout may be."""

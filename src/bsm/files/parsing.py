@@ -205,7 +205,7 @@ def as_format_error(kind: str) -> Iterator[None]:
         yield
     except BsmError:
         raise
-    # Not Exception: what is none of these is a fault of ours, and must not be blamed on the file.
+    # Not Exception: all other errors are our own faults, and must not be blamed on the file.
     except (LookupError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError) as error:
         raise FormatError(f"this {kind} makes no sense: {in_words(error)}") from error
 

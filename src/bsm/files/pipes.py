@@ -210,7 +210,7 @@ def _system(url: str) -> tuple[Any, str]:
     fsspec = errors.imported("fsspec", f"{scheme}:// needs fsspec", "remote")
     try:
         return cast("tuple[Any, str]", fsspec.url_to_fs(url))
-    # fsspec knows which package speaks a scheme, but its message names a module, which pip may call otherwise.
+    # The message of fsspec names a module, and pip may know its package under another name.
     except ImportError as error:
         registry = errors.imported("fsspec.registry", "", "remote")
         package = registry.known_implementations.get(scheme, {}).get("class", "fsspec.").partition(".")[0]

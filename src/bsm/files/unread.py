@@ -31,30 +31,42 @@ class Taken:
         if name in row:
             return True
         text = f"{value:g}" if isinstance(value, int | float) else "".join(str(value).split())
-        return f"{name}={text}" in row or any(name[: match.end()] in row for match in re.finditer("[:_]", name))
+        if f"{name}={text}" in row:
+            return True
+        return any(name[: match.end()] in row for match in re.finditer("[:_]", name))
 
-    def unread_names(self, names_said: Iterable[Said]) -> list[str]:
+    def unread_names(self, said: Iterable[Said]) -> list[str]:
         """Return the names that are not taken, as "name of owner", of many only the first."""
-        unread = dict.fromkeys(one[:2] for one in names_said if not self.takes(*one))
-        names = [name if owner in ("", "glTF", "extensions") else f"{name} of {owner}" for owner, name in unread]
-        return names[:_MOST_NAMED] + [f"{len(names) - _MOST_NAMED} other names"] * (len(names) > _MOST_NAMED)
+        unread: dict[str, None] = {}
+        for owner, name, value in said:
+            if not self.takes(owner, name, value):
+                is_plain = owner in ("", "glTF", "extensions")
+                unread[name if is_plain else f"{name} of {owner}"] = None
+        names = list(unread)
+        if len(names) > _MOST_NAMED:
+            return [*names[:_MOST_NAMED], f"{len(names) - _MOST_NAMED} other names"]
+        return names
 
     def in_xml(self, data: bytes) -> Iterator[Said]:
-        """The elements and attributes of a document, but not those below an element that is not taken."""
-        elements, above = dict[tuple[str, ...], None](), [""]
+        """Yield the elements and attributes of a document, but not those below an element that is not taken."""
+        elements: dict[tuple[str, ...], None] = {}
+        ancestors = [""]
 
         def begin(tag: str, attributes: Mapping[str, str]) -> None:
-            one = (above[-1], tag.rpartition(":")[2], *attributes)
-            if one not in elements and len(elements) < _MOST_SHAPES:
-                elements[one] = None
-            above.append(one[1])
+            element = (ancestors[-1], tag.rpartition(":")[2], *attributes)
+            if len(elements) < _MOST_SHAPES:
+                elements.setdefault(element)
+            ancestors.append(element[1])
 
         parser = expat.ParserCreate()
-        parser.StartElementHandler, parser.EndElementHandler = begin, lambda _: above.pop()
+        parser.StartElementHandler = begin
+        parser.EndElementHandler = lambda _: ancestors.pop()
         with suppress(expat.ExpatError):  # a library has read it
             parser.Parse(data, True)
-        for owner, tag, *names in elements:
-            if not owner or self.takes("", owner):
-                yield owner, tag, ""
-                attribute_names = (name.rpartition(":")[2] for name in names if not name.startswith("xmlns"))
-                yield from ((tag, name, "") for name in attribute_names if self.takes("", tag))
+        for owner, tag, *attribute_names in elements:
+            if owner and not self.takes("", owner):
+                continue
+            yield owner, tag, ""
+            for name in attribute_names:
+                if self.takes("", tag) and not name.startswith("xmlns"):
+                    yield tag, name.rpartition(":")[2], ""

@@ -75,7 +75,7 @@ def read_manifest(path: str, limits: Limits) -> tuple[Facts, Lattice, Root, Kind
             raise KeyError("format")
         if facts["version"] != 1:
             raise FormatError(f"{name}: these tiles are of version {facts['version']!r}; this program knows 1")
-        # Said here, since each tile would otherwise be refused one by one, by an error that speaks of a stream.
+        # Refused here: otherwise each tile is refused on its own, with an error about a stream.
         if (major := facts.get("stream", 0)) != MAJOR:  # version 0 had no such entry
             older = "encode the source again, or decode it with the release that wrote it"
             message = f"{name}: these tiles are written by version {major} of the format, and this reads {MAJOR}: "

@@ -98,7 +98,7 @@ def refuse_others(work: Path) -> None:
 
 def remove_made(work: Path) -> None:
     """Remove the files of a run from a folder, and the folder if it is then empty."""
-    # The note comes last: without it, what is left would be that of others.
+    # The note goes last: without it, the remaining files would look like those of another program.
     for name in sorted(os.listdir(work), key=NOTE.__eq__) if work.is_dir() else ():
         if name != LOCK and _MADE.fullmatch(name):
             (work / name).unlink(missing_ok=True)

@@ -39,7 +39,7 @@ class _Scope:
     nodes: list[tuple[int, list[str]]] = field(default_factory=list)  # a line, and the data lines that follow
     elements: list[tuple[str, str, int, list[str]]] = field(default_factory=list)  # with their kind and set
     part: "_Scope | None" = None  # of which it is an instance, with nodes and elements of its own
-    placed: Doubles = field(default_factory=lambda: np.eye(4))
+    placement: Doubles = field(default_factory=lambda: np.eye(4))
 
 
 @dataclass(frozen=True)
@@ -70,72 +70,101 @@ def _keywords(text: str) -> Iterator[_Keyword]:
 
 def read_abaqus(data: bytes, path: str | None, limits: Limits) -> Polygons:
     table = Keywords("abaqus", _WAY)
-    model, parts, instances = _Scope(""), dict[str, _Scope](), list[_Scope]()
-    scope, assembly = model, False
+    reader = _ModelReader(table)
     for keyword in _keywords(included(data.decode("latin-1"), _INCLUDE, path)):
+        reader.read(keyword)
+    if reader.model.elements and reader.instances:
+        raise table.refusal("*ELEMENT outside of parts", reader.model.elements[0][2])
+    group_numbers: dict[str, int] = {}
+    surfaces = _Surfaces(group_numbers, table, limits)
+    # Those of parts are made once, and their counts are known before the first instance is placed.
+    visible: list[tuple[_Scope, Part]] = []
+    counts: list[tuple[int, int]] = []
+    losses: dict[str, None] = {}
+    for scope in reader.instances or [reader.model, *reader.parts.values()]:
+        part, lost = surfaces.of(scope)
+        losses |= dict.fromkeys(lost)
+        if len(part.sizes):
+            visible.append((scope, part))
+            counts.append((len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())))
+    placed_parts = (replace(part, name=scope.name).placed(scope.placement) for scope, part in visible)
+    joined = joined_parts(placed_parts, counts, limits, len(data))
+    columns = [column for column in joined.columns if column.name != "group" or len(group_numbers) > 1]
+    metadata = dict(joined.metadata)
+    if any(group_numbers):
+        metadata |= named(list(group_numbers), "group")
+    return replace(joined, dropped=(*losses, *table.notes), columns=tuple(columns), metadata=metadata)
+
+
+class _ModelReader:
+    """The model, its parts and its instances, keyword by keyword."""
+
+    def __init__(self, table: Keywords) -> None:
+        self._table = table
+        self.model = _Scope("")
+        self.parts: dict[str, _Scope] = {}
+        self.instances: list[_Scope] = []
+        self._scope = self.model
+        self._in_assembly = False
+
+    def read(self, keyword: _Keyword) -> None:
         name, parameters, line = keyword.name, keyword.parameters, keyword.line
         if name == "PART":
-            scope = parts[parameters.get("NAME", "").upper()] = _Scope(parameters.get("NAME", ""))
+            self._scope = _Scope(parameters.get("NAME", ""))
+            self.parts[self._scope.name.upper()] = self._scope
         elif name == "INSTANCE":
-            part = parts.get(parameters.get("PART", "").upper())
-            if part is None or {"LIBRARY", "INSTANCE"} & parameters.keys():
-                raise table.refusal(f"*INSTANCE of {parameters.get('PART', 'another model')}", line)
-            scope = _Scope(parameters.get("NAME", ""), part=part, placed=_placed(keyword))
-            instances.append(scope)
+            self._begin_instance(keyword)
         elif name in ("END PART", "END INSTANCE", "ASSEMBLY"):
-            assembly |= name == "ASSEMBLY"
-            scope = _Scope("") if assembly else model  # reference points of an assembly are in no element here
+            self._in_assembly |= name == "ASSEMBLY"
+            # Reference points of an assembly are in no element here.
+            self._scope = _Scope("") if self._in_assembly else self.model
         elif name == "NODE":
             if {"SYSTEM", "INPUT"} & parameters.keys() and parameters.get("SYSTEM", "").upper() != "R":
-                raise table.refusal(f"*NODE with {' and '.join(parameters)}", line)
-            scope.nodes.append((line, keyword.rows))
+                raise self._table.refusal(f"*NODE with {' and '.join(parameters)}", line)
+            self._scope.nodes.append((line, keyword.rows))
             if "NSET" in parameters:
-                table.leave(f"NSET {parameters['NSET']}", line)
+                self._table.leave(f"NSET {parameters['NSET']}", line)
         elif name == "ELEMENT":
-            if "INPUT" in parameters or "OFFSET" in parameters or (assembly and scope not in instances):
-                raise table.refusal(f"*ELEMENT with {', '.join(parameters)}", line)
-            scope.elements.append((parameters.get("TYPE", "").upper(), parameters.get("ELSET", ""), line, keyword.rows))
+            outside = self._in_assembly and self._scope not in self.instances
+            if "INPUT" in parameters or "OFFSET" in parameters or outside:
+                raise self._table.refusal(f"*ELEMENT with {', '.join(parameters)}", line)
+            kind = parameters.get("TYPE", "").upper()
+            self._scope.elements.append((kind, parameters.get("ELSET", ""), line, keyword.rows))
         elif "INPUT" in parameters:
-            raise table.refusal(f"*{name} with INPUT", line)
+            raise self._table.refusal(f"*{name} with INPUT", line)
         else:
-            set_name = parameters.get(name, parameters.get("NAME", "")) if name in ("NSET", "ELSET", "SURFACE") else ""
-            table.leave(f"{name} {set_name}".strip(), line)
-    if model.elements and instances:
-        raise table.refusal("*ELEMENT outside of parts", model.elements[0][2])
-    names = dict[str, int]()
-    surfaces = _Surfaces(names, table, limits)
-    # Those of parts are made once, and their counts are known before the first instance is placed.
-    surfaces_of_scopes = [(one, *surfaces.of(one)) for one in instances or [model, *parts.values()]]
-    visible = [(one, part) for one, part, _ in surfaces_of_scopes if len(part.sizes)]
-    counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for _, part in visible]
-    placed = (replace(part, name=one.name).placed(one.placed) for one, part in visible)
-    joined = joined_parts(placed, counts, limits, len(data))
-    lost = dict.fromkeys(name for _, _, names_left in surfaces_of_scopes for name in names_left)
-    columns = [column for column in joined.columns if column.name != "group" or len(names) > 1]
-    groups = named(list(names), "group") if any(names) else {}
-    return replace(
-        joined, dropped=(*lost, *table.notes), columns=tuple(columns), metadata={**joined.metadata, **groups}
-    )
+            set_name = ""
+            if name in ("NSET", "ELSET", "SURFACE"):
+                set_name = parameters.get(name, parameters.get("NAME", ""))
+            self._table.leave(f"{name} {set_name}".strip(), line)
+
+    def _begin_instance(self, keyword: _Keyword) -> None:
+        parameters = keyword.parameters
+        part = self.parts.get(parameters.get("PART", "").upper())
+        if part is None or {"LIBRARY", "INSTANCE"} & parameters.keys():
+            raise self._table.refusal(f"*INSTANCE of {parameters.get('PART', 'another model')}", keyword.line)
+        self._scope = _Scope(parameters.get("NAME", ""), part=part, placement=_placement(keyword))
+        self.instances.append(self._scope)
 
 
-def _placed(keyword: _Keyword) -> Doubles:
-    """Where an instance is: moved, then turned around an axis."""
+def _placement(keyword: _Keyword) -> Doubles:
+    """Return the matrix of an instance: moved, then turned around an axis."""
+    matrix = np.eye(4)
     try:
         rows = [[float(word or "0") for word in row.rstrip(", ").split(",")] for row in keyword.rows]
-        found = np.eye(4)
         if rows:
-            found[:3, 3] = (rows[0] + [0.0] * 3)[:3]
+            matrix[:3, 3] = (rows[0] + [0.0] * 3)[:3]
         if rows[1:]:
-            a, b, angle = np.array(rows[1][:3]), np.array(rows[1][3:6]), np.radians(rows[1][6])
-            x, y, z = unit_rows((b - a)[None])[0]
-            k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-            turn = np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
-            about = np.eye(4)
-            about[:3, :3], about[:3, 3] = turn, a - turn @ a
-            found = about @ found
+            start, end, angle = np.array(rows[1][:3]), np.array(rows[1][3:6]), np.radians(rows[1][6])
+            x, y, z = unit_rows((end - start)[None])[0]
+            cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+            rotation = np.eye(4)
+            rotation[:3, :3] = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+            rotation[:3, 3] = start - rotation[:3, :3] @ start
+            matrix = rotation @ matrix
     except (ValueError, IndexError) as error:
         raise FormatError(f"line {keyword.line}: the place of an instance is not made of numbers: {error}") from None
-    return found
+    return matrix
 
 
 class _Surfaces:
@@ -162,31 +191,48 @@ class _Surfaces:
 
 
 def _surface(scope: _Scope, names: dict[str, int], table: Keywords, limits: Limits) -> tuple[Part, tuple[str, ...]]:
-    """The surface of a scope, and the names of the rest."""
-    lines = ((line, row.upper().replace("D", "E")) for line, those in scope.nodes for row in those)  # 1.D0 is 1.E0
-    rows = [(line, [word.strip() or "0" for word in row.split(",")][:4]) for line, row in lines]
+    """Return the surface of a scope, and the names of the rest."""
+    rows: list[tuple[int, list[str]]] = []
+    for line, data_lines in scope.nodes:
+        for row in data_lines:
+            words = row.upper().replace("D", "E").split(",")[:4]  # 1.D0 is 1.E0
+            rows.append((line, [word.strip() or "0" for word in words]))
     require_counts(limits, vertices=len(rows))
-    numbers = Numbering(whole([words[0] for _, words in rows], "*NODE", rows[0][0] if rows else 0))
+    first_line = rows[0][0] if rows else 0
+    numbers = Numbering(whole([words[0] for _, words in rows], "*NODE", first_line))
     try:
         places = np.array([(*words[1:], "0", "0", "0")[:3] for _, words in rows], np.float64).reshape(-1, 3)
     except ValueError as error:
-        raise FormatError(f"line {rows[0][0]}: a node is not made of numbers: {error}") from None
-    blocks, sets = list[tuple[str, Ints]](), list[int]()
-    for kind, set_name, line, those in scope.elements:
-        words = ",".join(those).replace(",", " ").split()
-        if (match := _KIND.fullmatch(kind)) is None and kind != "STRI65":
+        raise FormatError(f"line {first_line}: a node is not made of numbers: {error}") from None
+    blocks: list[tuple[str, Ints]] = []
+    sets: list[int] = []
+    for kind, set_name, line, data_lines in scope.elements:
+        shape, count = _shape_of(kind)
+        if not shape:
             if not _LINES.fullmatch(kind):
                 raise table.refusal(f"*ELEMENT of the type {kind or '(none)'}", line)
-            table.counts[f"elements of the type {kind}"] += sum(not row.endswith(",") for row in those)
+            table.counts[f"elements of the type {kind}"] += sum(not row.endswith(",") for row in data_lines)
             continue
-        count = int(match["flat"] or match["solid"]) if match else 6
+        words = ",".join(data_lines).replace(",", " ").split()
         if len(words) % (count + 1):
             raise FormatError(f"line {line}: elements of the type {kind} do not have {count} nodes each")
         nodes = whole(words, "*ELEMENT", line).reshape(-1, count + 1)[:, 1:]
-        flat = match is None or match["flat"]
-        blocks.append(((("triangle" if count % 3 == 0 and count < 9 else "quad") if flat else _SHAPES[count]), nodes))
+        blocks.append((shape, nodes))
         sets += [names.setdefault(set_name, len(names))] * len(nodes)
     blocks = [(shape, numbers.rows(nodes)) for shape, nodes in blocks]
-    of_cells = {"group": np.array(sets, np.int32)}
-    skinned = skin(places, blocks, {}, of_cells)
+    skinned = skin(places, blocks, {}, {"group": np.array(sets, np.int32)})
     return part_of(skinned, scope.name), skinned.dropped
+
+
+def _shape_of(kind: str) -> tuple[str, int]:
+    """Return the shape of a type of elements and the number of its nodes; "" if it has no surface."""
+    if kind == "STRI65":
+        return "triangle", 6
+    match = _KIND.fullmatch(kind)
+    if match is None:
+        return "", 0
+    if match["solid"]:
+        count = int(match["solid"])
+        return _SHAPES[count], count
+    count = int(match["flat"])
+    return "triangle" if count in (3, 6) else "quad", count

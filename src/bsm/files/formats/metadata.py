@@ -325,7 +325,7 @@ def _size(name: str, value: Value) -> int:
     return len(name.encode(errors="replace")) + len(content) + _ENTRY_BYTES
 
 
-# ------------------------------------------------------------------------------------------------------ what is written
+# -------------------------------------------------------------------------------------------------------------- writing
 
 
 @dataclass(frozen=True)

@@ -53,23 +53,30 @@ def read_off(data: bytes, limits: Limits) -> Polygons:
 def _vertex_columns(extras: bytes, points: Rows, lines: Sequence[bytes]) -> tuple[list[Column], list[str]]:
     """Normals, colors and texture coordinates, in this order (NC: colors first, by MeshLab); and unknown letters."""
     columns: list[Column] = []
-    place, texcoords = 3, 2 if b"ST" in extras else 0
-    behind = 3 * (b"NC" in extras) + texcoords
-    for kind in (b"C", b"N") if b"NC" in extras else (b"N", b"C"):
+    place = 3
+    texcoords = 2 if b"ST" in extras else 0
+    colors_first = b"NC" in extras
+    kinds = (b"C", b"N") if colors_first else (b"N", b"C")
+    numbers_after_color = texcoords + (3 if colors_first else 0)
+    for kind in kinds:
         if kind not in extras:
             continue
-        width = 4 if kind == b"C" and int(points.counts.min(initial=100)) - place - behind >= 4 else 3
+        if kind == b"N":
+            columns.append(Column("normal", compact(points.columns(place, 3)), semantic="normal"))
+            place += 3
+            continue
+        numbers = int(points.counts.min(initial=100)) - place - numbers_after_color
+        width = 4 if numbers >= 4 else 3
         values = points.columns(place, width)
-        if kind == b"C":
-            written_whole = _are_whole(values, [b" ".join(line.split()[place : place + width]) for line in lines])
-            columns.append(color_column(values, "vertex", written_whole=written_whole))
-        else:
-            columns.append(Column("normal", compact(values), semantic="normal"))
+        words = [b" ".join(line.split()[place : place + width]) for line in lines]
+        columns.append(color_column(values, "vertex", written_whole=_are_whole(values, words)))
         place += width
     if texcoords:
         columns.append(Column("texcoord", compact(points.columns(place, 2)), semantic="texcoord"))
         place += 2
-    return columns, ["numbers after the coordinates"] if (points.counts > place).any() else []
+    if (points.counts > place).any():
+        return columns, ["numbers after the coordinates"]
+    return columns, []
 
 
 def _are_whole(colors: Doubles, lines: Sequence[bytes]) -> bool:
@@ -104,13 +111,19 @@ def write_off(mesh: TriangleMesh, stem: str) -> Written:
 
 def _row(attributes: Sequence[Attribute | None]) -> tuple[str, list[Doubles | Ints]]:
     """Return the format of the numbers after the coordinates or indices, and their columns."""
-    row, columns = "", []
+    row = ""
+    columns: list[Doubles | Ints] = []
     for attribute in filter(None, attributes):
         values = attribute.values
         if values.dtype == np.uint16:
             values = values / 65535
-        # "#" keeps the point in 1.0, by which readers tell shares from bytes.
-        number = " {:.0f}" if values.dtype.kind in "iu" else " {:#.9g}" if values.dtype == np.float32 else " {!r}"
+        if values.dtype.kind in "iu":
+            number = " {:.0f}"
+        elif values.dtype == np.float32:
+            # "#" keeps the point in 1.0, by which readers tell shares from bytes.
+            number = " {:#.9g}"
+        else:
+            number = " {!r}"
         row += number * attribute.components
         columns.append(values)
     return row + "\n", columns

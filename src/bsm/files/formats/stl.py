@@ -58,7 +58,6 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
     """Read a binary or a text STL; corners with exactly equal coordinates are one vertex, in order of appearance."""
     columns: list[Column] = []
     metadata: dict[str, str] = {}
-    wrong = ""
     if is_text(data, len(data)):
         soup, columns, metadata, wrong = _of_text(data)
     else:
@@ -68,15 +67,17 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
         with np.errstate(invalid="ignore"):  # a later check refuses NaN
             soup = records["corners"].reshape(-1, 3).astype(np.float64)
         header = data[: HEAD - 4].rstrip(b"\0 ")
-        key = "provenance" if header.startswith(b"bsm ") else _HEADER
-        metadata = {key: header.decode("latin-1")} if header.strip(b"\0 ") else {}
+        if header.strip(b"\0 "):
+            key = "provenance" if header.startswith(b"bsm ") else _HEADER
+            metadata[key] = header.decode("latin-1")
         if records["attribute"].any():
-            columns = [Column(_ATTRIBUTE, records["attribute"][:, None], "face")]
+            columns.append(Column(_ATTRIBUTE, records["attribute"][:, None], "face"))
     # Only exactly equal corners: a tolerance would close slits that somebody has drawn.
     faces = np.arange(len(soup), dtype=np.int32).reshape(-1, 3)
     corners, first, *_ = GivenMesh(faces, group_rows(soup)).join(True, True)
     note = f"STL knows no vertices: {len(soup)} corners with equal coordinates were joined to {len(first)} vertices"
-    sizes, dropped = np.full(len(soup) // 3, 3), (wrong,) if wrong else ()
+    sizes = np.full(len(soup) // 3, 3)
+    dropped = (wrong,) if wrong else ()
     return Polygons(sealed(soup[first]), sizes, corners.astype(np.int64), (note,), dropped, tuple(columns), metadata)
 
 
@@ -110,13 +111,18 @@ def write_stl(mesh: TriangleMesh, stem: str) -> Written:
     if not single_suffices(mesh.positions):
         raise MeshError(NO_DOUBLES.format("STL"))
     triangles = np.zeros(len(mesh.faces), RECORD)
-    triangles["normal"], triangles["corners"] = face_normals(mesh.positions, mesh.faces), mesh.positions[mesh.faces]
-    attribute = face_numbers(mesh, _ATTRIBUTE)
-    colors_held = [attribute] if attribute is not None and attribute.values.dtype == np.uint16 else []
-    for color in colors_held:
+    triangles["normal"] = face_normals(mesh.positions, mesh.faces)
+    triangles["corners"] = mesh.positions[mesh.faces]
+    color = face_numbers(mesh, _ATTRIBUTE)
+    if color is not None and color.values.dtype != np.uint16:
+        color = None
+    if color is not None:
         triangles["attribute"] = color.values[:, 0]
     key = _HEADER if _HEADER in mesh.metadata else "provenance"
     header = str(mesh.metadata.get(key, "")).encode("latin-1", "replace")
-    fits = len(header) < HEAD - 3 and not header.startswith(b"solid")  # which would be a text
-    data = (header if fits else b"").ljust(HEAD - 4, b"\0") + len(triangles).to_bytes(4, "little") + triangles.tobytes()
-    return Written(data, left_out(mesh, colors_held, [n for n in mesh.metadata if n != key or not fits]))
+    lost = [name for name in mesh.metadata if name != key]
+    if len(header) >= HEAD - 3 or header.startswith(b"solid"):  # which would be a text
+        header = b""
+        lost = list(mesh.metadata)
+    data = header.ljust(HEAD - 4, b"\0") + len(triangles).to_bytes(4, "little") + triangles.tobytes()
+    return Written(data, left_out(mesh, [color], lost))

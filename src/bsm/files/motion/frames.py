@@ -65,8 +65,8 @@ class Frames:
         if not vertices:
             raise MeshError("a sequence needs at least one frame")
 
-    # A cache of points has no faces. It plays on the mesh of a rig, whose vertices in no face count for its numbers, so
-    # each gets a face without area that keeps it in the stream.
+    # A cache of points is played on the mesh of a rig, by the numbers of its vertices. A face without area therefore
+    # keeps each vertex that is in no other face.
     def on_sorted_faces(self) -> "Frames":
         """These frames where the order of faces costs nothing, and each vertex in no face has one without area."""
         loose = np.setdiff1d(np.arange(self.rigged), self.faces)
