@@ -183,7 +183,7 @@ export class TileSet {
     }
 
     get complete(): boolean {
-        return this.loading === 0 && this.wanted.length > 0 && this.wanted.every(({ asked }) => asked);
+        return this.loading === 0 && this.wanted.length >= this.tops.length && this.wanted.every(({ asked }) => asked);
     }
 
     close(): void {
