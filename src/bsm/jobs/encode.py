@@ -209,9 +209,9 @@ def _result(
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
     # The bound that decides is worth a word where it is not the usual one: loosening it makes the file smaller.
     other = encoder.binding not in ("", "look") and found.apart is None
-    binds = f"the {encoder.binding} binds, " if other else ""
+    limited = f"limited by the {encoder.binding}, " if other else ""
     summary = f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, written)}, {bpv:.2f} bits per vertex"
-    summary += f"{' without images' if images else ''}; {look}{binds}{errors}"
+    summary += f"{' without images' if images else ''}; {look}{limited}{errors}"
     facts: Facts = {"vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": written, "bytes": size}
     facts |= {"bpv_total": bpv} | ({"input_parts": parts, "output_parts": beside} if parts else {}) | numbers
     facts |= {"look": encoder.look, "binding": encoder.binding}
