@@ -22,9 +22,9 @@ from bsm import (
     read_mesh,
     save,
 )
+from bsm.files.sequence import open_sequence
 from bsm.files.table import FORMATS, MESH_FORMATS
 from tests.gltf import Built
-from tests.motion import sequence_in
 from tests.shapes import file_of, ply_head, tetrahedron, torus
 
 OURS = tuple(kind for kind in MESH_FORMATS if kind not in ("npz", "vtp"))
@@ -113,7 +113,7 @@ def test_formats_that_trimesh_writes(trimesh, kind, tmp_path):
     for needed in {"3mf": ("networkx", "lxml", "lib3mf"), "dae": ("collada",)}.get(kind, ()):
         pytest.importorskip(needed)
     trimesh.Trimesh(*torus_arrays(), process=False).export(tmp_path / f"a.{kind}")
-    assert sequence_in(tmp_path / f"a.{kind}") is None, "a 3MF is a ZIP, as an npz is"
+    assert open_sequence(tmp_path / f"a.{kind}") is None, "a 3MF is a ZIP, as an npz is"
     mesh = read_mesh(tmp_path / f"a.{kind}").mesh
     positions, faces = torus_arrays()
     assert mesh.positions[mesh.faces] == pytest.approx(positions[faces], abs=1e-5)
