@@ -223,7 +223,7 @@ class SequenceEncoder:
         progress: Progress | None,
         shown: list[Measured] | None = None,
     ) -> Iterator[bytes]:
-        steps: Progress = silent
+        steps: _Rounds | None = None
         self._verifier = verifier = SequenceVerifier(options, self._metadata, shown)
         meshes = Meshes()
         writer = SectionWriter()
@@ -241,7 +241,7 @@ class SequenceEncoder:
                     searches = options.promise is not None
                     steps = _Rounds(progress, gops + (not searches), searches=searches)
                 yield verifier.take(writer.start())
-            for packet in self._run(run, index, meshes, options, steps):
+            for packet in self._run(run, index, meshes, options, steps or silent):
                 # The verifier decodes with the limits of the target. What it refuses, the user's decoders would refuse.
                 with as_of_decoders(options.limits):
                     chunk = verifier.take(writer.write(packet))
@@ -255,7 +255,10 @@ class SequenceEncoder:
         changes = (f"{name} changes at frame {first}, but stays as before" for name, first in splitter.changed.items())
         self.losses = (*self.losses, *changes)
         self.notes = tuple(dict.fromkeys((*self.notes, *self.losses)))
-        yield verifier.take(writer.end(self._checksum), last=True)
+        end = verifier.take(writer.end(self._checksum), last=True)
+        if steps is not None:
+            steps.finish()
+        yield end
 
     def _as_sent(self, splitter: RunSplitter) -> Iterator[Run]:
         """Runs with the attributes that each is sent with."""
@@ -467,6 +470,11 @@ class _Rounds:
         self._stages.report("preparing", 1.0)
         self._stages.report("coding", (self._done + share) / rounds)
         self._done += done == blocks
+
+    def finish(self) -> None:
+        """Report that all is done."""
+        self._stages.report("coding", 1.0)
+        self._stages.report("finishing", 1.0)
 
 
 def frames_of(positions: npt.ArrayLike) -> Positions:
