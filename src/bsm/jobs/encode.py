@@ -253,7 +253,8 @@ def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[s
     if apart is not None:
         relative, value = apart / (found.original.diagonal or 1.0), apart * per_own
     words = _length(value, relative, unit)
-    facts: Facts = dict.fromkeys(("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db", "faces_before"))
+    names = ("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db", "faces_before", "flattened")
+    facts: Facts = dict.fromkeys(names)
     facts |= {"max_error_relative": relative, "error_of": "vertices" if apart is None else "surfaces"}
     facts |= {"max_error": value, "unit": unit} if unit else {}
     if apart is not None:
