@@ -5,9 +5,11 @@
 #include "bitstream/container/container.h"
 #include "bitstream/payloads/payloads.h"
 
-/* Corners that share a value, where attributes have seams: the seams, and how many values there are. */
+/* Corners that share a value, where attributes have seams: the seams, the value of each corner, and how many values
+ * there are. */
 typedef struct {
     Bytes seams;
+    Ints2 faces;
     int64_t count;
 } Joins;
 
@@ -129,7 +131,7 @@ bool declare_attribute(Attributes *attributes, int64_t index, const Declaration 
 /* Whether an attribute has as many rows as it must (D 1.2), if it is there. */
 bool check_rows(const Attributes *attributes, int64_t index, const Numbering *numbering);
 /* What is needed before values come, or where none do. */
-bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scratch);
+bool begin_values(Attributes *attributes, const Numbering *numbering);
 /* `places`: values of a grid, if all of them are there, otherwise none. */
 bool start_attribute(Attributes *attributes, Attribute *attribute, ConstInts2 places, Arena *scratch);
 bool code_group(Context *context, const Attribute *attribute, Group *group, Span payload, int64_t first, int64_t count);

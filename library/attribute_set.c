@@ -35,27 +35,28 @@ static bool read_seams(Attributes *attributes, int64_t index, Span payload, Aren
     int64_t n = attributes->header->vertices, size = 3 * attributes->faces.rows;
     double vertices = (double)n, m = (double)attributes->faces.rows, bytes = (double)payload.size;
     double first = attributes->has_corners ? 0.0 : 8 * vertices + 36 * m;
-    if (!reserve(context, 3 * m + first, bytes) || !fits_memory(context, 16 * vertices + 36 * m)
+    if (!reserve(context, 15 * m + first, bytes) || !fits_memory(context, 16 * vertices + 24 * m)
         || !charge(context, 5e4 + 10 * vertices + 120 * m + 800 * bytes, bytes))
         return false;
     if (!attributes->has_corners)
         attributes->has_corners =
             link_mesh(context, attributes->faces, n, attributes->arena, scratch, &attributes->corners);
     Bytes others;
-    Ints joined, firsts;
+    Ints firsts;
     Ints2 ends;
     Bank bank;
     Coding coding;
     if (!attributes->has_corners || !zero_bytes(attributes->arena, size, &joins->seams)
-        || !zero_bytes(scratch, size, &others) || !take_ints(scratch, size, &joined)
-        || !take_ints(scratch, size, &firsts) || !take_ints2(scratch, n, 3, &ends)
+        || !take_ints2(attributes->arena, attributes->faces.rows, 3, &joins->faces)
+        || !zero_bytes(scratch, size, &others) || !take_ints(scratch, size, &firsts) || !take_ints2(scratch, n, 3, &ends)
         || !make_bank(scratch, EDGE_BANK, &bank)
         || !begin_coding(context, payload, &coding))
         return false;
     look_at_others(attributes, index, others);
     code_edges(&coding.coder, &bank, &attributes->corners, joins->seams.data, others.data, ends);
     if (!finish_coding(&coding)) return false;
-    joins->count = join_corners(attributes->corners, const_bytes(joins->seams), joined, firsts);
+    joins->count =
+        join_corners(attributes->corners, const_bytes(joins->seams), (Ints){joins->faces.data, size}, firsts);
     return true;
 }
 
@@ -128,20 +129,16 @@ bool check_rows(const Attributes *attributes, int64_t index, const Numbering *nu
 }
 
 /* The values of an attribute as vertices of a mesh of their own (D 3.1). */
-static bool lay_out(Attributes *attributes, Attribute *attribute, const Numbering *numbering, Arena *scratch) {
+static bool lay_out(Attributes *attributes, Attribute *attribute, const Numbering *numbering) {
     int64_t n = attributes->header->vertices, size = 3 * attributes->faces.rows;
     attribute->faces = attributes->faces;
     if (attribute->declaration.domain == BSMDEC_FACE) return true;
     if (!take_ints(attributes->arena, attribute->rows, &attribute->vertices)) return false;
     int64_t placed = attribute->rows - loose_rows(&attribute->declaration, numbering);
     if (attribute->joins != NULL) {
-        Ints2 joined;
-        Ints first;
-        if (!take_ints2(attributes->arena, attributes->faces.rows, 3, &joined) || !take_ints(scratch, size, &first))
-            return false;
-        join_corners(attributes->corners, const_bytes(attribute->joins->seams), (Ints){joined.data, size}, first);
-        attribute->faces = const_ints2(joined);
-        for (int64_t r = 0; r < placed; r++) attribute->vertices.data[r] = attributes->faces.data[first.data[r]];
+        attribute->faces = const_ints2(attribute->joins->faces);
+        for (int64_t k = 0; k < size; k++)
+            attribute->vertices.data[attribute->faces.data[k]] = attributes->faces.data[k];
     } else {
         for (int64_t r = 0; r < n; r++) attribute->vertices.data[r] = (int32_t)r;
     }
@@ -149,7 +146,7 @@ static bool lay_out(Attributes *attributes, Attribute *attribute, const Numberin
     return true;
 }
 
-bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scratch) {
+bool begin_values(Attributes *attributes, const Numbering *numbering) {
     Context *context = attributes->context;
     double m = (double)attributes->faces.rows;
     if (attributes->begun) return true;
@@ -160,18 +157,16 @@ bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scr
         Attribute *attribute = attributes->list[k];
         if (attribute == NULL) continue;
         const Declaration *d = &attribute->declaration;
-        Mark mark = mark_of(scratch);
         attribute->rows = expected_rows(attributes, attribute, numbering);
         double rows = (double)attribute->rows;
-        double numbers = 2.0 * (double)kind_size(d->kind) * d->components, own = attribute->joins ? 12 * m : 0;
+        double numbers = 2.0 * (double)kind_size(d->kind) * d->components;
         if (attribute->is_base) numbers += 8;
-        bool done = reserve(context, (numbers + 12) * rows + own, 0)
+        bool done = reserve(context, (numbers + 12) * rows, 0)
             && (d->coding != RECOMPUTED || fits_memory(context, 200 * m + 100 * rows))
             && charge(context, ATTRIBUTE_WORK + 150 * rows + 60 * m, 0)
-            && lay_out(attributes, attribute, numbering, scratch);
+            && lay_out(attributes, attribute, numbering);
         done = done && take_values(attributes->arena, attribute, &attribute->values)
             && (!attribute->is_base || take_ints2(attributes->arena, attribute->rows, 2, &attribute->words));
-        release_to(scratch, mark);
         if (!done) return false;
     }
     return true;
@@ -231,7 +226,9 @@ static bool begin_swift_group(Attributes *attributes, Attribute *attribute, Grou
     *swift = (Swift){.normals = normals, .mixed = attributes->header->swift > 1};
     swift->slots_of_one = swift->mixed ? LEAN_INPUTS * SWIFT_CONTEXTS * LEAN_NODES : LIGHT_SLOTS;
     swift->own = (Values){.largest = largest, .geometry = geometry, .values = group->pieces};
-    if (!link_mesh(context, attribute->faces, size, arena, scratch, &swift->corners)
+    bool known = attributes->has_corners && attribute->joins == NULL && size == attributes->header->vertices;
+    if (known) swift->corners = attributes->corners;
+    if ((!known && !link_mesh(context, attribute->faces, size, arena, scratch, &swift->corners))
         || !zero_ints2(arena, size, SWIFT_TALLIES, &swift->tallies)
         || !zero_ints2(arena, normals ? size : 0, 2 * AXES, &swift->directions)
         || !take_words(arena, columns * swift->slots_of_one, &swift->slots)

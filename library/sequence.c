@@ -182,7 +182,7 @@ static bool begin_first_frame(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (!mesh->has_faces) return FAIL(&decoder->context, CORRUPT, "the stream ends before its first block");
     return build(decoder)
-        && (!mesh->has_attributes || begin_values(&mesh->attributes, &mesh->numbering, &decoder->scratch));
+        && (!mesh->has_attributes || begin_values(&mesh->attributes, &mesh->numbering));
 }
 
 static bool find_moving(bsmdec *decoder) {

@@ -198,7 +198,7 @@ static bool ensure_values(bsmdec *decoder) {
     if (mesh->header.on_grid ? !ensure_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks))
         return false;
     mesh->values_begun = true;
-    return begin_values(&mesh->attributes, &mesh->numbering, &decoder->scratch);
+    return begin_values(&mesh->attributes, &mesh->numbering);
 }
 
 static bool accept_values(bsmdec *decoder, const Packet *packet) {

@@ -13,7 +13,7 @@ from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopField, GopMethod, write_gop_body
-from bsm.bitstream.container.header import AS_CODED, FACE, HEADER_FIELDS, OTHERWISE, RECOMPUTED, Declaration
+from bsm.bitstream.container.header import AS_CODED, FACE, HEADER_FIELDS, OCTAHEDRAL, OTHERWISE, RECOMPUTED, Declaration
 from bsm.bitstream.container.packets import WRITERS
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_varint
 from bsm.codec.blocks.overlap import partition_of_labels
@@ -325,17 +325,22 @@ def _long_metadata(entries: int, length: int) -> bytes:
     return stream_of([_header(coded, **blocks), (FrameType.METADATA, payload), _faces(coded), *_blocks(1, 1)])
 
 
-def _valued(rows: int, columns: int, count: int, chunk: int, *, coded: int | None = None, **fields: Any) -> bytes:
+def _valued(
+    rows: int, columns: int, count: int, chunk: int, *, coded: int | None = None, swift: int = 0, **fields: Any
+) -> bytes:
     """Return a mesh with a number of equal, empty attributes."""
     blocks = {"blocks": 1 + rows * columns // 4000, "block_size": min(rows * columns, 8000), "power": 1}
-    frames = frames_of(_blocky(("torus", rows, columns), attributes=count, **blocks))
+    frames = frames_of(_blocky(("torus", rows, columns), attributes=count, swift=swift, **blocks))
     size = rows * columns if coded is None else coded
-    declared, chunks = _attributes(rows, columns, count, chunk, size, **{"origin": OTHERWISE, **fields})
+    given = {"origin": OTHERWISE, **fields}
+    declared, chunks = _attributes(rows, columns, count, chunk, size, swift=swift, **given)
     return stream_of([*frames[:2], *declared, *frames[2:], *chunks])
 
 
-def _attributes(rows: int, columns: int, count: int, chunk: int, size: int, **fields: Any) -> tuple[Frames, Frames]:
-    """Return declarations of a number of attributes, and values that are all 0."""
+def _attributes(
+    rows: int, columns: int, count: int, chunk: int, size: int, swift: int = 0, **fields: Any
+) -> tuple[Frames, Frames]:
+    """Return declarations of a number of attributes, and values that are all 0, or all one direction."""
     shape = _coded("torus", rows, columns)
     values = {"rows": size, "largest": (1,) * 4, "kind": 7, "components": 4, **fields}
     declared: Frames = []
@@ -347,7 +352,9 @@ def _attributes(rows: int, columns: int, count: int, chunk: int, size: int, **fi
             continue
         vertices = 0 if declaration.domain == FACE else rows * columns
         surface = Surface(shape.faces, np.arange(vertices, dtype=np.int32))
-        encoder = field_of(declaration, surface, np.zeros((size, len(declaration.largest)), np.int32), None, 0)
+        level = declaration.largest[0] // 2 if declaration.coding == OCTAHEDRAL else 0
+        levels = np.full((size, len(declaration.largest)), level, np.int32)
+        encoder = field_of(declaration, surface, levels, None, swift)
         for first in range(0, size, chunk):
             some = min(chunk, size - first)
             chunks.append(_written(packets.Values(index, first, some, write_values(encoder, some))))
@@ -507,6 +514,15 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     ),
     # Attributes of faces
     "values-faces": lambda: _valued(100, 100, 20, 1 << 15, domain=FACE, origin=AS_CODED, coded=20000),
+    # Values that are quick to decode: plain, mixed, one number each, value by value, and normals
+    "swift-plain": lambda: _valued(500, 500, 4, 1 << 15, swift=1),
+    "swift": lambda: _valued(500, 500, 4, 1 << 15, swift=2),
+    "swift-numbers": lambda: _valued(500, 500, 9, 1 << 15, swift=2, kind=0, components=1, largest=(1,)),
+    "swift-chunks": lambda: _valued(60, 60, 3, 1, swift=2, kind=0, components=1, largest=(1,), origin=AS_CODED),
+    "swift-normals": lambda: _valued(
+        500, 500, 4, 1 << 15, swift=2, kind=6, components=3, coding=OCTAHEDRAL, largest=(1022, 1022)
+    ),
+    "swift-small": lambda: _valued(3, 3, 255, 9, swift=2),  # 255 attributes of nine vertices
     "seams": lambda: _seamed(1024, 1024, 60),  # 60 attributes with seams of their own on a million vertices
     "seams-many": lambda: _seamed(256, 256, 255),  # 255 of them on fewer
     "skippable": lambda: _before_faces([(8, b"")] * 4000000),  # frames of nothing
