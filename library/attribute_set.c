@@ -48,7 +48,8 @@ static bool read_seams(Attributes *attributes, int64_t index, Span payload, Aren
     Coding coding;
     if (!attributes->has_corners || !zero_bytes(attributes->arena, size, &joins->seams)
         || !take_ints2(attributes->arena, attributes->faces.rows, 3, &joins->faces)
-        || !zero_bytes(scratch, size, &others) || !take_ints(scratch, size, &firsts) || !take_ints2(scratch, n, 3, &ends)
+        || !zero_bytes(scratch, size, &others) || !take_ints(scratch, size, &firsts)
+        || !take_ints2(scratch, n, 3, &ends)
         || !make_bank(scratch, EDGE_BANK, &bank)
         || !begin_coding(context, payload, &coding))
         return false;
@@ -215,10 +216,23 @@ static bool is_swift(const Attributes *attributes, const Declaration *d) {
     return attributes->header->swift > 0 && d->domain != BSMDEC_FACE;
 }
 
+/* The corners of rows: those that are there, or new ones; no normal is guessed from what lies beyond an edge. */
+static bool link_rows(Attributes *attributes, const Attribute *attribute, bool normals, Arena *scratch,
+    Corners *corners) {
+    Context *context = attributes->context;
+    Arena *arena = &attributes->coding;
+    bool shared = attributes->has_corners && attribute->joins == NULL;
+    if (shared && attribute->rows == attributes->header->vertices) {
+        *corners = attributes->corners;
+        return true;
+    }
+    if (normals) return gather_mesh(context, attribute->faces, attribute->rows, arena, corners);
+    return link_mesh(context, attribute->faces, attribute->rows, arena, scratch, corners);
+}
+
 /* The state of values that are quick to decode (A 9). */
 static bool begin_swift_group(Attributes *attributes, Attribute *attribute, Group *group, ConstInts largest,
     ConstInts2 geometry, Arena *scratch) {
-    Context *context = attributes->context;
     Arena *arena = &attributes->coding;
     Swift *swift = &group->swift;
     int64_t size = attribute->rows, columns = largest.size;
@@ -226,9 +240,7 @@ static bool begin_swift_group(Attributes *attributes, Attribute *attribute, Grou
     *swift = (Swift){.normals = normals, .mixed = attributes->header->swift > 1};
     swift->slots_of_one = swift->mixed ? LEAN_INPUTS * SWIFT_CONTEXTS * LEAN_NODES : LIGHT_SLOTS;
     swift->own = (Values){.largest = largest, .geometry = geometry, .values = group->pieces};
-    bool known = attributes->has_corners && attribute->joins == NULL && size == attributes->header->vertices;
-    if (known) swift->corners = attributes->corners;
-    if ((!known && !link_mesh(context, attribute->faces, size, arena, scratch, &swift->corners))
+    if (!link_rows(attributes, attribute, normals, scratch, &swift->corners)
         || !zero_ints2(arena, size, SWIFT_TALLIES, &swift->tallies)
         || !zero_ints2(arena, normals ? size : 0, 2 * AXES, &swift->directions)
         || !take_words(arena, columns * swift->slots_of_one, &swift->slots)

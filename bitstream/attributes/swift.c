@@ -45,7 +45,7 @@ static void survey_row(const Swift *s, int32_t v, RowPlace *place) {
             place->latest = (int32_t)largest(place->latest, end[side]);
             for (int q = 0; q < TALLIES; q++) tally[q] += of_end[q];
         }
-        if (end[0] >= v || end[1] >= v || end[0] == end[1] || place->bases == MOST_BASES) continue;
+        if (s->normals || end[0] >= v || end[1] >= v || end[0] == end[1] || place->bases == MOST_BASES) continue;
         int32_t tip = c->opposite.data[k], beyond = tip >= 0 && row[tip] < v ? row[tip] : -1;
         place->base[place->bases++] = (Base){.a = end[0], .b = end[1], .c = beyond, .tip = tip};
         place->flaps += beyond >= 0;

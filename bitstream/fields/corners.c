@@ -3,15 +3,19 @@
 
 enum { MOST_CORNERS = 1 << 30, QUEUES = 4 };
 
-/* The corners of each vertex, in order. */
-static void gather_corners(Corners c) {
+/* Fill starts and corners: those of each vertex, in order. Checks the faces. */
+int64_t gather_corners(Corners c) {
     const int32_t *vertex = c.faces.data;
     int32_t *starts = c.starts.data;
     int64_t n = c.rank.size;
+    if (c.corners.size > MOST_CORNERS) return MISUSED;
+    for (int64_t k = 0; k < c.corners.size; k++)
+        if (vertex[k] < 0 || vertex[k] >= n) return MISUSED;
     for (int64_t v = 0; v <= n; v++) starts[v] = 0;
     for (int64_t k = 0; k < c.corners.size; k++) starts[vertex[k]]++;
     for (int64_t v = 0; v < n; v++) starts[v + 1] += starts[v];
     for (int64_t k = c.corners.size - 1; k >= 0; k--) c.corners.data[--starts[vertex[k]]] = (int32_t)k;
+    return 0;
 }
 
 /* Pair the corners that face the edges from v to vertices of higher number; where more than two face one, the last
@@ -42,15 +46,11 @@ OFTEN static void pair_corners(Corners c, int32_t v, int32_t *waiting, int32_t *
             }
 }
 
-/* Fill starts, corners and opposite; scratch: n + 3 m. Checks the faces. */
+/* Fill opposite as well; scratch: n + 3 m. */
 int64_t link_corners(Corners c, Ints scratch) {
     int64_t n = c.rank.size;
-    if (c.corners.size > MOST_CORNERS) return MISUSED;
-    for (int64_t k = 0; k < c.corners.size; k++) {
-        if (c.faces.data[k] < 0 || c.faces.data[k] >= n) return MISUSED;
-        c.opposite.data[k] = -1;
-    }
-    gather_corners(c);
+    if (gather_corners(c) != 0) return MISUSED;
+    for (int64_t k = 0; k < c.corners.size; k++) c.opposite.data[k] = -1;
     for (int64_t v = 0; v < n; v++) scratch.data[v] = -1;
     for (int64_t v = 0; v < n; v++) pair_corners(c, (int32_t)v, scratch.data, scratch.data + n);
     return 0;

@@ -32,6 +32,7 @@ INLINE int32_t faces_at(const Corners *c, int32_t v) { return c->starts.data[v +
 
 void gather_around(const Corners *corners, int32_t v, Around *around);
 
+int64_t gather_corners(Corners corners);
 int64_t link_corners(Corners corners, Ints scratch);
 int64_t order_vertices(Corners corners, Ints order, Ints2 scratch);
 

@@ -3,15 +3,26 @@
 
 enum { CONTEXT_ROWS = CONTEXTS * CONTEXT_SIZE, UNLEARNED_HIT = 1 << 28, SLOT_WEIGHT = 6000 };
 
+static bool take_corners(ConstInts2 faces, int64_t vertices, Arena *arena, Corners *corners) {
+    *corners = (Corners){.faces = faces};
+    if (!take_ints(arena, vertices + 1, &corners->starts) || !take_ints(arena, 3 * faces.rows, &corners->corners)
+        || !take_ints(arena, vertices, &corners->rank))
+        return false;
+    for (int64_t v = 0; v < vertices; v++) corners->rank.data[v] = (int32_t)v;
+    return true;
+}
+
+bool gather_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Corners *corners) {
+    return take_corners(faces, vertices, arena, corners)
+        && (gather_corners(*corners) == 0 || FAIL(context, LIMIT, "# faces are too many", faces.rows));
+}
+
 bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Arena *scratch, Corners *corners) {
     int64_t size = 3 * faces.rows;
     Mark mark = mark_of(scratch);
     Ints room;
-    corners->faces = faces;
-    bool done = take_ints(arena, vertices + 1, &corners->starts) && take_ints(arena, size, &corners->corners)
-        && take_ints(arena, size, &corners->opposite) && take_ints(arena, vertices, &corners->rank)
+    bool done = take_corners(faces, vertices, arena, corners) && take_ints(arena, size, &corners->opposite)
         && take_ints(scratch, vertices + size, &room);
-    for (int64_t v = 0; done && v < vertices; v++) corners->rank.data[v] = (int32_t)v;
     done = done && (link_corners(*corners, room) == 0 || FAIL(context, LIMIT, "# faces are too many", faces.rows));
     release_to(scratch, mark);
     return done;

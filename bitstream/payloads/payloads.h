@@ -75,6 +75,8 @@ bool write_order(Context *context, const Arrangement *arrangement, Arena *scratc
 
 /* Corners of faces, their partners, and the rank of each vertex, which is its number until it is ordered (V 1). */
 bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Arena *scratch, Corners *corners);
+/* The same without partners. */
+bool gather_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Corners *corners);
 bool order_mesh(Corners *corners, Arena *arena, Arena *scratch, Ints *order);
 /* Models and learners that have learned nothing (V 4.3, V 6.1). */
 MUST_CHECK bool make_value_model(Arena *arena, ValueModel *model, bool of_twins);
