@@ -79,6 +79,7 @@ NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 1.03, 4.0, 0.4
 """Its level over that in the finest frequencies without detail, the share of movements that is not made for each unit
 more, and the largest one."""
 REACHED = 0.5  # share of the level of the noise from which on a window counts for the whole
+DETAIL = 1.65  # error to expect where detail is as fine as the noise, which no rehearsal sees, over the rehearsed one
 FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 
 
@@ -107,7 +108,7 @@ class AutomaticChoice:
     @property
     def at_most(self) -> float:
         """The error to expect where detail is as fine as the noise."""
-        most = self.forecast.most if self.forecast else 1.0
+        most = DETAIL if self.forecast else 1.0
         return max(min(most * self.expected, self.untreated), self.expected)
 
     def seen(self, share: float, full: Positions, result: Positions, noisy: Mask, topology: Topology) -> Self:
@@ -203,7 +204,7 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
             width = min(CANDIDATES[0].sigma_r * flat ** (2.0 / 3.0), 1.0)
             steps = (*steps, Step(Filter("positions", CANDIDATES[0].keep, width), CELL_ITERATIONS))
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
-    unknown = Forecast(0.0, 0.0, most=1.0, known=False)
+    unknown = Forecast(0.0, 0.0, known=False)
     return AutomaticChoice(steps, finding.kind, finding.reason, noise, 0.0, 0.0, forecast=unknown)
 
 

@@ -14,7 +14,6 @@ import numpy as np
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.filters import Filter, Filtered, Filters, Step
 from bsm.codec.denoise.noise.finding import Finding, NoiseLevel, Synthesis
-from bsm.codec.denoise.noise.search import MANY_WINDOWS
 from bsm.codec.denoise.surface import pair_distances
 from bsm.codec.geometry.metrics import Reference, face_geometry, face_normals, mean_edge_length
 from bsm.codec.threads import ordered_map
@@ -27,12 +26,6 @@ EASIER = 0.93  # what errors after learnt normals count: true shapes have less n
 FINE_SHAPE, FILTERED = 1.3, 0.6
 """Finest frequencies of steadied frames over their noise, from which on they hold detail of the shape; and the share of
 an iteration in the guess at other frames."""
-LOST, LOST_MORE = (-0.04, 0.2), 3.5
-"""Roughness that a guess loses (a logarithm, within bounds), and the factor by which the mesh has lost more."""
-LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
-UNSURE, LEAST, DETAIL = ("correlated", "grid", "axis"), 0.87, 1.65
-"""Kinds whose rehearsal does not show whether detail is lost, as on meshes of few vertices; the least error there, over
-the rehearsed one; and that where detail is lost, over the least."""
 NOISE_OVER = (0.25, 4.0)  # bounds of the noise's energy over that of the rehearsal
 MOST_DROWNED = 0.1  # share of faces lower than the noise is high, from which on angles cannot be estimated
 
@@ -65,12 +58,10 @@ class Rehearsed:
 
 @dataclass(frozen=True)
 class Forecast:
-    """Angles to expect where there is noise, without and with the filter; the error with detail as fine as the noise,
-    which a rehearsal does not see, over the expected one; and whether they are known at all."""
+    """Angles to expect where there is noise, without and with the filter, and whether they can be known at all."""
 
     untreated: float
     expected: float
-    most: float
     known: bool
 
 
@@ -118,24 +109,19 @@ class Rehearsal:
         return self._goal(Reference(self._performed(outcome), self._topology.faces), self._mesh.given)
 
     def lost(self, winner: Rehearsed) -> float:
-        """Return the roughness that the filter takes from the guess, a logarithm."""
+        """Return the roughness that the filter takes from the guess, a logarithm; 0 where there is none."""
         guess, left = self._roughness(self.truth.positions), self._roughness(winner.result)
-        return float(np.clip(np.log(guess / left), *LOST)) if guess > 0.0 and left > 0.0 else 0.0
+        return float(np.log(guess / left)) if guess > 0.0 and left > 0.0 else 0.0
 
     def forecast(self, winner: Rehearsed) -> Forecast:
-        """Return the angles to expect on the rehearsed mesh; detail that the filter removes is gone from the guess."""
-        scanned = self._finding.kind == "view"  # whose noise is known so well that rehearsals say enough
-        lost = 0.0 if scanned else self.lost(winner)
-        guess = self._roughness(self.truth.positions)
-        drawn = self._roughness(self.noisy) ** 2 - guess**2
-        found = self._roughness(self._mesh.given) ** 2 - (guess * np.exp(LOST_MORE * max(lost, 0.0))) ** 2
-        before = float(np.sqrt(np.clip(found / drawn, *NOISE_OVER))) if drawn > 0.0 else 1.0
+        """Return the angles to expect on the rehearsed mesh."""
         noisy = float(self._touched[self._topology.faces].any(axis=1).mean()) or 1.0
-        few = int(self._surface.probe.windows.valid.sum()) < MANY_WINDOWS
-        sure = lost <= LOST_SURELY and self._finding.kind not in UNSURE and not (scanned or few)
-        expected = float(np.exp(LOST_MORE * lost)) * winner.error / noisy * (1.0 if sure or scanned else LEAST)
         known = self._finding.clear and self._drowned < MOST_DROWNED
-        return Forecast(before * self.untreated / noisy, expected, 1.0 if sure else DETAIL, known)
+        guess = self._roughness(self.truth.positions) ** 2
+        drawn, present = (self._roughness(places) ** 2 - guess for places in (self.noisy, self._mesh.given))
+        # Rehearsals draw more noise than there is where triangles are thin.
+        strength = float(np.sqrt(np.clip(present / drawn, *NOISE_OVER))) if drawn > 0.0 else 1.0
+        return Forecast(strength * self.untreated / noisy, winner.error / noisy, known)
 
     @property
     def _drowned(self) -> float:

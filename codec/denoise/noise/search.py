@@ -39,7 +39,7 @@ NARROWER = 1.04
 1.05 (a fractal) to 1.9."""
 ONE_CELL = 0.9  # share of the stairs of a binary volume, from which on all its walls are one cell thick
 ROUNDED_ZEROS = 0.15  # largest share of vertices that show nothing of rounding: shapes drawn on a grid have more
-HEAVY_LEVEL, HEAVY_PASSES = 0.3, 8  # noise turns normals from here on: they are taken from a smoother version
+AXIS_PASSES = 8  # averagings before the normals that tell sides from ends: noise along an axis turns normals far
 AXIS_ALONE, AXIS_EVEN = 1.25, (0.55, 1.7)
 """Noise along an axis over that across; and on sides along the axis over that at its ends: noise along normals reads 0
 to 0.8 there, triangles that are longer one way 1.8 and more."""
@@ -161,13 +161,8 @@ def find_noise(positions: Positions, probe: Probe) -> Finding:
 
 
 def surface(positions: Positions, probe: Probe, edge: float) -> Evidence:
-    """Return what filters see along the normals of a surface as smooth as its noise asks, in mean edges."""
-    for passes in (2, HEAVY_PASSES):
-        normals = probe.smooth_normals(positions, passes)
-        evidence = look(probe, positions / edge, normals, edge)
-        if np.nanquantile(evidence.levels, 0.75) <= HEAVY_LEVEL:
-            break
-    return evidence
+    """Return what filters see along the normals of a surface, in mean edges."""
+    return look(probe, positions / edge, probe.smooth_normals(positions), edge)
 
 
 def suspects(positions: Positions, evidence: Evidence) -> Iterator[Suspect]:
@@ -259,7 +254,7 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
     axis = vectors[:, 2] * np.sign(vectors[np.abs(vectors[:, 2]).argmax(), 2])
     # Cameras and printers are aligned to an axis much more often than nearly aligned.
     axis = np.round(axis) if np.abs(axis).max() > SNAP else axis
-    normals = probe.smooth_normals(positions, HEAVY_PASSES)
+    normals = probe.smooth_normals(positions, AXIS_PASSES)
     facing = np.abs(normals @ axis)
     beside, ends = (chosen & (facing < 0.35)), (chosen & (facing >= 0.7))
     if min(beside.sum(), ends.sum()) < FEWEST_IN_WINDOW:
