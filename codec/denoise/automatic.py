@@ -45,13 +45,16 @@ CANDIDATES = (
     Filter("heights", 0.1, 0.55),
     Filter(TGV, 1.0, 0.25),
 )
-# Noise along the surface, or along an axis, slides vertices, which then go back there.
+# Noise along the surface slides vertices, which then go back there.
 SLIDING = tuple(replace(each, hand_over=each.hand_over.replace("heights", "positions")) for each in CANDIDATES)
+PATCHES = Filter("normals", 0.2, 0.35, "patches")  # makes the first guess where noise is along an axis, or rounding
+# Noise along an axis slides vertices as well.
+AXIAL = (PATCHES, CANDIDATES[0], *(Filter("positions", *way) for way in ((0.4, 0.4), (0.2, 0.25), (0.1, 0.55))))
 SEEN = tuple(Filter(RAYS, keep, sigma_r) for keep, sigma_r in ((0.3, 0.4), (1.0, 0.4), (0.3, 0.25), (1.0, 0.55)))
 STEPPED = (Step(Filter(RAYS, 2.0, 0.4), 2),)
 """For scans of one view; and where depths are in steps, which hide most of the noise from fine filters."""
 FUSED = tuple(Filter(BENDS, weight, 0.3) for weight in (0.15, 0.3, 0.6))
-SPECIAL = {"view": SEEN, "axis": SLIDING[:-1], "fused": FUSED}
+SPECIAL = {"view": SEEN, "axis": AXIAL, "fused": FUSED}
 EVEN, FUSED_UNEVEN, FUSED_MOST = 0.2, 7.0, 2.5
 """For volumes, whose noise is even and as fine as their cells. Noise of cameras is uneven, and too broad to rehearse
 with: the weight of bends over the unevenness, and its bound."""
@@ -144,6 +147,8 @@ def choose(positions: Positions, finding: Finding, surface: Filters, goal: str, 
     level = estimate_noise(chosen, surface.smooth(chosen, filters[0]), surface.probe)
     if general and level.slides:
         filters = SLIDING
+    if finding.kind == "grid":
+        filters = (PATCHES, *filters)
     if general and large:
         filters = filters[:-1]
     known = finding.on(members).reaching(surface.topology, level.slides)

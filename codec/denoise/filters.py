@@ -14,7 +14,7 @@ from bsm.codec.choices import check_options
 from bsm.codec.denoise.bends import flattened
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from bsm.codec.denoise.learnt import Learnt, joined, learnt
-from bsm.codec.denoise.noise.causes import FARTHEST, Cells
+from bsm.codec.denoise.noise.causes import FARTHEST, Cells, Spacing
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.paper import POWER, ROUNDS
@@ -171,8 +171,9 @@ class Filtered:
     def __init__(self, given: Positions, surface: Filters, finding: Finding | None = None) -> None:
         self.given, self._surface, self._topology, self._finding = given, surface, surface.topology, finding
         bound = finding.bound if finding else None
-        self._within = np.asarray if bound is None else partial(bound.within, given)
-        self._guided = GuidedFilter(surface.probe.average @ given, self._topology, self._within)
+        self._noisy = noisy = bound.parted(given, surface.probe) if isinstance(bound, Spacing) else given
+        self._within = np.asarray if bound is None else partial(bound.within, noisy)
+        self._guided = GuidedFilter(surface.probe.average @ noisy, self._topology, self._within)
         self._starts: dict[tuple[str, float], Positions] = {}
         self._results: dict[Step, Positions] = {}
 
@@ -185,7 +186,7 @@ class Filtered:
         return self._guided.iterates(start, GUIDES[filter_.guide], filter_.sigma_r)
 
     def _begun(self, filter_: Filter) -> Positions:
-        noisy, topology = self.given, self._topology
+        noisy, topology = self._noisy, self._topology
         if filter_.hand_over == RAYS:
             assert self._finding is not None and self._finding.view is not None
             return self._finding.view.flattened(noisy, topology, filter_.keep)
@@ -213,16 +214,16 @@ class Filtered:
             return moved
         put = self.planes(result).put(moved, self._topology)
         assert self._finding is not None
-        far = np.linalg.norm(put - self.given, axis=1) > FARTHEST * self._finding.level
+        far = np.linalg.norm(put - self._noisy, axis=1) > FARTHEST * self._finding.level
         return np.where(far[:, None], moved, put)
 
     def planes(self, result: Positions) -> Planes:
         """The planes that explain the noisy mesh where a result, shape (n, 3), shows them."""
         assert self._finding is not None
-        return find_planes(self.given, result, self._finding.level, self._topology)
+        return find_planes(self._noisy, result, self._finding.level, self._topology)
 
     @cached_property
     def learnt(self) -> Learnt:
         """The networks' result."""
         noisy = None if self._finding is None else self._finding.levels > 0.0
-        return learnt(self.given, self._topology, noisy)
+        return learnt(self._noisy, self._topology, noisy)

@@ -21,6 +21,7 @@ from bsm.codec.geometry.welding import weld
 FEWEST_VALUES = 16  # with fewer different values of a coordinate, a grid looks like a few planes
 NEAR = 0.02  # distance from a multiple, in steps, that the six or seven digits of files explain
 SAME = 1e-6  # values closer together, as a share of the extent, are one value
+SPREADS = 3  # averagings that part vertices that rounding has merged: faces without area tell no normal
 FEW_VALUES = 4  # of a coordinate that lies on half-cells
 HALFWAY = 0.98  # share of the vertices of a binary volume that lie halfway between two cells
 ALIKE, TOGETHER = 1e-3, 1e-4  # directions that are one, and coordinates of one level, in extents
@@ -48,6 +49,16 @@ class Spacing:
         # Rounded values are within half a step of the true ones: the one thing that is certain.
         half = np.where(self.steps > 0.0, 0.5 * self.steps, np.inf)
         return np.clip(moved, given - half, given + half)
+
+    def parted(self, rounded: Positions, probe: Probe) -> Positions:
+        """Rounded positions, shape (n, 3); neighbors at one position are drawn to their other neighbors."""
+        starts, members = probe.topology.neighbors
+        owners = np.repeat(np.arange(len(rounded)), np.diff(starts))
+        merged = np.unique(owners[(rounded[owners] == rounded[members]).all(axis=1)])
+        result, around = rounded.copy(), probe.average[merged]
+        for _ in range(SPREADS if len(merged) else 0):
+            result[merged] = self.within(rounded[merged], around @ result)
+        return result
 
 
 def find_grid(positions: Positions) -> Spacing | None:
