@@ -29,7 +29,11 @@ class PresetRow(NamedTuple):
 def _rows() -> tuple[PresetRow, ...]:
     text = Path(__file__).with_name("presets.csv").read_text("utf-8")
     _, *lines = csv.reader(text.splitlines())
-    return tuple(PresetRow(name, *(float(text or 0) for text in numbers), use) for name, *numbers, use in lines)
+    rows = []
+    for line in lines:
+        farthest, look, by_part, frame_look, frame_step = (float(number or 0) for number in line[1:-1])
+        rows.append(PresetRow(line[0], farthest, look, by_part, frame_look, frame_step, line[-1]))
+    return tuple(rows)
 
 
 PRESET_ROWS = _rows()
