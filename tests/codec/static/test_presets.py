@@ -108,7 +108,7 @@ def test_the_best_effort_is_smaller_than_nearby_looks(size: tuple[int, int]) -> 
 def test_steps_are_tried_where_folds_and_congruent_parts_make_bytes_jump(meshes: Path) -> None:
     mesh = read_mesh(str(meshes / "assets/1002_tray_bottom.STL")).mesh.bare
     usual = sizes(mesh, "normal")
-    assert usual["balanced"] <= 1.02 * usual["fine"]
+    assert usual["balanced"] <= 1.03 * usual["fine"]
     assert usual["balanced"] < 1_400
 
 
