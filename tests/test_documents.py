@@ -242,7 +242,7 @@ def test_something_is_found():
 
 # ----------------------------------------------------------------------------------------------- names in documents
 
-PATH = re.compile(r"[\w.-]+(?:/[\w.-]+)+\.(?:py|c|h|hpp|md|sh|json|bin|toml|png|ts|mjs)|[\w-]+/(?:[\w-]+/)*(?=`)")
+PATH = re.compile(r"[\w.-]+(?:/[\w.-]+)+\.(?:py|csv|c|h|hpp|md|sh|json|bin|toml|png|ts|mjs)|[\w-]+/(?:[\w-]+/)*(?=`)")
 PAPERS = (*DOCUMENTS, "codec/PAPER.md", "web/README.md")
 HERE = ("", "codec", "src/bsm", "web", "spec", "bitstream")
 """Folders that paths in documents begin from."""

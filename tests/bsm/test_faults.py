@@ -94,10 +94,10 @@ def test_a_file_that_is_replaced_is_whole_or_the_old_one(folder, tmp_path):
 @pytest.mark.parametrize(
     ("name", "code", "places"),
     [
-        ("bad-checksum-block", 4, ["checksum", "byte", "frame"]),
+        ("bad-checksum-block", 4, ["checksum", "byte", "section"]),
         ("bad-levels-short", 12, ["ends before", "block 0"]),
         ("bad-block-missing", 4, ["missing", "block 0"]),
-        ("bad-connectivity-long", 4, ["left over", "frame 1"]),
+        ("bad-connectivity-long", 4, ["left over", "section 1"]),
         ("unsupported-version", 5, ["version 2"]),
         ("bad-limit-vertices", 6, ["vertices", "limit"]),
         ("bad-not-finite", 7, ["not finite"]),
