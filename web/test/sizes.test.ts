@@ -17,8 +17,8 @@ const LOADS: Record<string, [most: number, files: string[]]> = {
     blocks: [71800, ["small-worker.js", "blocks.wasm"]],
     "static meshes": [89600, ["small-worker.js", "small.wasm"]],
     sequences: [80900, ["small-worker.js", "moving.wasm"]],
-    everything: [126100, ["worker.js", "kernels.wasm"]],
-    encoding: [80900, ["encode-worker.js", "encode.js", "encode.wasm"]],
+    everything: [127500, ["worker.js", "kernels.wasm"]],
+    encoding: [83800, ["encode-worker.js", "encode.js", "encode.wasm"]],
     "the page": [8800, ["three.js"]],
 };
 
