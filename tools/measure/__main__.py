@@ -1,6 +1,7 @@
 """What `tools.replicate` does not measure: `python -m tools.measure WHAT ...`, and `WHAT --help` for what it asks.
 
 attributes  what attributes take, against Draco's
+assets      what decoding assets with normals and texture coordinates takes, over Draco's
 speed       what encoding and decoding take, over Draco's and a file of figures; of MESHes, decoding by bsmdec
 regret      bytes of the default over the least of all ways, each searched alone and for long
 targets     bytes by each kind of target, and how much of it is used, of made meshes or of MESHes
@@ -13,6 +14,7 @@ from tools.command import dispatch
 
 COMMANDS = {
     "attributes": "attributes:main",
+    "assets": "assets:main",
     "fields": "fields:main",
     "speed": "speed:main",
     "regret": "regret:main",
