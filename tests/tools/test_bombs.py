@@ -27,7 +27,7 @@ REFUSED = {
     "moving-frames": (LimitError, "work"),
     "moving-most": (LimitError, "work"),
     "sequence-power": (LimitError, "work"),
-    "seams-many": (LimitError, "work"),
+    "seams-many": (LimitError, "memory"),
     "nested-header": (CorruptError, "a header of"),
     "nested-attribute": (CorruptError, "a declaration of"),
 }

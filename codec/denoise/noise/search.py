@@ -31,6 +31,7 @@ RULES = {
 """Of each kind, the weights of `measures` and a constant: noise is believed if the sum is positive. `tools.train_noise`
 fits them, and names the meshes that it holds out."""
 FAINTEST = 0.03  # level in mean edges, or widths of pixels, below which nothing is suspected
+FAINTEST_SHARED, MUCH_SHARED = 0.024, 0.6  # if whiteness is below the second: fine levels hold little of such noise
 FEWEST_WINDOWS = 5  # for an estimate
 WHITE = 0.82  # whiteness below which noise is correlated
 NEARBY = 4  # rings of a vertex that tell the side where noise ends
@@ -236,7 +237,10 @@ def _seen(positions: Positions, evidence: Evidence) -> Suspect | None:
 def _suspect(rule: str, evidence: Evidence, finding: Finding, windows: Mask | None = None) -> Suspect | None:
     """Return the suspect if values in these windows are as random as noise."""
     chosen = evidence.probe.windows.valid if windows is None else windows
-    if evidence.level(chosen) <= FAINTEST or not evidence.is_random(chosen):
+    faintest = FAINTEST
+    if evidence.whiteness(chosen) < MUCH_SHARED:
+        faintest = FAINTEST_SHARED
+    if evidence.level(chosen) <= faintest or not evidence.is_random(chosen):
         return None
     return Suspect(finding, rule, evidence.measures(chosen))
 
