@@ -19,6 +19,7 @@ from bsm.codec.static.preamble_encoding import Draft
 RUNG = math.log(2.0) / 8.0
 SPARSE = 3  # rungs from one trial to the next, where the search found none that fits
 WORSE = 0.35  # logarithm of a look, by which a way is expected to be worse than another one, and is not opened
+FAR = 0.25  # of the way from a first step to the one that is expected to fit, which may be wrong by so much
 
 
 class SizeSearch:
@@ -44,6 +45,7 @@ class SizeSearch:
     def _promising(self, ways: list[Way], most: float) -> list[Way]:
         """Return the ways whose steps at the size are not expected to look much worse than those of another way."""
         finest: dict[str, float] = {}
+        errors: dict[str, float] = {}
         rival = math.inf
         for way in ways:
             try:
@@ -53,10 +55,12 @@ class SizeSearch:
             rival = min(rival, estimate.size)
             self._trace.note("estimate", way.name, step=way.first, size=estimate.size)
             over = estimate.size + self._additions - most
-            finest[way.name] = math.log(way.first) + over / max(estimate.saving, 1.0)
+            distance = over / max(estimate.saving, 1.0)
+            finest[way.name] = math.log(way.first) + distance
+            errors[way.name] = FAR * abs(distance)
         self.usual_size = rival + self._additions
-        least = min(finest.values())
-        promising = [way for way in ways if finest.get(way.name, math.inf) <= least + WORSE]
+        least = min(finest[name] + errors[name] for name in finest)
+        promising = [way for way in ways if way.name in finest and finest[way.name] - errors[way.name] <= least + WORSE]
         return sorted(promising, key=lambda way: finest[way.name])
 
     def _fitting(self, way: Way, most: float) -> list[Trial]:

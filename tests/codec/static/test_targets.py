@@ -174,6 +174,17 @@ def test_coarse_targets_are_used_up_and_take_fewer_bytes(what: str, values: tupl
 
 
 @pytest.mark.real
+def test_a_size_far_beyond_the_default_looks_no_worse(meshes: Path) -> None:
+    mesh = read_mesh(str(meshes / "static" / "block.ply")).mesh.bare
+    looks = []
+    for size in (20_000, 24_400, 35_000):  # steps 100 times finer than the usual one
+        data = encode(mesh, replace(PRESETS["none"], target=Target("size", size)))
+        assert len(data) <= size
+        looks.append(bsm.look(mesh, decode(data)).distance)
+    assert looks[0] < 0.05 and all(larger <= 1.02 * smaller + 0.002 for smaller, larger in pairwise(looks))
+
+
+@pytest.mark.real
 def test_a_coarse_angle_is_kept_by_blocks_alone(meshes: Path) -> None:
     mesh = read_mesh(str(meshes / "static" / "c3d_spot.ply")).mesh.bare
     result = Encoder(mesh, replace(PRESETS["none"], target=Target("theta_deg", 10.0))).result()
