@@ -162,13 +162,32 @@ def test_no_scheduler(sources, tmp_path, capsys):
 # ----------------------------------------------------------------------------------------------------------- processes
 
 
+DEADLY_BATCH = """
+import json, sys
+from pathlib import Path
+from bsm.ground.console import Console
+from bsm.jobs.run import Batch, run_many
+from bsm.jobs.task import Job, Task
+from tests.bsm.deadly import deadly
+
+folder, *names = sys.argv[1:]
+jobs = [Job(name, str(Path(folder, name))) for name in names]
+heard = []
+quiet = Task(quiet=True), Console(quiet=True)
+done = run_many(Batch(jobs=2), *quiet, deadly, jobs, lambda job, _: heard.append(job.input))
+print(json.dumps({"heard": heard, "done": done}))
+"""
+"""In a process of its own: threads of the cluster above may run in this one."""
+
+
 def test_a_process_that_dies_takes_only_its_own_job_along(tmp_path):
     names = ["a", "b", "once", "c", "fault", "always", "d", "e"]
-    jobs = [Job(name, str(tmp_path / name)) for name in names]
-    heard = []
-    quiet = Task(quiet=True), Console(quiet=True)
-    done = run_many(Batch(jobs=2), *quiet, deadly, jobs, lambda job, _: heard.append(job.input))
-    assert heard == names == [facts["input"] for facts in done]
+    command = [sys.executable, "-c", DEADLY_BATCH, str(tmp_path), *names]
+    process = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=120, check=False)
+    assert process.returncode == 0, process.stderr
+    result = json.loads(process.stdout)
+    done = result["done"]
+    assert result["heard"] == names == [facts["input"] for facts in done]
     assert {facts["input"]: facts["exit"] for facts in done if "error" in facts} == {"fault": 1, "always": 6}
     assert "KeyError" in done[4]["error"] and "please report" in done[4]["error"]
     left = {name for name in contents(tmp_path) if not name.endswith(".part")}
