@@ -86,7 +86,7 @@ def without_names(sentence: str) -> str:
 
 
 def file_in_form(content_type: str, body: bytes) -> bytes:
-    """Return the first file of a form, as `curl -F file=@bunny.ply` sends it, or the body if it is no form."""
+    """Return the first file of a form, which `curl -F file=@bunny.ply` sends. Other bodies are returned whole."""
     boundary = re.fullmatch(r'multipart/form-data\s*;.*?boundary="?([\w\'()+,./:=? -]{1,70}?)"?\s*', content_type)
     if boundary is None:
         return body

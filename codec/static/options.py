@@ -39,7 +39,7 @@ RANGES: dict[str, tuple[float, float]] = {
 
 
 PROMISES = {row.name: Contract(row.farthest, look=row.look, by_part=row.by_part) for row in PRESET_ROWS if row.farthest}
-BALANCED = PROMISES[DEFAULT]  # what is promised unless something else is asked for
+BALANCED = PROMISES[DEFAULT]  # the promise without options
 
 
 @public

@@ -19,7 +19,7 @@ from bsm import BsmError, Limits
 from bsm.cli import main as program
 from tests.shapes import torus
 
-FOOT = 16  # bytes behind the index: its length, and how the file ends
+FOOT = 16  # bytes at the end of a file: the length of the index and a mark
 MOST_SECONDS = 20
 NAMES = st.sampled_from(["", "r", "r0", "00000.tiles", "../a", "\0", "x" * 5000])
 NUMBERS = st.integers(-(2**70), 2**70) | st.sampled_from([0, 1, 2**53, 2**63, 10**290, 10**400]) | st.floats()
@@ -82,7 +82,7 @@ def sound(folder):
 
 @contextmanager
 def in_time():
-    """Fail after some seconds of processor time: a busy disk is no fault."""
+    """Fail after some seconds of processor time, so that a busy disk does not count."""
 
     def late(*_):
         raise AssertionError(f"not done after {MOST_SECONDS} s")
@@ -118,7 +118,7 @@ def test_mutated_tiles_end_in_results_or_errors_of_ours(folder, sound, tmp_path_
     manifest = copy.deepcopy(manifest)
     (shard,) = manifest["shards"]
     name = shard["file"]
-    # Sums and sizes are right again, unless these are what is changed.
+    # Checksums and sizes are corrected, unless the mutation is in them.
     shard |= {"size": len(shard_data), "index": len(text), "sha256": sha256(text).hexdigest()}
     if isinstance(changed_index, list):
         shard["tiles"] = len(changed_index)

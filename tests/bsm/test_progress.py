@@ -267,7 +267,7 @@ def test_stages_count_by_the_seconds_that_they_are_expected_to_take():
 
 @pytest.mark.parametrize("seconds_a_frame", [0.001, 0.02, 0.5])
 def test_the_estimate_of_frames_that_are_read_and_encoded_is_near(seconds_a_frame):
-    """The clock is a list, and encoding takes three quarters of what was expected of it."""
+    """Read the clock from a list, in which encoding takes three quarters of its expected time."""
     frames, expected, really = 300, 4.0, 3.0
     now = [0.0]
     estimates = []
