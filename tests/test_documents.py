@@ -40,7 +40,7 @@ BY_CI = r"\.ci/|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.attack|too
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bunny_34834"
 HELP_ONLY = (
-    r"tools\.(?:release|pictures|blender|charges|vectors|processors|replicate)|measure (?:speed|targets)"
+    r"tools\.(?:release|pictures|blender|charges|vectors|processors|replicate)|measure (?:assets|speed|targets)"
     r"|s3://|bsm view"
 )
 """What would change the repository, and does so in tests of its own, needs machines of others, or takes time."""
