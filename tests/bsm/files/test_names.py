@@ -393,6 +393,100 @@ def test_instances_have_their_own_colors_materials_and_values(tmp_path):
     assert attribute(mesh, "heat").values[:, 0].tolist() == [0, 0, 1, 2, 3]
 
 
+def scene_of_collada(path):
+    """Three nodes of one geometry, whose material each of them binds."""
+
+    def node(place, material):
+        bound = f'<instance_material symbol="M" target="#{material}"/>'
+        bound = f"<bind_material><technique_common>{bound}</technique_common></bind_material>"
+        instance = f'<instance_geometry url="#g">{bound}</instance_geometry>'
+        return f"<node><translate>{place} 0 0</translate><scale>2 2 2</scale>{instance}</node>"
+
+    def effect(name, color):
+        shading = f"<lambert><diffuse><color>{color} 1</color></diffuse></lambert>"
+        return f'<effect id="e{name}"><profile_COMMON><technique>{shading}</technique></profile_COMMON></effect>'
+
+    names = ("Red", "Blue")
+    materials = "".join(f'<material id="{n}" name="{n}"><instance_effect url="#e{n}"/></material>' for n in names)
+    axes = "".join(f'<param name="{axis}" type="float"/>' for axis in "XYZ")
+    accessor = f'<accessor source="#a" count="3" stride="3">{axes}</accessor>'
+    path.write_text(f"""<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+        <asset><up_axis>Y_UP</up_axis></asset>
+        <library_effects>{effect("Red", "1 0 0")}{effect("Blue", "0 0 1")}</library_effects>
+        <library_materials>{materials}</library_materials>
+        <library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0
+        </float_array><technique_common>{accessor}</technique_common></source>
+        <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+        <triangles count="1" material="M"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+        </mesh></geometry></library_geometries>
+        <library_visual_scenes><visual_scene id="s">{node(0, "Red")}{node(3, "Blue")}{node(6, "Red")}</visual_scene>
+        </library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>""")
+
+
+def scene_of_3mf(path):
+    """Two objects of one material each, the first of them placed twice, as lib3mf writes them."""
+    lib3mf = pytest.importorskip("lib3mf")
+    wrapper = lib3mf.get_wrapper()
+    model = wrapper.CreateModel()
+    materials = model.AddBaseMaterialGroup()
+    red = materials.AddMaterial("Red", wrapper.RGBAToColor(255, 0, 0, 255))
+    blue = materials.AddMaterial("Blue", wrapper.RGBAToColor(0, 0, 255, 255))
+    points = [lib3mf.Position(point) for point in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))]
+    triangles = [lib3mf.Triangle(corners) for corners in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))]
+    objects = []
+    for material in (red, blue):
+        shape = model.AddMeshObject()
+        shape.SetGeometry(points, triangles)
+        shape.SetObjectLevelProperty(materials.GetResourceID(), material)
+        objects.append(shape)
+    for shape, place in ((objects[0], 0), (objects[1], 3), (objects[0], 6)):
+        doubled = ((2, 0, 0), (0, 2, 0), (0, 0, 2), (place, 0, 0))
+        rows = [(lib3mf.ctypes.c_float * 3)(*row) for row in doubled]
+        model.AddBuildItem(shape, lib3mf.Transform((lib3mf.ctypes.c_float * 3 * 4)(*rows)))
+    model.QueryWriter("3mf").WriteToFile(str(path))
+
+
+def scene_of_gltf(path):
+    """Two meshes of the same accessors and one material each, the first of them placed twice."""
+    pygltflib = pytest.importorskip("pygltflib")
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
+    document = pygltflib.GLTF2(scene=0, scenes=[pygltflib.Scene(nodes=[0, 1, 2])])
+    for name, color in (("Red", [1, 0, 0, 1]), ("Blue", [0, 0, 1, 1])):
+        surface = pygltflib.PbrMetallicRoughness(baseColorFactor=color)
+        part = pygltflib.Primitive(attributes=pygltflib.Attributes(POSITION=0), material=len(document.materials))
+        document.materials.append(pygltflib.Material(name=name, pbrMetallicRoughness=surface))
+        document.meshes.append(pygltflib.Mesh(primitives=[part]))
+    for mesh, place in ((0, 0), (1, 3), (0, 6)):
+        document.nodes.append(pygltflib.Node(mesh=mesh, translation=[place, 0, 0], scale=[2, 2, 2]))
+    bounds = {"min": [0, 0, 0], "max": [1, 1, 0]}
+    document.accessors = [pygltflib.Accessor(bufferView=0, componentType=5126, count=3, type="VEC3", **bounds)]
+    document.bufferViews = [pygltflib.BufferView(buffer=0, byteLength=points.nbytes)]
+    document.buffers = [pygltflib.Buffer(byteLength=points.nbytes)]
+    document.set_binary_blob(points.tobytes())
+    document.save_binary(str(path))
+
+
+@pytest.mark.parametrize(
+    ("suffix", "write", "color"),
+    [("dae", scene_of_collada, "Kd"), ("3mf", scene_of_3mf, "Kd"), ("glb", scene_of_gltf, "baseColorFactor")],
+)
+def test_placed_parts_keep_their_place_and_material(suffix, write, color, tmp_path):
+    write(tmp_path / f"a.{suffix}")
+    mesh = read_mesh(tmp_path / f"a.{suffix}").mesh
+    parts = attribute(mesh, "part").values[:, 0]
+    spans = []
+    materials = []
+    for part in range(3):
+        corners = mesh.positions[mesh.faces[parts == part]].reshape(-1, 3)
+        spans.append((corners[:, 0].min(), corners[:, 0].max()))
+        materials.append(set(attribute(mesh, "material").values[parts == part, 0]))
+    assert spans == [(0, 2), (3, 5), (6, 8)]
+    assert materials == [{0}, {1}, {0}]
+    for number, expected in ((0, ("Red", "1 0 0")), (1, ("Blue", "0 0 1"))):
+        assert mesh.metadata[f"material.{number}.name"] == expected[0]
+        assert mesh.metadata[f"material.{number}.{color}"][:5] == expected[1]
+
+
 def test_a_surface_of_subdivision_is_said_to_be_one(tmp_path):
     pytest.importorskip("pxr.Usd")
     (tmp_path / "a.usda").write_text(SCENE.replace('uniform token subdivisionScheme = "none"', ""))
