@@ -5,20 +5,26 @@
  *
  * Three states: cold (nothing is cached), cached (the decoder comes from the cache of the browser and is compiled), and
  * warm (the page has decoded another mesh). The link is made by the server, which sends all bytes one after the other at
- * a rate: Chromium emulates none for threads. Times are the least of all rounds, from the call of the loader; processor
- * time is that of the whole renderer. STATES names some of the states. MESHES is a folder with static/*.ply; PYTHON names a Python that has bsm[eval].
+ * a rate (0: without one): Chromium emulates none for threads. Times are the least of all rounds, from the call of the
+ * loader; processor time is that of the whole renderer. STATES names some of the states. MESHES is a folder with
+ * static/*.ply, or scenes with commas between them (a.glb,b.glb): these by GLTFLoader, as gltfpack -cc (GLTFPACK names
+ * its command) and by `bsm glb`, default and `--quick`. PYTHON names a Python that has bsm[eval].
  */
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readdirSync, readFileSync, renameSync, rmSync } from "node:fs";
 import { createServer } from "node:http";
 import { tmpdir } from "node:os";
-import { extname, join } from "node:path";
+import { basename, extname, join } from "node:path";
 import { brotliCompressSync } from "node:zlib";
 import { MeshoptEncoder } from "meshoptimizer";
 import { chromium } from "playwright-core";
 import { WEB } from "./kernels.mjs";
 
-const NAMES = [
+const [meshes, rounds = "3", ...rates] = process.argv.slice(2);
+if (!meshes) throw new Error("name a folder of meshes, or scenes");
+const SCENES = meshes.split(",").filter((path) => path.endsWith(".glb"));
+const OF_SCENES = SCENES.length > 0;
+const KNOWN = [
     "c3d_spot",
     "gargoyle_10002",
     "dragon_22998",
@@ -28,7 +34,12 @@ const NAMES = [
     "fandisk_6475",
     "fr_casting",
 ];
-const WAYS = ["draco", "meshopt", "default", "quick", "near"]; // near: quick, by the loader with its decoder inside
+const NAMES = OF_SCENES ? SCENES.map((path) => basename(path, ".glb")) : KNOWN;
+/** How the page loads each kind of file. */
+const WAYS = OF_SCENES
+    ? { gltfpack: "gltfpack", default: "scene", quick: "scene" }
+    : { draco: "draco", meshopt: "meshopt", default: "bsm", quick: "bsm", near: "near" };
+// near: quick, by the loader with its decoder inside
 const STATES = (process.env.STATES ?? "cold cached warm").split(" ");
 const PIECE = 4096; // bytes that are sent at a time
 const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
@@ -73,6 +84,20 @@ const ways = {
             MeshoptDecoder.decodeIndexBuffer(faces, corners, 4, data.subarray(12 + split));
         };
     },
+    gltfpack: async () => {
+        const [{ GLTFLoader }, { MeshoptDecoder }] = await Promise.all([
+            import("three/addons/loaders/GLTFLoader.js"),
+            import("three/addons/libs/meshopt_decoder.module.js"),
+        ]);
+        return whole(new GLTFLoader().setMeshoptDecoder(MeshoptDecoder));
+    },
+    scene: async () => {
+        const [{ GLTFLoader }, { GLTFBSMExtension }] = await Promise.all([
+            import("three/addons/loaders/GLTFLoader.js"),
+            import("/bsm/gltf.js"),
+        ]);
+        return whole(new GLTFLoader().register((parser) => new GLTFBSMExtension(parser)));
+    },
     bsm: (file = "three") => async () => {
         const { BSMLoader } = await import("/bsm/" + file + ".js");
         const loader = new BSMLoader();
@@ -93,11 +118,24 @@ window.load = async (way, url) => {
 window.three = import("three"); // which the page has anyway
 `;
 
-const [meshes, rounds = "3", ...rates] = process.argv.slice(2);
-if (!meshes) throw new Error("name a folder of meshes");
+const PYTHON = process.env.PYTHON ?? "python3";
 const folder = process.env.ARRIVAL ?? mkdtempSync(join(tmpdir(), "bsm-arrival-")); // ARRIVAL: a folder that keeps them
 if (!existsSync(join(folder, `${NAMES.at(-1)}-quick`)))
-    execFileSync(process.env.PYTHON ?? "python3", ["-c", PREPARE, meshes, folder, ...NAMES], { stdio: "inherit" });
+    if (OF_SCENES) SCENES.forEach(prepareScene);
+    else execFileSync(PYTHON, ["-c", PREPARE, meshes, folder, ...NAMES], { stdio: "inherit" });
+
+/** A scene as each way has it. */
+function prepareScene(path) {
+    const program = process.env.GLTFPACK ?? "gltfpack";
+    const make = (way, command, ...args) => {
+        const made = join(folder, `${basename(path, ".glb")}-${way}`);
+        execFileSync(command, [...args, "-o", `${made}.glb`], { stdio: "inherit" }); // which all of them ask for
+        renameSync(`${made}.glb`, made);
+    };
+    make("gltfpack", program, "-i", path, "-cc");
+    make("default", PYTHON, "-m", "bsm", "glb", path, "-f", "-q");
+    make("quick", PYTHON, "-m", "bsm", "glb", path, "-f", "-q", "--quick");
+}
 
 /** A mesh by meshoptimizer: counts, vertices, faces, as GLB has them. */
 async function meshoptOf(name) {
@@ -117,7 +155,7 @@ async function meshoptOf(name) {
 
 const files = new Map();
 for (const name of NAMES)
-    for (const way of WAYS) {
+    for (const way of Object.keys(WAYS)) {
         const data =
             way === "meshopt"
                 ? await meshoptOf(name)
@@ -136,7 +174,8 @@ const bodyOf = (path) => {
 // No page waits until a file is compressed: servers have done that before.
 for (const name of readdirSync(join(WEB, "built"))) bodyOf(`/bsm/${name}`);
 for (const name of ["draco_decoder.wasm", "draco_wasm_wrapper.js"]) bodyOf(BASE + name);
-for (const name of ["loaders/DRACOLoader.js", "libs/meshopt_decoder.module.js"]) bodyOf(`/three/examples/jsm/${name}`);
+for (const name of ["loaders/DRACOLoader.js", "loaders/GLTFLoader.js", "libs/meshopt_decoder.module.js"])
+    bodyOf(`/three/examples/jsm/${name}`);
 
 let rate = Infinity; // bits in a millisecond
 let free = 0; // when the link has sent all that waits
@@ -196,16 +235,18 @@ async function arrival(name, way, state) {
             await page.evaluate(() => window.three);
             return page;
         };
-        const kind = WAYS.indexOf(way) < 2 || way === "near" ? way : "bsm";
         const load = (page, mesh) =>
-            page.evaluate(([kind, url]) => window.load(kind, url), [kind, `/file/${mesh}-${way}?${Math.random()}`]);
+            page.evaluate(
+                ([kind, url]) => window.load(kind, url),
+                [WAYS[way], `/file/${mesh}-${way}?${Math.random()}`],
+            );
         let page = await open();
         if (state !== "cold") await load(page, name); // the decoder that this stream needs
         if (state === "cached") {
             await page.close();
             page = await open();
         }
-        [rate, free] = [link * 1000, 0];
+        [rate, free] = [link === 0 ? Infinity : link * 1000, 0];
         const before = await spent();
         const times = await load(page, name);
         return { ...times, cpu: 1000 * ((await spent()) - before) };
@@ -219,15 +260,16 @@ try {
     for (link of rates.length > 0 ? rates.map(Number) : [3, 10, 50])
         for (const state of STATES) {
             console.log(`\n${link} Mbit/s, ${state}: bytes; ms to the first and to the whole picture; processor ms`);
-            console.log(`| | ${WAYS.join(" | ")} |\n|---|${"---:|".repeat(WAYS.length)}`);
+            const ways = Object.keys(WAYS);
+            console.log(`| | ${ways.join(" | ")} |\n|---|${"---:|".repeat(ways.length)}`);
             for (const name of NAMES) {
                 const cells = [];
-                for (const way of WAYS) {
+                for (const way of ways) {
                     const found = [];
                     for (let k = 0; k < Number(rounds); k++) found.push(await arrival(name, way, state));
                     const least = (what) => Math.round(Math.min(...found.map((each) => each[what])));
                     const bytes = files.get(`/file/${name}-${way}`).length.toLocaleString("en");
-                    const isWhole = WAYS.indexOf(way) < 2;
+                    const isWhole = !["bsm", "near"].includes(WAYS[way]);
                     const first = isWhole ? "" : `${least("first")}, `;
                     cells.push(`${bytes}; ${first}${least("whole")}; ${least("cpu")}`);
                 }
