@@ -1,6 +1,5 @@
 """Outputs appear as a whole or not at all, whichever process ends, and workers end with their parent."""
 
-import errno
 import os
 import signal
 import stat
@@ -21,7 +20,7 @@ from bsm.jobs import plan as plan_module
 from bsm.jobs.plan import plan
 from bsm.jobs.run import task_of
 from bsm.jobs.task import Task
-from tests.bsm.program import contents
+from tests.bsm.program import bound, contents, python
 from tests.shapes import torus
 
 
@@ -145,14 +144,14 @@ def test_a_device_is_written_to_as_it_is():
     assert stat.S_ISCHR(os.stat("/dev/null").st_mode)
 
 
-def test_a_full_disk_leaves_nothing_behind(tmp_path, monkeypatch):
-    def full(handle):
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-    monkeypatch.setattr(os, "fsync", full)
-    with pytest.raises(OSError, match="No space left"), open_output(tmp_path / "a") as file:
-        file.write(b"whole")
-    assert contents(tmp_path) == {}
+@pytest.mark.skipif(sys.platform == "win32", reason="no bounds of processes")
+def test_a_file_that_does_not_fit_leaves_nothing_behind(tmp_path):
+    save(torus(60, 40), tmp_path / "a.ply")
+    before = contents(tmp_path)
+    words = ["-B", "-m", "bsm", "encode", tmp_path / "a.ply", "--quiet"]
+    done = python(*words, preexec_fn=bound("RLIMIT_FSIZE", 100), text=True)
+    assert done.returncode == 9 and "File too large" in done.stderr
+    assert contents(tmp_path) == before
 
 
 def test_threads_do_not_read_the_mask_while_another_does(tmp_path, monkeypatch):

@@ -270,19 +270,21 @@ def test_a_textured_tile_shows_what_the_mesh_shows(tmp_path, suffix):
     assert tree["root"]["geometricError"] == 16 * next(entry for _, entry in tiles.all() if entry.name == "r").error
 
 
-def test_pieces_of_an_obj_are_read_as_the_whole(tmp_path, monkeypatch):
+def test_pieces_of_an_obj_are_read_as_the_whole(tmp_path):
     image = pytest.importorskip("PIL.Image")
     image.new("RGB", (2, 2), (255, 0, 0)).save(tmp_path / "red.png")
     (tmp_path / "a.mtl").write_text("newmtl red\nmap_Kd red.png\nnewmtl plain\n")
     points = [f"v {x} {y} 0\nvt {x / 9} {y / 9}\n" for y in range(9) for x in range(9)]
     squares = [f"f {a}/{a} {a + 1}/{a + 1} {a + 10}/{a + 10} {a + 9}/{a + 9}\n" for a in range(1, 72) if a % 9]
     last = "v 0 0 1\nvt 1 1\nusemtl plain\nf 1 2 -1\nf 2/-1 3/1 -1\n"
-    (tmp_path / "a.obj").write_text("mtllib a.mtl\n" + "".join(points) + "usemtl red\n" + "".join(squares) + last)
     found = []
-    for size in (1 << 23, 100):
-        monkeypatch.setattr(reading, "_TEXT", size)
-        (folder := tmp_path / str(size)).mkdir()
-        raw = reading.read_big(str(tmp_path / "a.obj"), None, folder, Console(quiet=True))
+    # Comments take most of a piece, so that the few lines of the second file are in many pieces.
+    for name, comment in (("short", "#\n"), ("long", "#" + 700_000 * " " + "\n")):
+        lines = ["mtllib a.mtl\n", *points, "usemtl red\n", *squares]
+        parts = ["".join(lines[begin : begin + 16]) for begin in range(0, len(lines), 16)]
+        (tmp_path / f"{name}.obj").write_text(comment.join([*parts, last]))
+        (folder := tmp_path / name).mkdir()
+        raw = reading.read_big(str(tmp_path / f"{name}.obj"), None, folder, Console(quiet=True))
         assert raw.textures == 2 and not raw.left_out
         found.append(contents(folder))
     assert found[0] == found[1]
@@ -478,16 +480,29 @@ def test_damage_is_reported(folder, tmp_path, harm):
 
 
 @pytest.mark.parametrize("ranges", [True, False])
-def test_tiles_behind_urls(mesh, folder, tmp_path, monkeypatch, ranges):
-    memory = pytest.importorskip("fsspec").filesystem("memory")
+def test_tiles_behind_urls(mesh, folder, tmp_path, ranges):
+    fsspec = pytest.importorskip("fsspec")
+    memory = fsspec.filesystem("memory")
     bsm.save(mesh, tmp_path / "mesh.ply")
     tile(tmp_path / "mesh.ply", "memory://tiles/out", "--grid-cell", CELL, "--triangles", 700, "--work", tmp_path / "w")
     assert {name: memory.cat(f"/tiles/out/{name}") for name in contents(folder)} == contents(folder)
-    if not ranges:
-        whole = type(memory).cat_file
-        monkeypatch.setattr(type(memory), "cat_file", lambda self, path, **_: whole(self, path))
-    assert same(bsm.open_tiles("memory://tiles/out").region((-9, -9, -9), (9, 9, 9)), mesh)
-    assert program("verify", "memory://tiles/out/").returncode == 0
+
+    class Whole(type(memory)):
+        """A server that knows no ranges."""
+
+        protocol = "whole"
+
+        @classmethod
+        def _strip_protocol(cls, path):
+            return super()._strip_protocol(path.replace("whole://", "memory://"))
+
+        def cat_file(self, path, **_):
+            return super().cat_file(path)
+
+    fsspec.register_implementation("whole", Whole, clobber=True)
+    place = "memory://tiles/out" if ranges else "whole://tiles/out"
+    assert same(bsm.open_tiles(place).region((-9, -9, -9), (9, 9, 9)), mesh)
+    assert program("verify", f"{place}/").returncode == 0
     memory.rm("/tiles", recursive=True)
 
 

@@ -244,8 +244,7 @@ def test_late_joiners_enter_at_the_run_of_a_mesh_of_its_own():
     assert b"frame_rate" in head
 
 
-def test_pages_that_have_gone_are_let_go_of(monkeypatch):
-    monkeypatch.setattr("bsm.viewer.page._PATIENCE", 0.05)
+def test_pages_that_have_gone_are_let_go_of():
     growing = Arrival("sway.bsm")
     growing.take(MAGIC)
     with serving(growing) as server:

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,12 +12,13 @@ from bsm import Contract
 from bsm.codec.arrays import Matrix
 from bsm.codec.look.foreseen import Foresight
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.sequence.step_search import Measured, StepSearch, _evening, _foretold
+from bsm.codec.sequence.step_search import Measured, StepSearch, Tried, _evening, _foretold
 from bsm.codec.sequence.targets import compare_sequences
 from bsm.codec.static.units import Units
 from tests.motion import bending
 
 UNITS = Units((0.0, 0.0, 0.0), 1.0)
+FAR = Contract(0.02)
 
 
 def kept(
@@ -115,59 +115,51 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
     assert max(seen[index] for index in drawn) > 0.9 * max(seen.values())
 
 
-@dataclass
-class Tried:
-    """Frames whose look falls to an eighth where a fold closes, at a step below 0.00014."""
+class Encoding:
+    """Frames of which one vertex is off by a share of the bound, and their size."""
 
-    step: float
-
-    @property
-    def size(self) -> int:
-        return round(1.0 / self.step)
-
-    @property
-    def share(self) -> float:
-        return math.exp(0.35 * math.log(self.step / 0.00014) + 0.3) if self.step > 0.00014 else 0.13
+    def __init__(self, frames: np.ndarray, step: float, share: float, size: float) -> None:
+        self.frames, self.step, self.share, self.size = frames, step, share, round(size)
 
     def decoded_frames(self) -> Iterator[Matrix]:
-        yield np.full((1, 3), self.share)
+        for frame in self.frames:
+            decoded = frame.copy()
+            decoded[0, 0] += self.share * FAR.farthest
+            yield decoded
 
 
-def test_a_search_does_not_end_far_below_its_bound(monkeypatch: pytest.MonkeyPatch) -> None:
-    def measured(search: StepSearch, decoded: Sequence[Matrix]) -> Measured:
-        return Measured(float(decoded[0][0, 0]), np.zeros(0), {})
-
-    monkeypatch.setattr(StepSearch, "_measure", measured)
-    search = StepSearch(*bending(4), Contract(0.02), UNITS, 1)
-    found = search.run(lambda step, _: Tried(step), 0.0033, 1e-6, weighed=False)
-    assert 0.88 * 0.00014 < found.step <= 0.00014
+def search_of(frames: int = 4, kind: type[StepSearch] = StepSearch) -> tuple[StepSearch, np.ndarray]:
+    """A search for a bound on vertex errors, and its frames."""
+    positions, faces = bending(frames)
+    return kind(positions, faces, FAR, UNITS, 1), positions
 
 
-def test_a_search_ends_when_another_attempt_saves_less_than_its_price(monkeypatch: pytest.MonkeyPatch) -> None:
-    tried: list[float] = []
+def test_a_search_does_not_end_far_below_its_bound() -> None:
+    """The share falls to an eighth where a fold closes, at a step below 0.00014."""
+    search, frames = search_of()
 
-    @dataclass
-    class Smooth(Tried):
-        @property
-        def share(self) -> float:
-            return self.step / 0.005
+    def encode(step: float, _: Matrix) -> Encoding:
+        share = 1.35 * (step / 0.00014) ** 0.35 if step > 0.00014 else 0.13
+        return Encoding(frames, step, share, 1.0 / step)
 
-        @property
-        def size(self) -> int:
-            return round(1e6 / math.sqrt(self.step))
-
-    def encode(step: float, _: Matrix) -> Smooth:
-        tried.append(step)
-        return Smooth(step)
-
-    monkeypatch.setattr(StepSearch, "_measure", lambda _, decoded: Measured(float(decoded[0][0, 0]), np.zeros(0), {}))
-    for first in (0.0005, 0.00495, 0.05):
-        tried.clear()
-        found = StepSearch(*bending(4), Contract(0.02), UNITS, 1).run(encode, first, 1e-6, weighed=True)
-        assert 0.9 * 0.005 < found.step <= 0.005 and len(tried) == (1 if first == 0.00495 else 2)
+    encoding = search.run(encode, 0.0033, 1e-6, weighed=False)
+    assert 0.88 * 0.00014 < encoding.step <= 0.00014
 
 
-@pytest.mark.parametrize("hidden", [3, 17])
+def test_a_search_ends_when_another_attempt_saves_less_than_its_price() -> None:
+    for first, attempts in ((0.0005, 2), (0.00495, 1), (0.05, 2)):
+        steps: list[float] = []
+        search, frames = search_of()
+
+        def encode(step: float, _: Matrix, steps: list[float] = steps, frames: np.ndarray = frames) -> Encoding:
+            steps.append(step)
+            return Encoding(frames, step, step / 0.005, 1e6 / math.sqrt(step))
+
+        encoding = search.run(encode, first, 1e-6, weighed=True)
+        assert 0.9 * 0.005 < encoding.step <= 0.005 and len(steps) == attempts
+
+
+@pytest.mark.parametrize("hidden", [4, 17])
 def test_a_frame_in_doubt_is_drawn_before_an_encoding_is_returned(hidden: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """A frame that errors of normals do not tell of is found, and the search goes on from it."""
     look = StepSearch._look
@@ -176,73 +168,63 @@ def test_a_frame_in_doubt_is_drawn_before_an_encoding_is_returned(hidden: int, m
         return look(search, index, decoded) * (1.5 if index == hidden else 1.0)
 
     monkeypatch.setattr(StepSearch, "_look", worse)
-    monkeypatch.setattr("bsm.codec.sequence.step_search.KNOTS", 2)
     positions, faces = bending(20)
     positions[hidden] += 0.003 * np.random.default_rng(0).standard_normal(positions[hidden].shape)
     _, original, decoded, found = kept(positions, faces, Contract(0.02, look=1.0))
     assert max(looks(original[[hidden]], decoded[[hidden]], found)) <= 1.001 / 1.5
 
 
-def test_frames_that_are_only_expected_to_exceed_the_bound_are_drawn_before_an_encoding_is_thrown_away(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_frames_that_are_only_expected_to_exceed_the_bound_are_drawn_before_an_encoding_is_thrown_away() -> None:
     """One frame of ten looks much better than its error of normals tells: all others would seem to exceed."""
-    positions, faces = bending(10)
-    errors, shares = np.full(10, 1.0), {4: 0.99}
-    monkeypatch.setattr(StepSearch, "_look", lambda search, index, decoded: shares.get(index, 0.5))
-    errors[4] = 0.5
+    foreseen = np.full(10, 1.0)
+    foreseen[4] = 0.5
     attempts = []
 
-    def measured(search: StepSearch, decoded: Sequence[Matrix]) -> Measured:
-        attempts.append(decoded)
-        return Measured(0.5, errors, {4: 0.99}, {frame: math.log(0.5) for frame in range(10) if frame != 4})
+    class Expecting(StepSearch):
+        def _measure(self, decoded: Sequence[Matrix]) -> Measured:
+            attempts.append(decoded)
+            return Measured(0.5, foreseen, {4: 0.99}, {frame: math.log(0.5) for frame in range(10) if frame != 4})
 
-    monkeypatch.setattr(StepSearch, "_measure", measured)
-    search = StepSearch(positions, faces, Contract(0.02, look=1.0), UNITS, 1)
-    search.run(lambda step, _: Tried(step), 0.0033, 1e-6, weighed=True)
+        def _look(self, index: int, decoded: Sequence[Matrix]) -> float:
+            return 0.99 if index == 4 else 0.5
+
+    positions, faces = bending(10)
+    search = Expecting(positions, faces, Contract(0.02, look=1.0), UNITS, 1)
+    search.run(lambda step, _: Encoding(positions, step, 0.5, 1.0 / step), 0.0033, 1e-6, weighed=True)
     assert len(attempts) < 5 and search.worst_look == pytest.approx(0.99)
 
 
-@pytest.mark.parametrize("fits", [0.0, 0.0004])
-def test_a_search_that_runs_out_of_attempts_ends_in_a_finer_stream(
-    fits: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The bound is kept only far below the steps that attempts lead to; one below `fits` cannot be coded."""
+@pytest.mark.parametrize("least", [0.0, 0.0004])
+def test_a_search_that_runs_out_of_attempts_ends_in_a_finer_stream(least: float) -> None:
+    """The bound is kept only far below the steps that attempts lead to; one below `least` cannot be coded."""
+    for first, finest in ((0.1, 1e-6), (0.003, 0.001)):
+        search, frames = search_of()
 
-    @dataclass
-    class Folded(Tried):
-        @property
-        def share(self) -> float:
-            return 1.01 if self.step > 0.0005 else 0.5
+        def encode(step: float, _: Matrix, frames: np.ndarray = frames) -> Encoding:
+            if step < least:
+                raise bsm.OptionError("the step is too fine")
+            return Encoding(frames, step, 1.001 if step > 0.0005 else 0.5, 1.0 / step)
 
-    def encode(step: float, _: Matrix) -> Folded:
-        if step < fits:
-            raise bsm.OptionError("the step is too fine")
-        return Folded(step)
-
-    monkeypatch.setattr("bsm.codec.sequence.step_search.TRIES", 3)
-    monkeypatch.setattr(StepSearch, "_measure", lambda _, decoded: Measured(float(decoded[0][0, 0]), np.zeros(0), {}))
-    for finest in (1e-6, 0.001):
-        found = StepSearch(*bending(4), Contract(0.02), UNITS, 1).run(encode, 0.003, finest, weighed=True)
-        assert 0.0004 <= found.step <= 0.0005
-    monkeypatch.setattr(Folded, "share", 2.0)
+        assert 0.0004 <= search.run(encode, first, finest, weighed=True).step <= 0.0005
+    search, frames = search_of()
     with pytest.raises(bsm.TargetError, match="cannot be kept in every frame"):
-        StepSearch(*bending(4), Contract(0.02), UNITS, 1).run(encode, 0.003, 0.001, weighed=True)
+        search.run(lambda step, _: Encoding(frames, step, 2.0, 1.0 / step), 0.003, 0.001, weighed=True)
 
 
-def test_where_the_smallest_stream_fails_the_next_one_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
-    tried: list[float] = []
+def test_where_the_smallest_stream_fails_the_next_one_is_taken() -> None:
+    class Doubting(StepSearch):
+        def _is_certain(self, tried: Tried[Encoding]) -> bool:
+            return tried.step < 0.0047
 
-    def encode(step: float, _: Matrix) -> Tried:
-        tried.append(step)
-        return Tried(step)
+    steps: list[float] = []
+    search, frames = search_of(kind=Doubting)
 
-    monkeypatch.setattr(Tried, "share", property(lambda self: self.step / 0.005))
-    monkeypatch.setattr(Tried, "size", property(lambda self: round(1e6 / math.sqrt(self.step))))
-    monkeypatch.setattr(StepSearch, "_measure", lambda _, decoded: Measured(float(decoded[0][0, 0]), np.zeros(0), {}))
-    monkeypatch.setattr(StepSearch, "_is_certain", lambda _, one: one.step < 0.0047)
-    found = StepSearch(*bending(4), Contract(0.02), UNITS, 1).run(encode, 0.0046, 1e-6, weighed=True)
-    assert found.step == min(tried) == 0.0046 and len(tried) == 2
+    def encode(step: float, _: Matrix) -> Encoding:
+        steps.append(step)
+        return Encoding(frames, step, step / 0.005, 1e6 / math.sqrt(step))
+
+    encoding = search.run(encode, 0.0046, 1e-6, weighed=True)
+    assert encoding.step == min(steps) == 0.0046 and len(steps) == 2
 
 
 def test_looks_are_of_positions_in_the_unit_of_the_mesh() -> None:

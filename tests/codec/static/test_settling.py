@@ -10,7 +10,6 @@ from bsm.codec.geometry.graph import graph_of_faces, vertex_faces
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.look.pictures import CREASE
 from bsm.codec.signal.smooth import in_frames, local_frames
-from bsm.codec.static.choice import settling
 from bsm.codec.static.choice.settling import WITHIN, Creases, Settler, creases_of
 from tests.shapes import torus
 
@@ -112,7 +111,16 @@ def test_pairs_and_costs_are_those_of_all_corners():
     assert 0 < creases.sharp.sum() < len(creases.sharp)
 
 
-def test_levels_keep_creases(monkeypatch):
+class Smooth(Settler):
+    """To which creases are worth nothing."""
+
+    @property
+    def _creases(self):
+        creases = creases_of(self._positions, self._faces)
+        return creases._replace(costs=np.zeros_like(creases.costs))
+
+
+def test_levels_keep_creases():
     positions, faces = ROUGH.positions / ROUGH.diagonal, ROUGH.faces
     graph, count = graph_of_faces(faces, len(positions)), len(positions)
     frames = local_frames(positions, faces)
@@ -120,9 +128,8 @@ def test_levels_keep_creases(monkeypatch):
     steps = np.tile((0.002, 0.006, 0.006), (count, 1))
     creases = creases_of(positions, faces)
     broken, errors = [], []
-    for shaded in (0.0, settling.CREASED):
-        monkeypatch.setattr(settling, "CREASED", shaded)
-        levels = Settler(positions, faces, graph).levels(
+    for kind in (Smooth, Settler):
+        levels = kind(positions, faces, graph).levels(
             offsets, frames, steps, lambda _: steps, 0.05, np.full(count, np.inf)
         )
         error = levels * steps - offsets
