@@ -26,9 +26,8 @@ Places: TypeAlias = npt.NDArray[np.int32]
 DEPTH = 10  # levels below the first that has to be cut
 # A page shows the coarsest level first, and the user waits for it. The size of the whole mesh must not matter for that.
 COARSEST = 1 << 13  # triangles of the coarsest level at most, about: ten kilobytes until a first picture
-# A table of all nodes of 7 levels has 8^7 entries, 16 MB. Below, only nodes that must be cut again are counted one by
-# one.
-_COUNTED = 7  # levels all of whose nodes are counted
+# Below a level that a table has room for, only nodes that must be cut again are counted one by one.
+_COUNTED = 7  # levels all of whose nodes are counted: 8^7 entries are 16 MB
 _SAMPLE = 40_000
 # Sliding spends part of the promise, and rounding to the lattice the rest: half of a look distance of 1 is left for it.
 _SLID = 0.5  # largest look distance of vertices that have slid
@@ -62,12 +61,10 @@ class Lattice:
     def cells(self, positions: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
         """Return the cells of positions as floats, which hold any number."""
         with np.errstate(over="ignore"):
-            return np.asarray(
-                # Not numpy's rint: it rounds halves to even numbers, and the encoder rounds them up. Both must find the
-                # same cell, or the tile would be off by one along borders that it shares.
-                np.floor((positions.astype(np.float64) - np.array(self.origin)) / self.cell + 0.5),
-                np.float64,
-            )
+            offsets = positions.astype(np.float64) - np.array(self.origin)
+            # Not numpy's rint: it rounds halves to even numbers, and the encoder rounds them up. Both must find the
+            # same cell, or the tile would be off by one along borders that it shares.
+            return np.asarray(np.floor(offsets / self.cell + 0.5), np.float64)
 
     def positions(self, places: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
         return np.asarray(places * self.cell + np.array(self.origin))
@@ -79,78 +76,113 @@ def chosen_lattice(
     """Return the requested lattice, or one by the look of samples, and whether vertices slide along the surface.
 
     The cells represent every position exactly."""
+    ends = np.array([raw.low, raw.high])
     # Coordinates beyond 1e150 overflow when they are squared, so this comes before anything is measured.
-    require_sizes(np.array([raw.low, raw.high]), done="cut")
-    chosen, slides = _by_look(raw, threads) if cell is None else (cell, False)
-    lattice, ends = Lattice(chosen, origin or (0.0, 0.0, 0.0)), np.array([raw.low, raw.high])
+    require_sizes(ends, done="cut")
+    slides = False
+    if cell is None:
+        cell, slides = _by_look(raw, threads)
+    lattice = Lattice(cell, origin or (0.0, 0.0, 0.0))
     # A cell whose mantissa has four bits times an integer below 2^30 is exact in a double. Then a place and its
     # position are one-to-one, and it does not matter which tile computes it.
-    short = 16 * math.frexp(chosen)[0] % 1 == 0
-    if origin is None and short and np.abs(lattice.cells(ends)).max() >= _FARTHEST:  # from a point of the same grid on
-        lattice = Lattice(chosen, tuple((lattice.cells(ends[0]) * chosen).tolist()))
-    reach = max(abs(end - at) for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin))
-    farthest = reach / lattice.cell
-    exact = short and not any(at % lattice.cell for at in lattice.origin)
-    if not farthest < (_FARTHEST if exact else MOST_GRID // 2):
-        least = math.ceil(math.log2(2 * (reach if origin else np.ptp(ends, axis=0).max()) / _FARTHEST))
-        better = 2.0 ** max(math.floor(math.log2(lattice.cell)), least)
-        message = f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell "
-        raise OptionError(f"{message}places exactly; a power of two does, such as --grid-cell {better!r}")
+    short = 16 * math.frexp(cell)[0] % 1 == 0
+    if origin is None and short and np.abs(lattice.cells(ends)).max() >= _FARTHEST:
+        point_of_grid = lattice.cells(ends[0]) * cell
+        lattice = Lattice(cell, tuple(point_of_grid.tolist()))
+    _require_reach(lattice, ends, short, origin is not None)
     return lattice, slides
+
+
+def _require_reach(lattice: Lattice, ends: npt.NDArray[np.float64], short: bool, has_origin: bool) -> None:
+    """Raise `OptionError` for a lattice whose cells do not represent every position exactly."""
+    reach = float(np.abs(ends - np.array(lattice.origin)).max())
+    farthest = reach / lattice.cell
+    exact = short and not any(coordinate % lattice.cell for coordinate in lattice.origin)
+    most = _FARTHEST if exact else MOST_GRID // 2
+    if farthest < most:
+        return
+    extent = reach if has_origin else np.ptp(ends, axis=0).max()
+    least = math.ceil(math.log2(2 * extent / _FARTHEST))
+    better = 2.0 ** max(math.floor(math.log2(lattice.cell)), least)
+    message = f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell "
+    raise OptionError(f"{message}places exactly; a power of two does, such as --grid-cell {better!r}")
 
 
 def _by_look(raw: Raw, threads: int) -> tuple[float, bool]:
     """The largest cell of few bits that keeps the default's promise, and whether vertices may slide."""
     # Colors, normals and textures belong to places of the surface. Vertices that slide would take them along, so only
     # bare meshes slide.
-    bare, extent = not raw.kinds.keys() & {*CARRIED, "texcoord"}, np.ptp([raw.low, raw.high], axis=0).max() or 1.0
+    bare = not raw.kinds.keys() & {*CARRIED, "texcoord"}
+    extent = np.ptp([raw.low, raw.high], axis=0).max() or 1.0
 
-    def seen(faces: Ints) -> tuple[float, bool]:
+    def measure_sample(faces: Ints) -> tuple[float, bool]:
         used, corners = np.unique(faces, return_inverse=True)
-        points, slides = raw.table("positions")[used].astype(np.float64), False
+        points = raw.table("positions")[used].astype(np.float64)
         sample = TriangleMesh(points, corners.reshape(-1, 3).astype(np.int32))
-        edge = np.linalg.norm(np.diff(points[sample.faces], axis=1), axis=2).mean() or math.inf
-        most = min(0.01 * sample.diagonal, edge / 2.0) or 1.0
-        cell = 2.0 ** math.floor(math.log2(most))
-        # The sample may be flat or tiny, and have no picture at all. The bound on the largest error holds nevertheless.
-        with suppress(MeshError):  # there is nothing to see
-            # The look of the whole mesh is measured in pictures of a certain size. A sample is drawn at the scale that
-            # it would have in them, or else the look of a small part would be judged as if the part filled the screen.
-            pixels = _NEARER * max(LEAST_PIXELS / extent, EDGE_PIXELS / edge) * np.ptp(points, axis=0).max()
-            metric = LookMetric(sample, threads=1, most_pixels=math.ceil(pixels))
-            if bare and (slides := metric.distance(moved := slid(points, sample.faces)) <= _SLID):
-                points = moved
-            # The look distance grows about in proportion to the cell, so the next power of two is computed rather than
-            # searched for.
-            while (far := metric.distance(np.rint(points / cell) * cell)) > 1.0:
-                cell *= 0.5 ** max(1, math.floor(math.log2(far)))
-            # Between two powers of two, cells of four bits are tried from the largest down: they are still exact.
-            larger = (share * cell / 8 for share in range(15, 8, -1) if share * cell <= 8 * most)
-            cell = next((c for c in larger if metric.distance(np.rint(points / c) * c) <= 1.0), cell)
-        return cell, slides
+        return _by_look_of(sample, extent, bare)
 
-    cells, slides = zip(*ordered_map(seen, _samples(raw), threads))
+    cells, slides = zip(*ordered_map(measure_sample, _samples(raw), threads))
     # One lattice serves all tiles. The most delicate of the three samples decides.
     return min(cells), all(slides)
+
+
+def _by_look_of(sample: TriangleMesh, extent: float, bare: bool) -> tuple[float, bool]:
+    """Return the largest cell for a part of a mesh of this extent, and whether its vertices may slide."""
+    points = sample.positions
+    edges = np.diff(points[sample.faces], axis=1)
+    edge = np.linalg.norm(edges, axis=2).mean() or math.inf
+    most = min(0.01 * sample.diagonal, edge / 2.0) or 1.0
+    cell = 2.0 ** math.floor(math.log2(most))
+    slides = False
+    # The sample may be flat or tiny, and have no picture at all. The bound on the largest error holds nevertheless.
+    with suppress(MeshError):  # there is nothing to see
+        # The look of the whole mesh is measured in pictures of a certain size. A sample is drawn at the scale that
+        # it would have in them, or else the look of a small part would be judged as if the part filled the screen.
+        scale = _NEARER * max(LEAST_PIXELS / extent, EDGE_PIXELS / edge)
+        pixels = scale * np.ptp(points, axis=0).max()
+        metric = LookMetric(sample, threads=1, most_pixels=math.ceil(pixels))
+        if bare:
+            moved = slid(points, sample.faces)
+            slides = metric.distance(moved) <= _SLID
+            if slides:
+                points = moved
+
+        def rounded_distance(size: float) -> float:
+            return metric.distance(np.rint(points / size) * size)
+
+        # The look distance grows about in proportion to the cell, so the next power of two is computed rather than
+        # searched for.
+        while (distance := rounded_distance(cell)) > 1.0:
+            cell *= 0.5 ** max(1, math.floor(math.log2(distance)))
+        # Between two powers of two, cells of four bits are tried from the largest down: they are still exact.
+        for share in range(15, 8, -1):
+            larger = share * cell / 8
+            if larger <= most and rounded_distance(larger) <= 1.0:
+                return larger, slides
+    return cell, slides
 
 
 def _samples(raw: Raw) -> list[Ints]:
     """The faces around three vertices, in any order of the faces."""
     # Every k-th face is enough to find how far a part with as many faces as wanted reaches.
-    firsts = raw.table("faces")[:: max(1, raw.rows["faces"] // _SAMPLE), 0]
-    sample_points = raw.table("positions")[firsts].astype(np.float64)
-    share = min(1.0, _SAMPLE / max(1, raw.rows["faces"]))
-    middles = sample_points[
-        [len(sample_points) // 4, len(sample_points) // 2, len(sample_points) * 3 // 4] if share < 1 else [0]
-    ]
-    reach = [np.quantile(np.abs(sample_points - middle).max(axis=1), share) for middle in middles]
-    distances: list[list[npt.NDArray[Any]]] = [[] for _ in middles]
+    faces = raw.rows["faces"]
+    firsts = raw.table("faces")[:: max(1, faces // _SAMPLE), 0]
+    points = raw.table("positions")[firsts].astype(np.float64)
+    share = min(1.0, _SAMPLE / max(1, faces))
+    count = len(points)
+    places = [0]
+    if share < 1:
+        places = [count // 4, count // 2, count * 3 // 4]
+    samples: list[list[Ints]] = [[] for _ in places]
+    middles = points[places]
+    reach = [np.quantile(np.abs(points - middle).max(axis=1), share) for middle in middles]
     for piece in raw.pieces("faces"):
         # Mapped anew for each piece, so that no more of it is in memory than the piece needs.
         firsts = raw.table("positions")[piece[:, 0]]
-        for middle, far, distances_there in zip(middles, reach, distances):
-            distances_there.append(piece[(np.abs(firsts - middle) <= far).all(axis=1), :3])
-    return list(map(np.concatenate, distances))
+        for middle, far, sample in zip(middles, reach, samples):
+            is_near = (np.abs(firsts - middle) <= far).all(axis=1)
+            sample.append(piece[is_near, :3])
+    return list(map(np.concatenate, samples))
 
 
 # --------------------------------------------------------------------------------------------------------------- octree
@@ -166,14 +198,18 @@ class Root:
     def cube(self, name: str) -> tuple[Ints, int]:
         """The lowest place of a node, and how many places it has along each side."""
         corner = np.array(self.low, np.int64)
-        for level, eighth in enumerate(name[1:], 1):
-            corner += (np.array([4, 2, 1]) & int(eighth)).astype(bool).astype(np.int64) << (self.bits - level)
-        return corner, 1 << (self.bits - len(name) + 1)
+        side = 1 << self.bits
+        for eighth in name[1:]:
+            side >>= 1
+            is_upper = np.array([4, 2, 1]) & int(eighth) > 0
+            corner[is_upper] += side
+        return corner, side
 
     def outside(self, name: str, places: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
         """Which places are not in the cube of a node."""
         corner, side = self.cube(name)
-        return np.asarray(((places < corner) | (places >= corner + side)).any(axis=1))
+        beyond = (places < corner) | (places >= corner + side)
+        return np.asarray(beyond.any(axis=1))
 
 
 @dataclass(frozen=True)
@@ -192,7 +228,8 @@ class Plan(Root):
 
     def codes(self, places: npt.NDArray[Any]) -> Ints:
         """The node of the deepest level that holds each place, in their order along the octree's curve."""
-        return along_curve((places.astype(np.int64) - np.array(self.low)) >> (self.bits - self.depth))
+        shifted = places.astype(np.int64) - np.array(self.low)
+        return along_curve(shifted >> (self.bits - self.depth))
 
     @property
     def carried(self) -> tuple[str, ...]:
@@ -216,43 +253,35 @@ class Plan(Root):
 
 def load_plan(path: Path) -> Plan:
     facts = json.loads(path.read_bytes())
-    facts["lattice"] = Lattice(facts["lattice"]["cell"], tuple(facts["lattice"]["origin"]))
-    return Plan(**{**facts, "low": tuple(facts["low"])})
+    lattice = facts["lattice"]
+    facts["lattice"] = Lattice(lattice["cell"], tuple(lattice["origin"]))
+    facts["low"] = tuple(facts["low"])
+    return Plan(**facts)
 
 
 def cut(raw: Raw, lattice: Lattice, slides: bool, most: int) -> Plan:
     """Write faces by the leaf of their first corner, and which places are used from outside of it."""
-    folder, (low, high) = raw.folder, lattice.places(np.array([raw.low, raw.high])).astype(np.int64)
-    sizes = raw.rows["positions"], raw.rows["faces"]
+    low, high = lattice.places(np.array([raw.low, raw.high])).astype(np.int64)
+    vertices, faces = raw.rows["positions"], raw.rows["faces"]
     # Above the first level that is cut there is one node a level, down to a mesh that is there at once.
-    above = max(0, math.ceil(math.log(min(most, sizes[1]) / COARSEST, 4)))
+    above = max(0, math.ceil(math.log(min(most, faces) / COARSEST, 4)))
     bits = max(1, int((high - low).max()).bit_length()) + above
     depth = min(DEPTH + above, bits)
     kinds = {what: kind for what, kind in raw.kinds.items() if what != "faces"}
-    kinds |= {"codes": ("<i8", 1), "outside": ("<i8", 5), "cut": ("<u4", 7 if raw.textures else 3)}
-    plan = Plan(tuple(map(int, low)), bits, lattice, depth, *sizes, kinds, {}, slides, raw.about, raw.textures)
-    with table_file(folder / "codes") as coded:
+    columns = 7 if raw.textures else 3
+    kinds |= {"codes": ("<i8", 1), "outside": ("<i8", 5), "cut": ("<u4", columns)}
+    corner = tuple(low.tolist())
+    plan = Plan(corner, bits, lattice, depth, vertices, faces, kinds, {}, slides, raw.about, raw.textures)
+    with table_file(raw.folder / "codes") as file:
         for piece in raw.pieces("positions"):
-            coded.write(plan.codes(lattice.places(piece)).data)
-    # All nodes down to a level that a table has room for, and below it those alone that have to be cut there.
-    coarse = 3 * max(0, depth - max(above, _COUNTED))
-    # Faces are counted twice rather than kept: a pass over the file is cheap, and one number for each face might not
-    # fit.
-    number = np.zeros(1 << (3 * depth - coarse), np.int64)
-    for vertex_codes in _first_codes(raw, kinds):
-        number += np.bincount(vertex_codes >> coarse, minlength=len(number))
-    deep = (number > most) & (coarse > 0)
-    codes = np.flatnonzero(number * ~deep) << coarse
-    counts = number[codes >> coarse]
-    for vertex_codes in _first_codes(raw, kinds) if deep.any() else ():
-        vertex_codes, cell_counts = np.unique(vertex_codes[deep[vertex_codes >> coarse]], return_counts=True)
-        codes, inverse = np.unique(np.concatenate([codes, vertex_codes]), return_inverse=True)
-        counts = np.bincount(inverse, np.concatenate([counts, cell_counts])).astype(np.int64)
-    before = np.concatenate([[0], np.cumsum(counts)])
+            file.write(plan.codes(lattice.places(piece)).data)
+    codes, counts = _count_faces(plan, raw, most, max(above, _COUNTED))
+    ends = np.concatenate([[0], np.cumsum(counts)])
 
     def leaves(name: str) -> Iterator[tuple[str, tuple[int, int]]]:
         first, last = np.searchsorted(codes, plan.ends(name))
-        begin, count = int(before[first]), int(before[last] - before[first])
+        begin = int(ends[first])
+        count = int(ends[last]) - begin
         if count and len(name) > above and (count <= most or len(name) > depth):
             yield name, (begin, count)
         elif count:
@@ -266,24 +295,50 @@ def cut(raw: Raw, lattice: Lattice, slides: bool, most: int) -> Plan:
     return plan
 
 
+def _count_faces(plan: Plan, raw: Raw, most: int, level: int) -> tuple[Ints, Ints]:
+    """Return the codes of nodes and the counts of their faces: nodes of a level, and below it where they are cut."""
+    coarse = 3 * max(0, plan.depth - level)
+    # Faces are counted twice rather than kept: a pass over the file is cheap, and one number for each face might not
+    # fit.
+    number = np.zeros(1 << (3 * plan.depth - coarse), np.int64)
+    for face_codes in _first_codes(raw, plan.kinds):
+        number += np.bincount(face_codes >> coarse, minlength=len(number))
+    deep = (number > most) & (coarse > 0)
+    codes = np.flatnonzero(number * ~deep) << coarse
+    counts = number[codes >> coarse]
+    if not deep.any():
+        return codes, counts
+    for face_codes in _first_codes(raw, plan.kinds):
+        is_deep = deep[face_codes >> coarse]
+        deep_codes, deep_counts = np.unique(face_codes[is_deep], return_counts=True)
+        codes, inverse = np.unique(np.concatenate([codes, deep_codes]), return_inverse=True)
+        sums = np.bincount(inverse, np.concatenate([counts, deep_counts]))
+        counts = sums.astype(np.int64)
+    return codes, counts
+
+
 def _first_codes(raw: Raw, kinds: Kinds) -> Iterator[Ints]:
     """The node of each face, of its first corner."""
-    return (mapped(raw.folder, "codes", kinds)[faces[:, 0], 0] for faces in raw.pieces("faces"))
+    for faces in raw.pieces("faces"):
+        # Mapped anew for each piece, as in `_samples`.
+        codes = mapped(raw.folder, "codes", kinds)
+        yield codes[faces[:, 0], 0]
 
 
 def _sort_faces(plan: Plan, raw: Raw) -> None:
     """Faces by their leaves, in the order of the file inside each; and the places that tiles reach out to."""
-    ends = np.array([plan.ends(name) for name in plan.leaves])
+    first_codes, end_codes = np.array([plan.ends(name) for name in plan.leaves]).T
     following = np.array([begin for begin, _ in plan.leaves.values()])
+    number_type = np.min_scalar_type(len(plan.leaves))
     outside = [np.zeros((0, 5), np.int64)]
     with table_file(raw.folder / "cut") as file:
         for rows in raw.pieces("faces"):
             faces = np.ascontiguousarray(rows[:, : plan.kinds["cut"][1]])
             codes = mapped(raw.folder, "codes", plan.kinds)[:, 0][faces[:, :3]]
-            leaf = (np.searchsorted(ends[:, 0], codes[:, 0], "right") - 1).astype(np.min_scalar_type(len(ends)))
+            leaf = np.searchsorted(first_codes, codes[:, 0], "right") - 1
             # Stable, so that the faces of a leaf keep the order of the file: the result does not depend on the size of
             # pieces.
-            order = np.argsort(leaf, kind="stable")
+            order = np.argsort(leaf.astype(number_type), kind="stable")
             numbers, first, count = np.unique(leaf[order], return_index=True, return_counts=True)
             for number, begin, size in zip(numbers.tolist(), first.tolist(), count.tolist()):
                 file.seek(faces[0].nbytes * int(following[number]))
@@ -291,10 +346,11 @@ def _sort_faces(plan: Plan, raw: Raw) -> None:
             following[numbers] += count
             # Corners outside of the cube belong to another tile, too. Both must leave such a place where it is, or a
             # crack opens; so the table `outside` tells each tile about them.
-            row, corner = np.nonzero((codes < ends[leaf, :1]) | (codes >= ends[leaf, 1:]))
-            places = plan.lattice.places(raw.table("positions")[faces[row, corner]])
-            face_rows = np.column_stack([codes[row, corner], places, ends[leaf[row], 0]])
-            outside.append(np.unique(face_rows, axis=0))
+            begins, ends = first_codes[leaf, None], end_codes[leaf, None]
+            row, corner = np.nonzero((codes < begins) | (codes >= ends))
+            positions = raw.table("positions")[faces[row, corner]]
+            corner_rows = np.column_stack([codes[row, corner], plan.lattice.places(positions), begins[row]])
+            outside.append(np.unique(corner_rows, axis=0))
     with table_file(raw.folder / "outside") as file:
         file.write(np.unique(np.concatenate(outside), axis=0).tobytes())
     # These two are as large as the mesh, and all that is needed of them is in `cut` and `outside` now.

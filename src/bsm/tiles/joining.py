@@ -8,6 +8,7 @@ import tempfile
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -51,62 +52,71 @@ def write_joined(
         # A PLY file has all vertices before all faces, and their number in its header. So both are collected in files
         # of their own until their numbers are known.
         tables, points, corners = (opened.enter_context(tempfile.TemporaryFile()) for _ in range(3))
-        outside, single = list[Table](), True
+        outside = list[Table]()
+        kind: Any = np.float32
         with console.progress("decoding") as progress:
             for number, (shard, tile) in enumerate(chosen, 1):
                 table, triangles = tiles.decoded(shard, tile)
                 np.save(tables, table)
                 np.save(tables, triangles)
-                positions = tiles.lattice.positions(table[:, :3])
+                places = table[:, :3]
+                positions = tiles.lattice.positions(places)
                 # Floats of 32 bits are written if they hold every position exactly; doubles would double the file for
                 # nothing.
-                single = single and bool((positions.astype(np.float32) == positions).all())
-                outside.append(table[tiles.root.outside(tile.name, table[:, :3])])
+                if not np.array_equal(positions.astype(kind), positions):
+                    kind = np.float64
+                outside.append(table[tiles.root.outside(tile.name, places)])
                 progress(number, len(chosen))
         # Of what two tiles share one at least reaches out of its cube for it.
         # Only vertices outside of the cube of a tile can be shared. They are few, so this table fits into memory, and
         # the mesh need not.
-        shared, kind = np.unique(np.concatenate(outside), axis=0), np.float32 if single else np.float64
+        shared = np.unique(np.concatenate(outside), axis=0)
         # Index -1 is the last entry: vertices that are not shared look there, and always find that they have no number
         # yet.
         numbers = np.full(len(shared) + 1, -1, np.int64)  # the last for those that are not shared
-        vertices = total = 0
+        vertices = faces = 0
         tables.seek(0)
         for _ in chosen:
             table, triangles = np.load(tables), np.load(tables)
-            rows_there = _places_in(shared, table)
-            rows_found = numbers[rows_there]
-            fresh = np.flatnonzero(rows_found < 0)
-            rows_found[fresh] = vertices + np.arange(len(fresh))
-            numbers[rows_there[rows_there >= 0]] = rows_found[rows_there >= 0]
-            vertices, total = vertices + len(fresh), total + len(triangles)
-            columns = [*zip("xyz", tiles.lattice.positions(table[fresh, :3]).astype(kind).T)]
+            rows = _places_in(shared, table)
+            table_numbers = numbers[rows]
+            fresh = np.flatnonzero(table_numbers < 0)
+            table_numbers[fresh] = vertices + np.arange(len(fresh))
+            is_shared = rows >= 0
+            numbers[rows[is_shared]] = table_numbers[is_shared]
+            vertices += len(fresh)
+            faces += len(triangles)
+            positions = tiles.lattice.positions(table[fresh, :3])
+            columns = [*zip("xyz", positions.astype(kind).T)]
             for what, values in tiles.values(table[fresh]).items():
                 columns += zip(CARRIED[what], values.T)
-            of_points, rows = table_of(columns)
-            points.write(rows.tobytes())
-            of_faces, rows = table_of([("vertex_indices", rows_found[triangles].astype(np.uint32))])
-            corners.write(rows.tobytes())
+            point_lines, point_rows = table_of(columns)
+            points.write(point_rows.tobytes())
+            indices = table_numbers[triangles].astype(np.uint32)
+            face_lines, face_rows = table_of([("vertex_indices", indices)])
+            corners.write(face_rows.tobytes())
         comments = [f"comment {line}" for line in remarks(tiles.about)[0]]
-        lines = ["ply", "format binary_little_endian 1.0", *comments, f"element vertex {vertices}", *of_points]
-        lines += [f"element face {total}", *of_faces, "end_header"]
+        lines = ["ply", "format binary_little_endian 1.0", *comments, f"element vertex {vertices}", *point_lines]
+        lines += [f"element face {faces}", *face_lines, "end_header", ""]
         with open_output(output, overwrite=overwrite) as file, console.progress("writing"):
-            file.write("".join(f"{line}\n" for line in lines).encode())
+            file.write("\n".join(lines).encode())
             for part in (points, corners):
                 part.seek(0)
                 shutil.copyfileobj(part, file, _COPIED)
-    return {"vertices": vertices, "faces": total}
+    return {"vertices": vertices, "faces": faces}
 
 
 def _places_in(shared: Table, table: Table) -> Ints:
     """Which of the `shared` vertices each one of a table is; -1: none."""
-    low, high = table[:, :3].min(axis=0).astype(np.int64), table[:, :3].max(axis=0)
+    places, shared_places = table[:, :3], shared[:, :3]
     # Comparing with the whole table would take quadratic time over all tiles.
-    rows_near = np.flatnonzero(((shared[:, :3] >= low) & (shared[:, :3] <= high)).all(axis=1))
-    which = row_numbers(np.concatenate([shared[rows_near], table]))
-    places_of_rows = np.full(len(which), -1, np.int64)
-    places_of_rows[which[: len(rows_near)]] = rows_near
-    return places_of_rows[which[len(rows_near) :]]
+    is_near = ((shared_places >= places.min(axis=0)) & (shared_places <= places.max(axis=0))).all(axis=1)
+    near_rows = np.flatnonzero(is_near)
+    numbers = row_numbers(np.concatenate([shared[near_rows], table]))
+    near_numbers, table_numbers = np.split(numbers, [len(near_rows)])
+    row_of_number = np.full(len(numbers), -1, np.int64)
+    row_of_number[near_numbers] = near_rows
+    return row_of_number[table_numbers]
 
 
 def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str = CONTENTS[0], overwrite: bool) -> int:
@@ -115,38 +125,40 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
     size, share = 0, 1.0
     ends = _ends(tile for _, tile in tiles_by_name.values())
     if not is_url(folder):
-        os.makedirs(contents := os.path.join(folder, _CONTENT), exist_ok=True)
+        contents = os.path.join(folder, _CONTENT)
+        os.makedirs(contents, exist_ok=True)
         if os.path.islink(contents):
             raise OptionError(f"{contents} is a symbolic link; remove it")
-    extra_arrays = {} if "normal" in tiles.kinds else {"NORMAL": _NORMALS}
-    options = {"grid_cell": tiles.lattice.cell, "effort": "quick", "attributes": extra_arrays}
+    needs_normals = "normal" not in tiles.kinds
+    codings = {"NORMAL": _NORMALS} if needs_normals else {}
+    options = {"grid_cell": tiles.lattice.cell, "effort": "quick", "attributes": codings}
     with console.progress("writing") as progress:
         for number, (name, (shard, tile)) in enumerate(tiles_by_name.items(), 1):
             mesh = tiles.mesh(shard, tile)
             # glTF holds single precision. Positions from the corner of the tile are small integers times the cell, and
             # keep all bits.
-            moved = (tiles.lattice.cells(mesh.positions) - ends[name][0]) * tiles.lattice.cell
-            moved = moved.astype(np.float32).astype(np.float64)
+            places = tiles.lattice.cells(mesh.positions) - ends[name][0]
+            moved = (places * tiles.lattice.cell).astype(np.float32).astype(np.float64)
             # Viewers of 3D Tiles draw a mesh without normals flat, or not at all.
-            normals = vertex_normals(moved, mesh.faces).astype(np.float32)
-            gltf_attributes = (
-                *mesh.attributes,
-                *([Attribute("normal", normals, "vertex", "normal")] if extra_arrays else []),
-            )
-            mesh = replace(mesh, positions=moved, attributes=gltf_attributes, metadata={**mesh.metadata, "up": "z"})
-            share = _SEEN if mesh.metadata.get("image.0.data") else share
+            attributes = [*mesh.attributes]
+            if needs_normals:
+                normals = vertex_normals(moved, mesh.faces).astype(np.float32)
+                attributes.append(Attribute("normal", normals, "vertex", "normal"))
+            metadata = {**mesh.metadata, "up": "z"}
+            mesh = replace(mesh, positions=moved, attributes=tuple(attributes), metadata=metadata)
+            if metadata.get("image.0.data"):
+                share = _SEEN
             data = write_glb(mesh, name).data
             if content == "bsm":
                 data = compress(Document(data), options).data
             write_output(posixpath.join(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite, follow=False)
             size += len(data)
             progress(number, len(tiles_by_name))
-    tree = _tree(tiles, {name: share * tile.error for name, (_, tile) in tiles_by_name.items()}, ends)
-    data = json.dumps(tree).encode() + b"\n"
-    write_output(posixpath.join(folder, TILESET), data, overwrite=overwrite, follow=False)
-    console.note(
-        f"{posixpath.join(folder, TILESET)}: {counted(tiles=len(tiles_by_name))} as {content} GLB, {size} bytes"
-    )
+    errors = {name: share * tile.error for name, (_, tile) in tiles_by_name.items()}
+    data = json.dumps(_tree(tiles, errors, ends)).encode() + b"\n"
+    path = posixpath.join(folder, TILESET)
+    write_output(path, data, overwrite=overwrite, follow=False)
+    console.note(f"{path}: {counted(tiles=len(tiles_by_name))} as {content} GLB, {size} bytes")
     return size + len(data)
 
 
@@ -155,7 +167,8 @@ def _ends(tiles: Iterable[Tile]) -> dict[str, Ints]:
     ends: dict[str, Ints] = {}
     for tile in tiles:
         own_box = np.array([tile.low, tile.high], np.int64)
-        for name in (tile.name[:end] for end in range(1, len(tile.name) + 1)):
+        for size in range(1, len(tile.name) + 1):
+            name = tile.name[:size]
             low, high = ends.get(name, own_box)
             ends[name] = np.array([np.minimum(low, own_box[0]), np.maximum(high, own_box[1])])
     return ends
@@ -164,24 +177,32 @@ def _ends(tiles: Iterable[Tile]) -> dict[str, Ints]:
 def _tree(tiles: Tiles, errors: Mapping[str, float], ends: Mapping[str, Ints]) -> Facts:
     """The nodes of a tileset, of which those with an error have contents."""
     placed = placement(tiles.about, "tileset")
-    diagonal = tiles.lattice.cell * float(np.linalg.norm(np.ptp(ends["r"], axis=0)))
+    cell = tiles.lattice.cell
+    diagonal = cell * float(np.linalg.norm(np.ptp(ends["r"], axis=0)))
 
     def node(name: str, around: Ints) -> Facts:
         """A node of the octree, where `around` is the lowest place of the one above."""
         low, high = ends[name]
-        half, moved = (high - low) * tiles.lattice.cell / 2, (low - around) * tiles.lattice.cell
+        half = (high - low) * cell / 2
+        moved = (low - around) * cell
         # A node without a tile of its own has the largest error there is, so that viewers go on to its children at
         # once.
-        tile: Facts = {"geometricError": errors.get(name, diagonal), "refine": "REPLACE"}
-        tile["boundingVolume"] = {"box": [*half.tolist(), *np.diag(half).ravel().tolist()]}
-        tile["transform"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *moved.tolist(), 1]
-        tile |= {"content": {"uri": f"{_CONTENT}/{name}.glb"}} if name in errors else {}
-        children = [node(name + eighth, low) for eighth in "01234567" if name + eighth in ends]
-        return tile | ({"children": children} if children else {})
+        facts: Facts = {"geometricError": errors.get(name, diagonal), "refine": "REPLACE"}
+        facts["boundingVolume"] = {"box": [*half.tolist(), *np.diag(half).ravel().tolist()]}
+        facts["transform"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *moved.tolist(), 1]
+        if name in errors:
+            facts["content"] = {"uri": f"{_CONTENT}/{name}.glb"}
+        children = [name + eighth for eighth in "01234567"]
+        facts["children"] = [node(child, low) for child in children if child in ends]
+        if not facts["children"]:
+            del facts["children"]
+        return facts
 
-    root = node("r", ends["r"][0])
+    low = ends["r"][0]
+    root = node("r", low)
     moved = np.eye(4)  # from the mesh to meters with z up
     # 3D Tiles has meters and z up. One matrix at the root turns and scales everything, and no position changes.
-    moved[:3, :3], moved[:3, 3] = placed.matrix, placed.matrix @ tiles.lattice.positions(ends["r"][0])
+    moved[:3, :3] = placed.matrix
+    moved[:3, 3] = placed.matrix @ tiles.lattice.positions(low)
     root["transform"] = moved.T.ravel().tolist()
     return {"asset": {"version": "1.1", "generator": "bsm"}, "geometricError": diagonal * placed.scale, "root": root}

@@ -46,29 +46,39 @@ class TileJob(Task):
 def tile_one(job: TileJob, console: Console) -> Facts:
     name, folder = Path(job.output).stem, Path(job.input).parent
     plan = load_plan(folder / "plan.json")
-    if name in plan.leaves:
-        (mesh, skin, joined), error = _leaf(plan, name, folder), 0.0
+    is_leaf = name in plan.leaves
+    error, joined = 0.0, 0
+    if is_leaf:
+        mesh, skin, joined = _leaf(plan, name, folder)
     else:
-        (mesh, skin, error), joined = _coarser(plan, name, folder, job.most), 0
-    places, mesh_sent, counts = np.asarray(mesh.positions, np.int32), mesh, dict[str, Any]()
+        mesh, skin, error = _coarser(plan, name, folder, job.most)
+    places = np.asarray(mesh.positions, np.int32)
+    written_mesh = mesh
+    counts = dict[str, Any]()
     if plan.textures:
-        finer = sorted(folder.glob(f"{name}[0-7].atlas"))
-        skin, atlas = cut_out(skin, _pictures(plan, folder), 1) if name in plan.leaves else cut_out(skin, finer, 2)
-        with open_output(folder / f"{name}.atlas", overwrite=True, follow=False) as file:
+        atlas_file = folder / f"{name}.atlas"
+        pictures, factor = sorted(folder.glob(f"{name}[0-7].atlas")), 2
+        if is_leaf:
+            pictures, factor = _pictures(plan, folder), 1
+        skin, atlas = cut_out(skin, pictures, factor)
+        with open_output(atlas_file, overwrite=True, follow=False) as file:
             atlas.save(file, "ppm")
-        mesh_sent = textured(mesh, skin, atlas, job.images)
-        written = compare_image(name, (folder / f"{name}.atlas").read_bytes(), images_in(mesh_sent.metadata)[0][1])
-        counts["psnr_db"] = finite(math.inf if written.psnr_db is None else written.psnr_db)
+        written_mesh = textured(mesh, skin, atlas, job.images)
+        _, image = images_in(written_mesh.metadata)[0]
+        psnr = compare_image(name, atlas_file.read_bytes(), image).psnr_db
+        counts["psnr_db"] = finite(math.inf if psnr is None else psnr)
         # A viewer chooses the level by this number. Where a texture is halved with each level, its texels are the
         # larger error.
-        error = error if name in plan.leaves else max(error, plan.lattice.cell * side_of_texel(mesh, skin))
+        if not is_leaf:
+            error = max(error, plan.lattice.cell * side_of_texel(mesh, skin))
     if not job.finest:
+        values = [_of_vertices(attribute, mesh) for attribute in mesh.attributes]
         with open_output(folder / f"{name}.mesh", overwrite=True, follow=False) as file:
-            for table in (np.array(error), places, mesh.faces, skin, *(_of_vertices(a, mesh) for a in mesh.attributes)):
+            for table in (np.array(error), places, mesh.faces, skin, *values):
                 write_npy(file, table)
-    mesh_sent, cells = replace(mesh_sent, positions=plan.lattice.positions(places)), plan.lattice
+    written_mesh = replace(written_mesh, positions=plan.lattice.positions(places))
     # One thread: tiles are encoded side by side, in processes, and those have all cores already.
-    part = given_part(mesh_sent, grid_cell=cells.cell, grid_origin=tuple(cells.origin), threads=1)
+    part = given_part(written_mesh, grid_cell=plan.lattice.cell, grid_origin=tuple(plan.lattice.origin), threads=1)
     data = b"".join(part.encode(Progress("")).attempt.frames)
     write_output(job.output, data, overwrite=True, follow=False)
     ends = {"low": places.min(axis=0).tolist(), "high": places.max(axis=0).tolist()}
@@ -91,35 +101,44 @@ def _leaf(plan: Plan, name: str, folder: Path) -> tuple[TriangleMesh, Skin, int]
     spots = plan.lattice.places(points)
     # Vertices that other tiles use stay, since those tiles do not know how far they would slide here.
     if plan.slides:
-        spots = plan.lattice.places(slid(points, corners, _held(plan, name, folder, spots)))
+        moved = slid(points, corners, _held(plan, name, folder, spots))
+        spots = plan.lattice.places(moved)
     places, numbers, _ = welded(spots)
     inside = ~plan.outside(name, places)
     # Each vertex counts in the tile whose cube it is in, or shared vertices would count several times in the sum of all
     # tiles.
-    joined = len(np.unique(row_numbers(points)[inside[numbers]])) - int(inside.sum())
+    inside_numbers = row_numbers(points)[inside[numbers]]
+    joined = len(np.unique(inside_numbers)) - int(inside.sum())
     # Faces that have a place twice cannot be seen, and take more bits than others.
-    has_area = (spots[corners] != spots[corners[:, [1, 2, 0]]]).any(axis=2).all(axis=1)
+    following = spots[np.roll(corners, -1, axis=1)]
+    has_area = (spots[corners] != following).any(axis=2).all(axis=1)
     # A tile without faces would not be a mesh. One face, though it has no area, keeps the tree whole.
-    faces, corners = (rows[has_area] if has_area.any() else rows[:1] for rows in (faces, corners))
-    used_vertices, corners = np.unique(corners, return_inverse=True)
+    if not has_area.any():
+        has_area[0] = True
+    faces = faces[has_area]
+    used_vertices, corners = np.unique(corners[has_area], return_inverse=True)
     used, corners = used[used_vertices], corners.reshape(-1, 3)
     places, numbers, distinct_rows = welded(spots[used_vertices])
 
-    def carried(what: Any) -> Attribute:
+    def carry(what: Any) -> Attribute:
         values = mapped(folder, what, plan.kinds)[used]
+        distinct = values[distinct_rows]
         # Vertices that fall together may have different colors. These become values of corners, so that no color is
         # lost.
-        if np.array_equal(values[distinct_rows][numbers], values):
-            return Attribute(what, values[distinct_rows], "vertex", what)
+        if np.array_equal(distinct[numbers], values):
+            return Attribute(what, distinct, "vertex", what)
         different, rows = np.unique(values, axis=0, return_inverse=True)
-        return Attribute(what, different, "corner", what, rows.reshape(-1)[corners].astype(np.int32))
+        indices = rows.reshape(-1)[corners].astype(np.int32)
+        return Attribute(what, different, "corner", what, indices)
 
     skin: Skin = np.zeros((len(faces), 3, 0), np.float32)
     if plan.textures:
         texcoords = mapped(folder, "texcoord", plan.kinds)
-        rows = np.where(faces[:, 3:6] < len(texcoords), faces[:, 3:6], 0)
+        rows = faces[:, 3:6]
+        rows = np.where(rows < len(texcoords), rows, 0)
         skin = skin_of(texcoords[rows], faces[:, 6], _pictures(plan, folder))
-    return TriangleMesh(places.astype(np.float64), numbers[corners], tuple(map(carried, plan.carried))), skin, joined
+    attributes = tuple(map(carry, plan.carried))
+    return TriangleMesh(places.astype(np.float64), numbers[corners], attributes), skin, joined
 
 
 def _of_vertices(attribute: Attribute, mesh: TriangleMesh) -> npt.NDArray[Any]:
@@ -139,7 +158,9 @@ def welded(places: npt.NDArray[np.int32]) -> tuple[Places, Faces, Ints]:
 
 def keys_of(places: npt.NDArray[np.int32], low: Ints | None = None) -> Ints:
     """A number for each place of a tile, different for different places."""
-    shifted = places.astype(np.int64) - (places.min(axis=0) if low is None else low)
+    if low is None:
+        low = places.min(axis=0)
+    shifted = places.astype(np.int64) - low
     # The code of a place has 21 bits for each axis. Long triangles reach far out of their cube and can exceed that.
     if shifted.max(initial=0) > MOST_GRID:
         raise TargetError(
@@ -151,57 +172,67 @@ def keys_of(places: npt.NDArray[np.int32], low: Ints | None = None) -> Ints:
 def _held(plan: Plan, name: str, folder: Path, places: Places) -> npt.NDArray[np.bool_]:
     """Which places other tiles use, too: those outside of a node, and those inside that faces of others reach."""
     outside = mapped(folder, "outside", plan.kinds)
-    begin, end = plan.ends(name)
+    codes = plan.ends(name)
     # The table is sorted by codes, and a node is a range of codes: two binary searches find its part of a file of any
     # size.
-    rows = np.array(outside[slice(*np.searchsorted(outside[:, 0], (begin, end)))])
-    rows = rows[(rows[:, 4] < begin) | (rows[:, 4] >= end)]
+    first, last = np.searchsorted(outside[:, 0], codes)
+    rows = np.array(outside[first:last])
+    begin, end = codes
+    is_of_others = (rows[:, 4] < begin) | (rows[:, 4] >= end)
+    reached = rows[is_of_others, 1:4]
     low = places.min(axis=0).astype(np.int64)
-    inside = ((rows[:, 1:4] >= low) & (rows[:, 1:4] <= places.max(axis=0))).all(axis=1)
-    return plan.outside(name, places) | np.isin(keys_of(places, low), keys_of(rows[inside, 1:4], low))
+    inside = ((reached >= low) & (reached <= places.max(axis=0))).all(axis=1)
+    is_reached = np.isin(keys_of(places, low), keys_of(reached[inside], low))
+    return plan.outside(name, places) | is_reached
 
 
 def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMesh, Skin, float]:
     """A node by those below it; what others use of it stays where it is."""
-    children, skins, before, first = [], list[Skin](), 0.0, 0
+    tables = 3 + len(plan.carried)
+    children, skins = [], list[Skin]()
+    error, first = 0.0, 0
     for path in sorted(folder.glob(f"{name}[0-7].mesh")):
         with path.open("rb") as file:
-            before = max(before, float(np.load(file)))
-            places, faces, skin, *values = (np.load(file) for _ in range(3 + len(plan.carried)))
+            error = max(error, float(np.load(file)))
+            places, faces, skin, *values = (np.load(file) for _ in range(tables))
         skins.append(skin)
         children.append((places, faces + first, *values))
         first += len(places)
-    together, corners, *tables = map(np.concatenate, zip(*children))
+    together, corners, *columns = map(np.concatenate, zip(*children))
     # Coarse tiles of large meshes are made in many processes at a time. Each would otherwise hold its input twice.
     del children, places, faces, values  # as large as all else
     places, numbers, distinct_rows = welded(together)
 
-    def carried(border_rows: Ints) -> tuple[Attribute, ...]:
-        return tuple(
-            Attribute(what, table[distinct_rows[border_rows]], "vertex", what)  # type: ignore[arg-type]
-            for what, table in zip(plan.carried, tables)
-        )
+    def build(points: Places, triangles: Faces, rows: Ints) -> TriangleMesh:
+        attributes: list[Attribute] = []
+        for what, column in zip(plan.carried, columns):
+            attributes.append(Attribute(what, column[distinct_rows[rows]], "vertex", what))  # type: ignore[arg-type]
+        return TriangleMesh(points.astype(np.float64), triangles, tuple(attributes))
 
     faces, skin = numbers[corners], joined_skins(skins)
     del together, corners, numbers
     # Welding may leave nothing of flat or tiny children. See `_leaf`: one face keeps the tree whole.
-    if (empty := degenerate(faces)).all():
-        return TriangleMesh(places.astype(np.float64), faces[:1], carried(np.arange(len(places)))), skin[:1], before
+    empty = degenerate(faces)
+    if empty.all():
+        return build(places, faces[:1], np.arange(len(places))), skin[:1], error
     faces, skin = faces[~empty], skin[~empty]
     locked = _held(plan, name, folder, places)
     target = max(len(faces) // _KEPT, min(COARSEST, most) // 4)
     wedges = wedges_of(skin, faces) if plan.textures else None
     new, smaller, remaining = simplified(places, faces, locked, target, wedges)
-    corner = None if wedges is None else np.unique(wedges, return_index=True)[1]  # of each wedge
-    skin = skin[: len(smaller)] if corner is None else skin.reshape(-1, 4)[corner[remaining]]
+    if wedges is None:
+        skin = skin[: len(smaller)]
+    else:
+        corner_of_wedge = np.unique(wedges, return_index=True)[1]
+        skin = skin.reshape(-1, 4)[corner_of_wedge[remaining]]
     apart = farthest_from_surface(places.astype(np.float64), new.astype(np.float64), smaller)
-    border_rows = np.zeros(0, np.int64)
-    if tables:
+    nearest_rows = np.zeros(0, np.int64)
+    if columns:
         # Imported here, since a process of leaves never needs it, and there are many such processes.
         from scipy.spatial import KDTree  # a third of what a process loads
 
-        border_rows = KDTree(places).query(new)[1]
-    return TriangleMesh(new.astype(np.float64), smaller, carried(border_rows)), skin, before + apart * plan.lattice.cell
+        nearest_rows = KDTree(places).query(new)[1]
+    return build(new, smaller, nearest_rows), skin, error + apart * plan.lattice.cell
 
 
 def simplified(
@@ -209,9 +240,12 @@ def simplified(
 ) -> tuple[Places, Faces, Faces]:
     """Simplify to about `target` triangles; locked and border vertices stay. Also return the wedges of the result."""
     low = places.min(axis=0).astype(np.float64)
-    kept_vertices, corners, _, remaining, _ = collapsed(places - low, faces, locked, target, wedges)
-    new, numbers, _ = welded(np.rint(kept_vertices + low).astype(np.int32))
-    there = ~degenerate(corners := numbers[corners])
-    new, smaller, _ = compact(new, corners[there])
+    positions, corners, _, remaining, _ = collapsed(places - low, faces, locked, target, wedges)
+    new, numbers, _ = welded(np.rint(positions + low).astype(np.int32))
+    corners = numbers[corners]
+    has_area = ~degenerate(corners)
+    new, smaller, _ = compact(new, corners[has_area])
+    if len(smaller):
+        return new, smaller, remaining[has_area]
     # Simplifying may end with nothing, where all vertices fall together. The input is then the better coarse tile.
-    return (new, smaller, remaining[there]) if len(smaller) else (places, faces, faces if wedges is None else wedges)
+    return places, faces, faces if wedges is None else wedges

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any, BinaryIO, TypeAlias
 
@@ -14,6 +15,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.geometry.mesh import Metadata
 from bsm.files.formats.metadata import Beside, Value, fetched, images_in, materials_in, names_in, parse_remarks
 from bsm.files.formats.obj import read_obj
 from bsm.files.formats.ply import MOST_HEADER, Element, parse_header
@@ -77,6 +79,15 @@ class Raw:
         """A table of which no more gets into memory than is looked at."""
         return mapped(self.folder, what, self.kinds)
 
+    def leave_out(self, *names: str) -> None:
+        self.left_out.update(dict.fromkeys(names))
+
+    def keep_about(self, metadata: Metadata) -> None:
+        """Keep the entries of ABOUT."""
+        for name in ABOUT:
+            if name in metadata:
+                self.about[name] = str(metadata[name])
+
 
 @contextmanager
 def table_file(path: Path) -> Iterator[BinaryIO]:
@@ -88,7 +99,9 @@ def mapped(folder: Path, what: str, kinds: Kinds) -> Array:
     kind, columns = kinds[what]
     path = folder / what
     # mmap refuses empty files.
-    return (np.memmap(path, kind, "r") if path.stat().st_size else np.zeros(0, kind)).reshape(-1, columns)
+    if not path.stat().st_size:
+        return np.zeros((0, columns), kind)
+    return np.memmap(path, kind, "r").reshape(-1, columns)
 
 
 def read_big(name: str, file_format: str | None, folder: Path, console: Console) -> Raw:
@@ -100,28 +113,31 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
         raise FormatError("the file is empty")
     # Text, and polygons in binary files, have rows of unknown sizes. Such files are read as a whole, which needs
     # memory, but is right for every file that the ordinary readers know.
-    raw, read = Raw(folder), _READERS.get(kind, partial(_read_whole, kind or None))
+    read = _READERS.get(kind, partial(_read_whole, kind or None))
+    raw = Raw(folder)
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     largest, files = 0, dict[str, BinaryIO]()
     with closing(source_input), console.progress("reading", until=0.1), ExitStack() as opened:
-        for what, piece in read(source_input, raw):
-            if not len(piece):
+        for what, rows in read(source_input, raw):
+            if not len(rows):
                 continue
-            piece = _checked(what, piece, raw.rows.get(what, 0))
+            piece = _checked(what, rows, raw.rows.get(what, 0))
             if what == "positions":
-                low, high = np.minimum(low, piece.min(axis=0)), np.maximum(high, piece.max(axis=0))
+                low = np.minimum(low, piece.min(axis=0))
+                high = np.maximum(high, piece.max(axis=0))
             elif what == "faces":
                 largest = max(largest, int(piece[:, :3].max()))
             if what not in files:
                 files[what] = opened.enter_context(table_file(folder / what))
                 # The order of bytes is fixed, so that processes on other machines of a cluster read the same numbers.
                 raw.kinds[what] = piece.dtype.newbyteorder("<").str, piece.shape[1]
-            if raw.kinds[what][1] != piece.shape[1]:
+            number_type, columns = raw.kinds[what]
+            if columns != piece.shape[1]:
                 raise MeshError(
                     f"from {what} {raw.rows[what]} on, they have {piece.shape[1]} numbers each, not as before"
                 )
             with by_its_own_name(folder / what):
-                files[what].write(np.ascontiguousarray(piece, raw.kinds[what][0]).data)
+                files[what].write(np.ascontiguousarray(piece, number_type).data)
                 files[what].flush()
             raw.rows[what] = raw.rows.get(what, 0) + len(piece)
     vertices = raw.rows["positions"]
@@ -132,32 +148,43 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     for what in CARRIED:
         # An OBJ file may give some vertices a color and others none. Rows of a table are found by the number of the
         # vertex, so a gap would move the colors of all vertices after it.
-        if raw.rows.get(what, vertices) != vertices:
-            raise MeshError(f"{raw.rows[what]} of {vertices} vertices have a {what}: give all of them one, or none")
-    beside = Beside(None if is_url(name) or name == "-" else Path(name).parent, DEFAULT_LIMITS)
-    return replace(raw, low=tuple(map(float, low)), high=tuple(map(float, high)), textures=_textures(raw, beside))
+        count = raw.rows.get(what, vertices)
+        if count != vertices:
+            raise MeshError(f"{count} of {vertices} vertices have a {what}: give all of them one, or none")
+    parent = None if is_url(name) or name == "-" else Path(name).parent
+    textures = _textures(raw, Beside(parent, DEFAULT_LIMITS))
+    return replace(raw, low=tuple(low.tolist()), high=tuple(high.tolist()), textures=textures)
 
 
 def _textures(raw: Raw, beside: Beside) -> int:
     """Write the picture of each material; return how many there are, or 0 without any image."""
     if raw.rows.get("texcoord", 0) <= 1:
         return 0
-    about = {f"material.{number}.name": name for name, number in raw.materials.items()}
-    contents, notes, lost = fetched({**raw.metadata, **about, "mtllib": "\n".join(raw.libraries)}, beside.read)
+    names = {f"material.{number}.name": name for name, number in raw.materials.items()}
+    contents, notes, lost = fetched({**raw.metadata, **names, "mtllib": "\n".join(raw.libraries)}, beside.read)
     images, materials = images_in(contents), materials_in(contents)
-    used_materials = [materials[number] for number in raw.materials.values()]
-    numbers = [material.get("map_Kd", material.get("baseColorTexture")) for material in used_materials]
-    used = {number: images[int(number)] for number in numbers if number in images}
-    sound: dict[Any, bytes] = {number: checked(data, name) for number, (name, data) in used.items() if data}
-    pictures = [sound.get(number, b"") for number in numbers]
-    if any(pictures):
+    sound_images: dict[Any, bytes] = {}
+    pictures: list[bytes] = []
+    for number in raw.materials.values():
+        words = materials[number]
+        image = words.get("map_Kd", words.get("baseColorTexture"))
+        if image in images and image not in sound_images:
+            image_name, data = images[int(image)]
+            sound_images[image] = data and checked(data, image_name)
+        pictures.append(sound_images.get(image, b""))
+    has_picture = any(pictures)
+    if has_picture:
         for what in ("material", "mtllib", "image"):
             raw.left_out.pop(what, None)
-    raw.left_out.update(dict.fromkeys([*([] if any(pictures) else ["texcoord"]), *notes, *lost]))
+    else:
+        raw.leave_out("texcoord")
+    raw.leave_out(*notes, *lost)
+    if not has_picture:
+        return 0
     # A material without an image gets a white picture: faces with and without textures can then share one atlas.
-    for number, picture in enumerate(pictures if any(pictures) else ()):
+    for number, picture in enumerate(pictures):
         (raw.folder / f"texture.{number}").write_bytes(picture or _WHITE)
-    return len(pictures) if any(pictures) else 0
+    return len(pictures)
 
 
 def _checked(what: str, piece: Array, before: int) -> Array:
@@ -195,44 +222,49 @@ _WORDS = {
 
 def _read_ply(source_input: Input, raw: Raw) -> Pieces:
     header = parse_header(source_input.peek(MOST_HEADER))
-    lists = (c.name for element in header.elements for c in element.properties if c.length is not None)
-    if not header.order or {*lists} - {*_CORNERS}:  # text, or rows of different sizes
+    lists = [c.name for element in header.elements for c in element.properties if c.length is not None]
+    if not header.order or not {*lists} <= {*_CORNERS}:  # text, or rows of different sizes
         # The position in a text file does not tell the number of the row, and lists of two elements could differ in
         # length.
         yield from _read_whole("ply", source_input, raw)
         return
     source_input.read(header.size)
-    raw.about.update({name: str(header.metadata[name]) for name in ABOUT if name in header.metadata})
+    raw.keep_about(header.metadata)
     # Comments of unit, axis and provenance are read as metadata. All other lines are lost, and the user hears of it.
-    others = (keyword for keyword, line in header.comments if not parse_remarks([line]).keys() & {*ABOUT})
-    raw.left_out.update(dict.fromkeys(f"lines of {keyword}" for keyword in others))
+    for keyword, line in header.comments:
+        if parse_remarks([line]).keys().isdisjoint(ABOUT):
+            raw.leave_out(f"lines of {keyword}")
     for element in header.elements:
-        if not element.properties and element.name not in ("vertex", "face"):
-            continue
-        kind = _row_of(element, header.order)
-        names = set(kind.names or ())
-        carried = {
-            what: tuple(column for column in columns if column in names)
-            for what, columns in CARRIED.items()
-            if element.name == "vertex" and names.issuperset(columns[:3])
-        }
-        column_names = {*_KNOWN, *(column for columns in carried.values() for column in columns)}
-        raw.left_out.update(dict.fromkeys(name for name in kind.names or () if name not in column_names))
-        for first in range(0, element.count, ROWS):
-            size = min(ROWS, element.count - first) * kind.itemsize
-            data = source_input.read(size)
-            if len(data) < size:
-                raise TruncatedError(f"the PLY file is cut short: from {element.name} {first} on all are missing")
-            rows = np.frombuffer(data, kind)
-            if element.name == "vertex":
-                for what, columns in {"positions": ("x", "y", "z"), **carried}.items():
-                    yield what, np.stack([rows[column] for column in columns], axis=1)
-            elif element.name == "face":
-                # The row type has room for three corners. A polygon would shift all bytes after it, and the rest would
-                # be garbage.
-                if (rows["length"] != 3).any():
-                    raise MeshError("the faces are not all triangles; triangulate polygons first")
-                yield "faces", rows["corners"]
+        if element.properties or element.name in ("vertex", "face"):
+            yield from _rows_of(element, header.order, source_input, raw)
+
+
+def _rows_of(element: Element, order: str, source_input: Input, raw: Raw) -> Pieces:
+    """The tables of an element of a PLY file; the rows of others than vertices and faces are passed over."""
+    kind = _row_of(element, order)
+    names = kind.names or ()
+    tables: dict[str, tuple[str, ...]] = {"positions": ("x", "y", "z")}
+    if element.name == "vertex":
+        for what, columns in CARRIED.items():
+            if {*columns[:3]} <= {*names}:
+                tables[what] = tuple(column for column in columns if column in names)
+    taken_columns = {*_KNOWN, *chain.from_iterable(tables.values())}
+    raw.leave_out(*(name for name in names if name not in taken_columns))
+    for first in range(0, element.count, ROWS):
+        size = min(ROWS, element.count - first) * kind.itemsize
+        data = source_input.read(size)
+        if len(data) < size:
+            raise TruncatedError(f"the PLY file is cut short: from {element.name} {first} on all are missing")
+        rows = np.frombuffer(data, kind)
+        if element.name == "vertex":
+            for what, columns in tables.items():
+                yield what, np.stack([rows[column] for column in columns], axis=1)
+        elif element.name == "face":
+            # The row type has room for three corners. A polygon would shift all bytes after it, and the rest would
+            # be garbage.
+            if (rows["length"] != 3).any():
+                raise MeshError("the faces are not all triangles; triangulate polygons first")
+            yield "faces", rows["corners"]
 
 
 def _row_of(element: Element, order: str) -> np.dtype[Any]:
@@ -258,7 +290,8 @@ def _read_stl(source_input: Input, raw: Raw) -> Pieces:
         yield from _read_whole("stl", source_input, raw)
         return
     count, note = binary_triangles(head, size)
-    raw.left_out.update(dict.fromkeys([note] if note else ()))
+    if note:
+        raw.leave_out(note)
     source_input.read(HEAD)
     for first in range(0, count, ROWS):
         rows = min(ROWS, count - first)
@@ -266,7 +299,8 @@ def _read_stl(source_input: Input, raw: Raw) -> Pieces:
         if len(data) < RECORD.itemsize * rows:
             raise TruncatedError(f"the STL file is cut short: triangle {first} and those after it are missing")
         records = np.frombuffer(data, RECORD)
-        raw.left_out.update(dict.fromkeys(["attribute"] if records["attribute"].any() else ()))
+        if records["attribute"].any():
+            raw.leave_out("attribute")
         yield "positions", records["corners"].reshape(-1, 3)
         # STL repeats the corners of each triangle. They stay apart here; the lattice of the tiles joins equal places
         # later.
@@ -276,7 +310,7 @@ def _read_stl(source_input: Input, raw: Raw) -> Pieces:
 def _read_obj(source_input: Input, raw: Raw) -> Pieces:
     rest = source_input.read(len(BOM_UTF8)).removeprefix(BOM_UTF8)
     # Row 0 stands for corners without texture coordinates, so that all rows of faces have the same number of columns.
-    yield "texcoord", np.zeros((1, 2), np.float32)  # of corners without
+    yield "texcoord", np.zeros((1, 2), np.float32)
     while data := source_input.read(_TEXT):
         text = rest + data
         end = text.rfind(b"\n")
@@ -284,26 +318,31 @@ def _read_obj(source_input: Input, raw: Raw) -> Pieces:
             end = text.rfind(b"\n", 0, end)
         if end < 0 and len(text) > _TEXT:
             raise FormatError("this is not an OBJ file: it has no lines")
-        yield from _of_obj(text[: end + 1], raw)
-        rest = b"\n".join([*_USED.findall(text, 0, end + 1)[-1:], text[end + 1 :]])
+        lines, rest = text[: end + 1], text[end + 1 :]
+        yield from _of_obj(lines, raw)
+        last_material = _USED.findall(lines)[-1:]
+        rest = b"\n".join([*last_material, rest])
     yield from _of_obj(rest, raw)
 
 
 def _of_obj(text: bytes, raw: Raw) -> Pieces:
     """The tables of some lines. Corners are followed by their rows of texture coordinates, and a material."""
     # Relative indices count back from the present end of the lists, so the reader must know how many rows came before.
-    piece = read_obj(text, DEFAULT_LIMITS, (raw.rows["positions"], raw.rows["texcoord"] - 1, 0))
-    raw.about.update({name: str(piece.metadata[name]) for name in ABOUT if name in piece.metadata})
+    counts_before = (raw.rows["positions"], raw.rows["texcoord"] - 1, 0)
+    piece = read_obj(text, DEFAULT_LIMITS, counts_before)
+    raw.keep_about(piece.metadata)
     raw.libraries.update(dict.fromkeys(str(piece.metadata.get("mtllib", "")).split("\n")))
     columns = {column.name: column for column in piece.columns}
-    attribute_names = (key.partition(".")[0] for key in piece.metadata if key not in ABOUT)
-    sorted_names = sorted({*columns, *attribute_names} - {"color", "texcoord"})
-    raw.left_out.update(dict.fromkeys((*sorted_names, *piece.dropped)))
+    attribute_names = {key.partition(".")[0] for key in piece.metadata if key not in ABOUT}
+    lost = (columns.keys() | attribute_names) - {"color", "texcoord"}
+    raw.leave_out(*sorted(lost), *piece.dropped)
     if (piece.sizes < 3).any():
         raise MeshError("a face has fewer than three corners")
+    texcoord = columns["texcoord"]
     yield "positions", piece.positions
-    yield "texcoord", columns["texcoord"].values[:, :2]
-    yield from (("color", column.values) for column in piece.columns if column.name == "color")
+    yield "texcoord", texcoord.values[:, :2]
+    if "color" in columns:
+        yield "color", columns["color"].values
     if not len(piece.sizes):
         return
     points, corners = piece.positions, piece.corners
@@ -311,40 +350,51 @@ def _of_obj(text: bytes, raw: Raw) -> Pieces:
         used, corners = np.unique(piece.corners, return_inverse=True)
         # A triangle may use vertices of later pieces: it only needs their numbers. To cut a polygon, their places are
         # needed.
-        if used[0] < 0 or used[-1] >= raw.rows["positions"]:
-            raise MeshError(f"a face refers to vertex {used[0] if used[0] < 0 else used[-1]}, which comes later")
+        later = used[(used < 0) | (used >= raw.rows["positions"])]
+        if later.size:
+            raise MeshError(f"a face refers to vertex {later[0]}, which comes later")
         points = raw.table("positions")[used]
     # The ordinary reader cuts polygons by the same function, so that `bsm tile` and `bsm encode` give the same
     # triangles.
     places, owner, crossing = triangulate(points, piece.sizes, corners)
-    raw.left_out.update(dict.fromkeys([CROSSING] if crossing else ()))
+    if crossing:
+        raw.leave_out(CROSSING)
     names = names_in(piece.metadata, "material")
-    numbers = [raw.materials.setdefault(names.get(n, ""), len(raw.materials)) for n in range(1 + max(names, default=0))]
-    face_materials = columns["material"].values[owner] if "material" in columns else np.zeros(len(places), np.int32)
-    rows = np.maximum(np.asarray(columns["texcoord"].indices)[places] + 1, 0)
+    numbers: list[int] = []
+    for place in range(1 + max(names, default=0)):
+        number = raw.materials.setdefault(names.get(place, ""), len(raw.materials))
+        numbers.append(number)
+    face_materials = np.zeros(len(places), np.int32)
+    if "material" in columns:
+        face_materials = columns["material"].values[owner]
+    texcoord_rows = np.asarray(texcoord.indices)[places]
+    rows = np.maximum(texcoord_rows + 1, 0)
     yield "faces", np.column_stack([piece.corners[places], rows, np.array(numbers)[face_materials]])
 
 
 def _read_whole(kind: str | None, source_input: Input, raw: Raw) -> Pieces:
     """A file of any other format, in memory as a whole."""
-    mesh = (read := read_mesh(source_input, kind)).mesh
+    file = read_mesh(source_input, kind)
+    mesh = file.mesh
     raw.metadata.update(mesh.metadata)
-    raw.about.update({name: str(mesh.metadata[name]) for name in ABOUT if name in mesh.metadata})
-    attributes_by_name = {attribute.name: attribute for attribute in mesh.attributes}
+    raw.keep_about(mesh.metadata)
+    attributes = {attribute.name: attribute for attribute in mesh.attributes}
     yield "positions", mesh.positions
-    for what in [
-        what for what in CARRIED if what in attributes_by_name and attributes_by_name[what].domain == "vertex"
-    ]:
-        yield what, attributes_by_name.pop(what).values
-    texcoord, material = attributes_by_name.pop("texcoord", None), attributes_by_name.get("material")
+    for what in CARRIED:
+        if what in attributes and attributes[what].domain == "vertex":
+            yield what, attributes.pop(what).values
     rows = np.zeros_like(mesh.faces)
+    texcoord = attributes.pop("texcoord", None)
     if texcoord is not None:
         rows = 1 + (mesh.faces if texcoord.indices is None else texcoord.indices)
         yield "texcoord", np.pad(texcoord.values[:, :2], ((1, 0), (0, 0)))  # first, that of corners without
-    numbers = np.zeros(len(rows), np.int32) if material is None else material.values[:, 0].astype(np.int32)
-    raw.materials.update({str(number): number for number in range(1 + int(numbers.max(initial=0)))})
-    keys = sorted({key.partition(".")[0] for key in mesh.metadata} - {*ABOUT})
-    raw.left_out.update(dict.fromkeys((*attributes_by_name, *keys, *read.dropped)))
+    numbers = np.zeros(len(rows), np.int32)
+    if "material" in attributes:
+        numbers = attributes["material"].values[:, 0].astype(np.int32)
+    for number in range(1 + int(numbers.max(initial=0))):
+        raw.materials[str(number)] = number
+    keys = {key.partition(".")[0] for key in mesh.metadata} - {*ABOUT}
+    raw.leave_out(*attributes, *sorted(keys), *file.dropped)
     yield "faces", np.column_stack([mesh.faces, rows, numbers])
 
 
