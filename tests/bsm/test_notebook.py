@@ -40,6 +40,14 @@ def test_mesh_is_shown_without_scipy(monkeypatch):
     assert [layer["title"] for layer in widget.content["layers"]] == ["Original", "BSM"]
 
 
+def test_crease_angle_is_told_to_the_page():
+    data = bsm.encode(MESH)
+    assert '"creaseAngle": 30' in str(bsm.show(data, crease_angle=30)._esm)
+    for angle in (-1, 181, float("nan")):
+        with pytest.raises(bsm.OptionError, match="crease angle"):
+            bsm.show(data, crease_angle=angle)
+
+
 def test_sequence_is_encoded():
     positions = np.stack([MESH.positions, 1.1 * MESH.positions])
     widget = bsm.show((positions, MESH.faces), frame_rate=10)

@@ -169,6 +169,25 @@ def test_a_stream_by_name_alone_is_refused_as_one(tmp_path, capsys):
     assert "not a BSM stream" in capsys.readouterr().err
 
 
+def test_crease_angle_is_told_to_every_page(tmp_path, capsys):
+    stream, saved, site = str(VECTORS / "good-chain.bsm"), tmp_path / "page.html", tmp_path / "site"
+    with viewed(stream, "--crease-angle", "30") as address:
+        pages = [urllib.request.urlopen(address).read().decode()]
+    for output in ("--save", str(saved)), ("--static", str(site)):
+        assert main(["view", stream, "--crease-angle", "30", *output]) == 0
+    pages += [saved.read_text("utf-8"), (site / "index.html").read_text("utf-8")]
+    assert all('"creaseAngle": 30.0' in page for page in pages)
+    assert main(["view", stream, "-f", "--save", str(saved)]) == 0
+    assert '"creaseAngle":' not in saved.read_text("utf-8")
+
+
+@pytest.mark.parametrize("angle", ["-1", "180.5", "nan"])
+def test_crease_angles_without_a_meaning_are_refused(angle, tmp_path, capsys):
+    stream = str(VECTORS / "good-chain.bsm")
+    assert main(["view", stream, f"--crease-angle={angle}", "--save", str(tmp_path / "page.html")]) == 2
+    assert "the crease angle must be from 0" in capsys.readouterr().err
+
+
 def test_the_page_offers_the_presets_that_its_server_takes():
     with viewed() as address:
         page = urllib.request.urlopen(address).read().decode()

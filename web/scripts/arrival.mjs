@@ -3,12 +3,13 @@
  * Draco (fewest bits with a look of at most 1, level 10), meshoptimizer with brotli (the same bits), and our default and
  * `--quick`.
  *
- * Three states: cold (nothing is cached), cached (the decoder comes from the cache of the browser and is compiled), and
- * warm (the page has decoded another mesh). The link is made by the server, which sends all bytes one after the other at
- * a rate (0: without one): Chromium emulates none for threads. Times are the least of all rounds, from the call of the
- * loader; processor time is that of the whole renderer. STATES names some of the states. MESHES is a folder with
- * static/*.ply, or scenes with commas between them (a.glb,b.glb): these by GLTFLoader, as gltfpack -cc (GLTFPACK names
- * its command) and by `bsm glb`, default and `--quick`. PYTHON names a Python that has bsm[eval].
+ * Three states of each visitor: cold (nothing is cached), cached (another page, to which the decoder comes from the
+ * cache of the browser), and warm (that page has decoded the mesh before). The link is made by the server, which sends
+ * all bytes one after the other at a rate (0: without one): Chromium emulates none for threads. Times are the least of
+ * all rounds, from the call of the loader; processor time is that of the whole renderer. STATES names some of the
+ * states, NAMES some of the meshes. MESHES is a folder with static/*.ply, or scenes with commas between them
+ * (a.glb,b.glb): these by GLTFLoader, as gltfpack -cc (GLTFPACK names its command) and by `bsm glb`, default and
+ * `--quick`. PYTHON names a Python that has bsm[eval].
  */
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readdirSync, readFileSync, renameSync, rmSync } from "node:fs";
@@ -34,7 +35,7 @@ const KNOWN = [
     "fandisk_6475",
     "fr_casting",
 ];
-const NAMES = OF_SCENES ? SCENES.map((path) => basename(path, ".glb")) : KNOWN;
+const NAMES = OF_SCENES ? SCENES.map((path) => basename(path, ".glb")) : (process.env.NAMES?.split(" ") ?? KNOWN);
 /** How the page loads each kind of file. */
 const WAYS = OF_SCENES
     ? { gltfpack: "gltfpack", default: "scene", quick: "scene" }
@@ -224,8 +225,8 @@ async function spent() {
     return processInfo.filter(({ type }) => type === "renderer").reduce((sum, { cpuTime }) => sum + cpuTime, 0);
 }
 
-/** One load in a state. */
-async function arrival(name, way, state) {
+/** The states of one visitor, in their order: the first page fetches the decoder, the next one has it. */
+async function arrivals(name, way) {
     const context = await browser.newContext();
     try {
         const open = async () => {
@@ -235,21 +236,20 @@ async function arrival(name, way, state) {
             await page.evaluate(() => window.three);
             return page;
         };
-        const load = (page, mesh) =>
-            page.evaluate(
-                ([kind, url]) => window.load(kind, url),
-                [WAYS[way], `/file/${mesh}-${way}?${Math.random()}`],
-            );
-        let page = await open();
-        if (state !== "cold") await load(page, name); // the decoder that this stream needs
-        if (state === "cached") {
-            await page.close();
-            page = await open();
-        }
-        [rate, free] = [link === 0 ? Infinity : link * 1000, 0];
-        const before = await spent();
-        const times = await load(page, name);
-        return { ...times, cpu: 1000 * ((await spent()) - before) };
+        const load = async (page) => {
+            [rate, free] = [link === 0 ? Infinity : link * 1000, 0];
+            const before = await spent();
+            const url = `/file/${name}-${way}?${Math.random()}`;
+            const times = await page.evaluate(([kind, url]) => window.load(kind, url), [WAYS[way], url]);
+            return { ...times, cpu: 1000 * ((await spent()) - before) };
+        };
+        const first = await open();
+        const cold = await load(first);
+        if (STATES.join() === "cold") return { cold };
+        await first.close();
+        const second = await open();
+        const cached = await load(second);
+        return { cold, cached, warm: await load(second) };
     } finally {
         await context.close();
     }
@@ -257,25 +257,31 @@ async function arrival(name, way, state) {
 
 let link;
 try {
-    for (link of rates.length > 0 ? rates.map(Number) : [3, 10, 50])
-        for (const state of STATES) {
-            console.log(`\n${link} Mbit/s, ${state}: bytes; ms to the first and to the whole picture; processor ms`);
-            const ways = Object.keys(WAYS);
-            console.log(`| | ${ways.join(" | ")} |\n|---|${"---:|".repeat(ways.length)}`);
-            for (const name of NAMES) {
-                const cells = [];
-                for (const way of ways) {
-                    const found = [];
-                    for (let k = 0; k < Number(rounds); k++) found.push(await arrival(name, way, state));
-                    const least = (what) => Math.round(Math.min(...found.map((each) => each[what])));
-                    const bytes = files.get(`/file/${name}-${way}`).length.toLocaleString("en");
-                    const isWhole = !["bsm", "near"].includes(WAYS[way]);
+    const ways = Object.keys(WAYS);
+    for (link of rates.length > 0 ? rates.map(Number) : [3, 10, 50]) {
+        const rows = new Map(STATES.map((state) => [state, []]));
+        for (const name of NAMES) {
+            const cells = new Map(STATES.map((state) => [state, []]));
+            for (const way of ways) {
+                const visits = [];
+                for (let k = 0; k < Number(rounds); k++) visits.push(await arrivals(name, way));
+                const bytes = files.get(`/file/${name}-${way}`).length.toLocaleString("en");
+                const isWhole = !["bsm", "near"].includes(WAYS[way]);
+                for (const state of STATES) {
+                    const least = (what) => Math.round(Math.min(...visits.map((visit) => visit[state][what])));
                     const first = isWhole ? "" : `${least("first")}, `;
-                    cells.push(`${bytes}; ${first}${least("whole")}; ${least("cpu")}`);
+                    cells.get(state).push(`${bytes}; ${first}${least("whole")}; ${least("cpu")}`);
                 }
-                console.log(`| ${name} | ${cells.join(" | ")} |`);
             }
+            for (const state of STATES) rows.get(state).push(`| ${name} | ${cells.get(state).join(" | ")} |`);
+            console.error(`${link} Mbit/s: ${name}`);
         }
+        for (const [state, lines] of rows) {
+            console.log(`\n${link} Mbit/s, ${state}: bytes; ms to the first and to the whole picture; processor ms`);
+            console.log(`| | ${ways.join(" | ")} |\n|---|${"---:|".repeat(ways.length)}`);
+            console.log(lines.join("\n"));
+        }
+    }
 } finally {
     await browser.close();
     server.close();

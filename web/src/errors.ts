@@ -1,11 +1,18 @@
 /** Every failure of the decoder: one base class, and a class for each thing a caller may want to do about it. */
 
-/** Where in a stream something was noticed: byte offset, number of the frame, index of the block. */
+/** Where in a stream something was noticed: byte offset, number of the section, index of the block. */
 export interface Place {
     offset?: number;
     frame?: number;
     block?: number;
 }
+
+/** What messages call the places. */
+const WORDS = [
+    ["offset", "byte"],
+    ["frame", "section"],
+    ["block", "block"],
+] as const;
 
 /** An error as it goes from one thread to another. */
 export interface Described {
@@ -41,9 +48,9 @@ export class BsmError extends Error {
     located(place: Place): this {
         const problem = this.problem || "see bsm.js";
         let where = "";
-        for (const key of ["offset", "frame", "block"] as const) {
+        for (const [key, word] of WORDS) {
             const value = (this.place[key] ??= place[key]);
-            if (value !== undefined) where += `${where && ", "}${key === "offset" ? "byte" : key} ${value}`;
+            if (value !== undefined) where += `${where && ", "}${word} ${value}`;
         }
         this.message = where ? `${problem} [${where}]` : problem;
         return this;

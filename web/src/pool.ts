@@ -47,7 +47,8 @@ export type StreamWishes = Pick<Start, "tolerant" | "drawing" | "crease" | "wort
 export type StreamDecoding = Pick<PooledStream, "receiveData" | "receiveEof" | "close">;
 
 /** What threads are told of an angle in degrees at which edges are sharp; undefined: the usual one, where a mesh has some. */
-export const creaseOf = (angle?: number): number => (angle === undefined ? -2 : Math.cos((angle * Math.PI) / 180));
+export const creaseOf = (angle?: number): number =>
+    angle === undefined ? -2 : Math.cos((Math.min(angle, 180) * Math.PI) / 180);
 
 const LIMIT = 4;
 const SMALL = 20_000; // vertices that are decoded here sooner than a thread begins

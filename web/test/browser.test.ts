@@ -102,6 +102,17 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             assert.equal(page.workers().length, 1, "no thread starts that decodes nothing");
         });
 
+    test("draws edges sharp from the angle on that Python tells", async () => {
+        const pictureOf = async (told: object): Promise<string> => {
+            await page.goto(savedPage(folder, { whole }, {}, told));
+            await state("complete");
+            return (await page.locator("canvas").screenshot()).toString("base64");
+        };
+        const smooth = await pictureOf({ creaseAngle: 180 });
+        assert.equal(await pictureOf({}), smooth, "a mesh without clearly sharp edges is smooth");
+        assert.notEqual(await pictureOf({ creaseAngle: 0 }), smooth);
+    });
+
     test("cuts the stream at any byte, and goes on", async () => {
         await page.getByLabel("Stop after byte").fill("0");
         await page.waitForFunction(() => document.body.dataset.blocks === "0");

@@ -127,14 +127,21 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
 }
 
 /** The page with streams in it, as `bsm view --save` writes it. */
-export function savedPage(folder: string, streams: Record<string, Uint8Array>, more: object = {}): string {
+export function savedPage(
+    folder: string,
+    streams: Record<string, Uint8Array>,
+    more: object = {},
+    told: object = {},
+): string {
     const list = Object.entries(streams).map(([name, bytes]) => ({ ...contentOf(name, bytes), ...more }));
     const slot = '<script type="application/json" id="bsm-streams">';
     const path = join(folder, "page.html");
     const page = readFileSync(join(VIEWER, "page.html"), "utf8");
     writeFileSync(
         path,
-        page.replace(`${slot}[]`, () => slot + JSON.stringify(list)).replace("<!-- script -->", viewerScript),
+        page
+            .replace(`${slot}[]`, () => slot + JSON.stringify(list))
+            .replace("<!-- script -->", () => viewerScript(told)),
     );
     return pathToFileURL(path).href;
 }
@@ -152,10 +159,10 @@ export function contentOf(
     };
 }
 
-/** The page's module with kernels in it. */
-export function viewerScript(): string {
+/** The page's module with kernels in it, and with what else Python tells it. */
+export function viewerScript(told: object = {}): string {
     const kernels = { data: base64(readFileSync(join(WEB, "built/kernels.wasm"))) };
-    return `const KERNELS=${JSON.stringify({ kernels })};${readFileSync(join(VIEWER, "viewer.js"), "utf8")}`;
+    return `const KERNELS=${JSON.stringify({ kernels, ...told })};${readFileSync(join(VIEWER, "viewer.js"), "utf8")}`;
 }
 
 /** Drop files on a page. */

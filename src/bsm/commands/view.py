@@ -21,7 +21,17 @@ from bsm.ground.console import Console, Progress
 from bsm.jobs.plan import STREAM_SUFFIXES, files_in
 from bsm.tiles.shards import open_tiles
 from bsm.viewer.contents import NO_STREAM, Content, against, alone, encoded_scene, given_at, made
-from bsm.viewer.page import Arrival, PageServer, Ranged, Tiled, in_browser, page_with, site_with, written_to
+from bsm.viewer.page import (
+    Arrival,
+    PageServer,
+    Ranged,
+    Tiled,
+    check_crease_angle,
+    in_browser,
+    page_with,
+    site_with,
+    written_to,
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,6 +52,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
     # Tiles are gigabytes. The page fetches those that it shows, and can neither hold nor compare all.
     if (args.follow or args.save or args.original) and any(map(is_tiles, args.inputs)):
         raise OptionError("tiles are loaded on demand; leave out --save, --original and --follow")
+    check_crease_angle(args.crease_angle)
+    if args.crease_angle is not None and any(map(is_tiles, args.inputs)):
+        raise OptionError("tiles are drawn smooth; leave out --crease-angle")
     if args.original and len(args.inputs) != 1:
         raise OptionError("--original is for one input")
     if len(args.inputs) == 1 and _has_streams(args.inputs[0]):
@@ -50,10 +63,11 @@ def run(args: argparse.Namespace, console: Console) -> int:
         served = [_opened(name, path, args, console, progress) for name, path in _named(args.inputs).items()]
     contents = [content for content in served if isinstance(content, Content)]
     if args.save:
-        write_output(args.save, page_with(contents).encode(), overwrite=args.force)
+        write_output(args.save, page_with(contents, args.crease_angle).encode(), overwrite=args.force)
         console.note(f"{args.save}: open it in a browser")
     if args.static:
-        for name, data in site_with([content for content in served if not isinstance(content, Arrival)]).items():
+        static = [content for content in served if not isinstance(content, Arrival)]
+        for name, data in site_with(static, args.crease_angle).items():
             file = Path(args.static, name)
             file.parent.mkdir(parents=True, exist_ok=True)
             write_output(file, data if isinstance(data, bytes) else data.whole(), overwrite=args.force)
@@ -62,7 +76,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         console.note(f"{args.static}: a page for any web server{ranges}{example}")
     if args.save or args.static:
         return 0
-    with PageServer(served, args.port) as server:
+    with PageServer(served, args.port, args.crease_angle) as server:
         _serve(server, args, console)
     return 0
 
@@ -75,6 +89,8 @@ def _has_streams(path: str) -> bool:
 def _view_folder(folder: str, args: argparse.Namespace, console: Console) -> int:
     """Show a page with a picture of each stream of a folder."""
     wrong = [name for name in ("static", "original", "follow") if getattr(args, name)]
+    # Pictures of an overview are flat everywhere.
+    wrong += ["crease-angle"] if args.crease_angle is not None else []
     if wrong:
         raise OptionError(f"{folder} has streams of its own; leave out --{wrong[0]}")
     with console.progress("drawing"):

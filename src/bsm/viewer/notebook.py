@@ -11,10 +11,12 @@ from bsm.bitstream.errors import OptionError, imported
 from bsm.files.libraries import as_file, as_mesh
 from bsm.files.stream import is_stream
 from bsm.viewer.contents import Content, alone, compared
-from bsm.viewer.page import embedded, listed, script
+from bsm.viewer.page import check_crease_angle, embedded, listed, script
 
 
-def show(source: Any, *, original: Any = None, height: int = 480, **keywords: Any) -> Any:
+def show(
+    source: Any, *, original: Any = None, height: int = 480, crease_angle: float | None = None, **keywords: Any
+) -> Any:
     """Show a mesh, a sequence or a stream in a notebook, block by block as it is decoded.
 
     Parameters
@@ -26,6 +28,9 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
         The original to compare a stream with. A mesh that `show` encodes is its own original.
     height : int
         Height of the widget, in pixels.
+    crease_angle : float, optional
+        Edges at which faces turn by more degrees than this look sharp: 0 is flat, 180 smooth. By default, only meshes
+        with clearly sharp edges have some, from 40 degrees on. Normals of the mesh come first.
     **keywords
         Options for encoding, as in `encode` or `encode_sequence`.
 
@@ -48,8 +53,10 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
     import anywidget
     import traitlets
 
+    check_crease_angle(crease_angle)
+
     class StreamWidget(anywidget.AnyWidget):
-        _esm = script(embedded)
+        _esm = script(embedded, crease_angle=crease_angle)
         content = traitlets.Dict().tag(sync=True)
         height = traitlets.Int().tag(sync=True)
 

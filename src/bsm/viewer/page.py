@@ -27,7 +27,7 @@ from urllib.parse import parse_qs, urlsplit
 
 from bsm._core import SkimmedPacket
 from bsm.bitstream.container.wire import MAGIC, FrameType, write_preamble
-from bsm.bitstream.errors import BsmError, DependencyError
+from bsm.bitstream.errors import BsmError, DependencyError, OptionError
 from bsm.bitstream.limits import Limits
 from bsm.codec.static.presets import DEFAULT, SEQUENCE_ROWS
 from bsm.files.inspection import Skimmer
@@ -191,6 +191,7 @@ _POLICY = (
     "style-src 'unsafe-inline'; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
 
+_LARGEST_ANGLE = 180  # degrees between two faces: they lie on each other
 _PRESETS = sorted((row.name for row in SEQUENCE_ROWS), key=lambda name: name != DEFAULT)
 """What pages offer; the first is chosen."""
 Place = Callable[[str, bytes], dict[str, str]]
@@ -213,19 +214,29 @@ def embedded(_: str, data: bytes) -> dict[str, str]:
     return {"data": base64.b64encode(data).decode()}
 
 
-def script(place: Place, *more: str) -> str:
+def check_crease_angle(angle: float | None) -> None:
+    """Raise an error unless pages can draw with an angle."""
+    if angle is not None and not 0 <= angle <= _LARGEST_ANGLE:
+        raise OptionError(f"the crease angle must be from 0 (flat) to {_LARGEST_ANGLE} degrees (smooth), not {angle}")
+
+
+def script(place: Place, *more: str, crease_angle: float | None = None) -> str:
     """Return the module of the page with the addresses of the full kernels, and of `more` smaller ones or scripts."""
     kernels = {PurePath(name).stem: place(f"/{name}", _built(name)) for name in ("kernels.wasm", *more)}
-    told = {**kernels, "presets": _PRESETS}
+    told: dict[str, Any] = {**kernels, "presets": _PRESETS}
+    # The page has the rule. Without an angle, it decides by the edges of each mesh.
+    if crease_angle is not None:
+        told["creaseAngle"] = crease_angle
     return f"const KERNELS={json.dumps(told)};{_built('viewer.js').decode()}"
 
 
-def page_with(contents: Sequence[Content]) -> str:
+def page_with(contents: Sequence[Content], crease_angle: float | None = None) -> str:
     """Return a page of one file, with all streams inside."""
-    return _page([listed(content, "", embedded) for content in contents], script(embedded))
+    entries = [listed(content, "", embedded) for content in contents]
+    return _page(entries, script(embedded, crease_angle=crease_angle))
 
 
-def site_with(contents: Sequence[Content | Tiled]) -> dict[str, bytes | Ranged]:
+def site_with(contents: Sequence[Content | Tiled], crease_angle: float | None = None) -> dict[str, bytes | Ranged]:
     """Return the files of a page that encodes by itself, by their names; any web server can send them."""
     built: dict[str, bytes | Ranged] = {name: _built(name) for name in ("encode.wasm", "encode-moving.wasm")}
 
@@ -242,7 +253,8 @@ def site_with(contents: Sequence[Content | Tiled]) -> dict[str, bytes | Ranged]:
             entries.append(content.listed(number))
         else:
             entries.append(listed(content, f"/{number}", place))
-    built["index.html"] = _page(entries, script(place, "grid.wasm", "encoder.js")).encode()
+    module = script(place, "grid.wasm", "encoder.js", crease_angle=crease_angle)
+    built["index.html"] = _page(entries, module).encode()
     return built
 
 
@@ -284,7 +296,9 @@ class PageServer(ThreadingHTTPServer):
     # A page that is open holds a connection. Without this, Ctrl-C would wait until it is closed.
     daemon_threads = True
 
-    def __init__(self, contents: Sequence[Content | Arrival | Tiled], port: int = 0) -> None:
+    def __init__(
+        self, contents: Sequence[Content | Arrival | Tiled], port: int = 0, crease_angle: float | None = None
+    ) -> None:
         # Never another address: the server reads files that the user named, and has no accounts.
         super().__init__((LOOPBACK, port), _Handler)
         self.content: dict[str, tuple[str, bytes | Arrival | Ranged]] = {}
@@ -301,7 +315,7 @@ class PageServer(ThreadingHTTPServer):
                 entries.append(content.listed(number))
             else:
                 entries.append(listed(content, path, self.place))
-        module = script(self.place, "grid.wasm")
+        module = script(self.place, "grid.wasm", crease_angle=crease_angle)
         self.content["/"] = ("text/html; charset=utf-8", _page(entries, module).encode())
         self.policy = _POLICY.format(base64.b64encode(hashlib.sha256(module.encode()).digest()).decode())
 

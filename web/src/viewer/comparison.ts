@@ -2,12 +2,12 @@
 import { BufferAttribute, Triangle, Vector3 } from "three";
 import { BSMGeometry } from "../geometry";
 import { materialsOf, turnOf } from "../materials";
-import { creaseOf, type Pool } from "../pool";
+import type { Pool } from "../pool";
 import { colorsOf, fieldOf, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
 import { distancesOf } from "./distances";
 import { element, percent, sized, type Content } from "./facts";
 import type { Form } from "./form";
-import { bytesOf } from "./inlined";
+import { bytesOf, crease } from "./inlined";
 import { listParts } from "./parts";
 import type { Mode, Shading, Stage } from "./stage";
 import { wholeOf } from "./tiles";
@@ -91,7 +91,7 @@ export class Comparison {
         for (const [i, layer] of layers.entries()) {
             const off = layer.off && new Float32Array((await bytesOf(layer.off)).buffer);
             const made = async (): Promise<BSMGeometry> =>
-                layer.pictures ? new BSMGeometry() : wholeOf(pool, await bytesOf(layer), creaseOf());
+                layer.pictures ? new BSMGeometry() : wholeOf(pool, await bytesOf(layer), crease);
             const geometry = i === main ? undefined : await made();
             for (const picture of layer.pictures ?? []) geometry?.accept(picture);
             if (!mine()) return;

@@ -6,7 +6,7 @@ import { messageOf } from "../fetched";
 import type { Header } from "../header";
 import { Engine } from "../engine";
 import { Kernels, openDesk } from "../index";
-import { creaseOf, Pool } from "../pool";
+import { Pool } from "../pool";
 import { suffixOf, type Reading } from "../reading";
 import { encodeHere, inSingle, readFrames, readOne, shownAmong } from "../together";
 import type { Content, Layer } from "./facts";
@@ -19,6 +19,8 @@ export interface Job {
     preset: string;
     /** The decoder, for scenes whose geometry is streams. */
     kernels: WebAssembly.Module;
+    /** Where edges are sharp, as threads are told. */
+    crease: number;
 }
 export type Status = { stage: string; share: number } | { error: string } | { content: Content };
 
@@ -26,6 +28,7 @@ export type Status = { stage: string; share: number } | { error: string } | { co
 function drawn(
     { positions, faces, frames = 0, attributes = [], metadata = {} }: Reading["mesh"],
     kernels: WebAssembly.Module,
+    crease: number,
 ): { pictures: Picture[]; moved: Transferable[] } {
     const [pictures, moved]: [Picture[], Transferable[]] = [[], []];
     const engine = new Engine(new Kernels(kernels), {}, false);
@@ -33,7 +36,7 @@ function drawn(
         pictures.push(picture);
         moved.push(...buffers);
     };
-    const drawing = new Drawing(false, {}, engine, show, creaseOf());
+    const drawing = new Drawing(false, {}, engine, show, crease);
     const size = positions.length / Math.max(frames, 1);
     const [firsts, none] = [firstsOf(positions, size), new Int32Array(0)];
     drawing.accept({ type: "header", header: { vertices: new Set(firsts).size, faces: faces.length / 3 } as Header });
@@ -70,7 +73,7 @@ async function exact(
 }
 
 async function work(
-    { files, preset, kernels }: Job,
+    { files, preset, kernels, crease }: Job,
     report: (report: Status, moved?: Transferable[]) => void,
 ): Promise<void> {
     const [begin, all] = [performance.now(), shownAmong(files) as File[]];
@@ -98,7 +101,7 @@ async function work(
         const encoded = (): Promise<Uint8Array> =>
             isExact ? exact(mesh, encode, isPair) : encode({ bits: parseInt(preset) });
         const bytes = isPair && file === all[0] ? undefined : await encoded();
-        const { pictures, moved } = drawn(mesh, kernels);
+        const { pictures, moved } = drawn(mesh, kernels, crease);
         transfer.push(...moved);
         rest.used.forEach((each) => used.add(each));
         notes.push(...rest.notes.map((note) => (isPair ? `${name}: ${note}` : note)));

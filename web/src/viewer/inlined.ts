@@ -2,6 +2,7 @@
 import { bsm, openDesk } from "../index";
 import { once } from "../fetched";
 import type { Build } from "../peek";
+import { creaseOf } from "../pool";
 import type { Source } from "../source";
 import { started } from "../threads";
 
@@ -13,12 +14,14 @@ export interface Inlined {
 }
 
 /** What `bsm.viewer.page` says before the script. */
-declare const KERNELS: { kernels: Inlined; grid?: Inlined; encoder?: Inlined; presets: string[] };
+declare const KERNELS: Record<"kernels", Inlined> &
+    Partial<Record<"grid" | "encoder", Inlined>> & { presets: string[]; creaseAngle?: number };
 
 /** The script of the thread that encodes, where no server does; whether `bsm view` serves the page, and can encode. */
 export const encoder = KERNELS.encoder?.url;
 export const served = KERNELS.kernels.url !== undefined && !encoder;
 export const offered = KERNELS.presets; // what the server encodes with
+export const crease = creaseOf(KERNELS.creaseAngle);
 
 export async function fetched(url: string, start?: RequestInit): Promise<Response> {
     const response = await fetch(url, start);

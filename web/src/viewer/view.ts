@@ -14,12 +14,13 @@ import { errorLike, type Header, type EventOf } from "../index";
 import { messageOf } from "../fetched";
 import { BSMGeometry } from "../geometry";
 import { turnOf } from "../materials";
-import { creaseOf, type Pool, type StreamDecoding } from "../pool";
+import type { Pool, StreamDecoding } from "../pool";
 import { Arrival } from "./arrival";
 import { pictureOf } from "./capture";
 import { Comparison } from "./comparison";
 import { counted, element, factsOf, sized, type Content, type Row } from "./facts";
 import { Form } from "./form";
+import { crease } from "./inlined";
 import { Inspector } from "./inspector";
 import { listenToKeys } from "./keys";
 import { joinNormals } from "./seams";
@@ -294,7 +295,7 @@ export class View {
                     if (bytes === this.arrival.fed) this.show();
                 },
             },
-            { tolerant: true, drawing: "growing", crease: creaseOf() },
+            { tolerant: true, drawing: "growing", crease },
         );
     }
 

@@ -3,7 +3,7 @@ import { messageOf } from "../fetched";
 import { Pool } from "../pool";
 import type { Job, Status } from "./encoder";
 import type { Content } from "./facts";
-import { bytesOf, encoder, fetched, inlined, load, offered, served } from "./inlined";
+import { bytesOf, crease, encoder, fetched, inlined, load, offered, served } from "./inlined";
 import { bytesIn, contentOf, type Encode, isStream, pathOf } from "./upload";
 import { View } from "./view";
 
@@ -69,7 +69,7 @@ const encodeHere: Encode = async (files, preset, report, signal) => {
             else if ("stage" in data) report(data.stage, data.share);
             else resolve(data.content);
         };
-        worker.postMessage({ files: named, preset, kernels } satisfies Job);
+        worker.postMessage({ files: named, preset, kernels, crease } satisfies Job);
     }).finally(() => worker.terminate());
 };
 
