@@ -51,8 +51,8 @@ PATCHES = Filter("normals", 0.2, 0.35, "patches")  # makes the first guess where
 # Noise along an axis slides vertices as well.
 AXIAL = (PATCHES, CANDIDATES[0], *(Filter("positions", *way) for way in ((0.4, 0.4), (0.2, 0.25), (0.1, 0.55))))
 SEEN = tuple(Filter(RAYS, keep, sigma_r) for keep, sigma_r in ((0.3, 0.4), (1.0, 0.4), (0.3, 0.25), (1.0, 0.55)))
-STEPPED = (Step(Filter(RAYS, 2.0, 0.4), 2),)
-"""For scans of one view; and where depths are in steps, which hide most of the noise from fine filters."""
+"""For scans of one view."""
+STEPPED = 0.7  # weight of bends where depths are in steps, which hide the level of the noise
 FUSED = tuple(Filter(BENDS, weight, 0.3) for weight in (0.15, 0.3, 0.6))
 SPECIAL = {"view": SEEN, "axis": AXIAL, "fused": FUSED}
 EVEN, FUSED_UNEVEN, FUSED_MOST = 0.2, 7.0, 2.5
@@ -193,7 +193,8 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
     """Choose the filter that suits the cause, without a rehearsal."""
     steps: tuple[Step, ...]
     if finding.stepped:
-        steps = STEPPED
+        assert finding.view is not None
+        steps = (Step(Filter(RAYS, STEPPED / finding.view.level, 0.4), 2),)
     elif finding.kind == "fused":
         weight = min(FUSED_UNEVEN * finding.uneven, FUSED_MOST)
         steps = (Step(Filter(BENDS, weight, 0.4), 0),)

@@ -17,33 +17,42 @@ BEND = 0.02  # change of slope up to which bends are rounded, not sharp
 ROUNDS, STEPS, STAND_OUT = 6, 120, 2.0
 
 
-def flattened(given: Positions, places: Positions, topology: Topology, weight: float) -> Positions:
-    """Positions, shape (n, 3), of fewer bends over the places, shape (n, 3), near the given ones."""
-    middle, edge = given.mean(axis=0), mean_edge_length(given, topology.faces) or 1.0
+def flattened(measured: Positions, places: Positions, topology: Topology, weight: float) -> Positions:
+    """Positions, shape (n, 3), of fewer bends over the places, shape (n, 3), near the measured ones."""
+    middle = measured.mean(axis=0)
+    edge = mean_edge_length(measured, topology.faces) or 1.0
     # In mean edges, since the constants are; and about the middle, so that no digits are lost far from the origin.
-    found = fewer_bends((given - middle) / edge, (places - middle) / edge, topology, weight)
-    return np.asarray(middle + edge * found)
+    values = (measured - middle) / edge
+    flat = fewer_bends(values, (places - middle) / edge, topology, weight)
+    return np.asarray(middle + edge * flat)
 
 
-def fewer_bends(given: Floats, places: Floats, topology: Topology, weight: float) -> Floats:
+def fewer_bends(measured: Floats, places: Floats, topology: Topology, weight: float) -> Floats:
     """Values, shape (n, d), of fewer bends over the places, both in mean edges; what stands out counts less."""
     bends, lengths = bending(places, topology)
-    values, trust = given, np.ones(len(given))
+    values = measured
+    trust = np.ones(len(measured))
     for turn in range(ROUNDS):
         bent = np.linalg.norm(bends @ values, axis=1)
-        # The weights of an L1 norm grow without bound where nothing bends. The first round is smoother still: noise
-        # bends everything, and would pass for edges.
-        sharp = np.maximum(bent, BEND if turn else max(BEND, float(np.median(bent))))
-        system = (sparse.diags(trust) + bends.T @ sparse.diags(weight * lengths / sharp) @ bends).tocsr()
+        rounding = BEND
+        if turn == 0:
+            # The first round is smoother: noise bends everything, and would pass for edges.
+            rounding = max(BEND, float(np.median(bent)))
+        # The weights of an L1 norm grow without bound where nothing bends.
+        stiffness = weight * lengths / np.maximum(bent, rounding)
+        system = (sparse.diags(trust) + bends.T @ sparse.diags(stiffness) @ bends).tocsr()
         # Weights differ by orders of magnitude between flat places and edges. Scaling by the diagonal evens that out.
-        near = sparse.diags(1.0 / system.diagonal())
-        columns = zip((trust[:, None] * given).T, values.T, strict=True)
-        found = [linalg.cg(system, *each, maxiter=STEPS, M=near)[0] for each in columns]
-        values = np.stack(found, axis=1)
-        off = np.linalg.norm(values - given, axis=1)
+        scaling = sparse.diags(1.0 / system.diagonal())
+        target = trust[:, None] * measured
+        columns = []
+        for pull, start in zip(target.T, values.T, strict=True):
+            columns.append(linalg.cg(system, pull, start, maxiter=STEPS, M=scaling)[0])
+        values = np.stack(columns, axis=1)
+        distance = np.linalg.norm(values - measured, axis=1)
         # The median of a normal distribution is 0.6745 deviations. Least squares would follow outliers far beyond.
-        usual = STAND_OUT * float(np.median(off)) / 0.6745
-        trust = np.minimum(1.0, usual / np.maximum(off, 1e-9)) if usual > 0.0 else trust
+        usual = STAND_OUT * float(np.median(distance)) / 0.6745
+        if usual > 0.0:
+            trust = np.minimum(1.0, usual / np.maximum(distance, 1e-9))
     return values
 
 

@@ -21,9 +21,9 @@ clear; others are looked for after these."""
 FEWEST, FEWEST_SHARE, MOST_SHARE = 12, 0.004, 0.2  # how many are believed, as shares of the vertices as well
 ONE_SIDED = 0.5
 DISTINCT = 4.0  # smallest displacement looked for, over what calm surroundings show
-STRAY, FARTHER, SPIKY = 1.2, 2.0, 0.75
-"""Distance from the middle of the neighbors, in theirs, of a stray; how much farther than nine tenths of all vertices
-it is; and the length of the mean normal around it below which it stands out."""
+STRAY, SPIKY = 1.2, 0.75
+"""Distance of a stray from the middle of its neighbors, in theirs; and the length of the mean normal around it, below
+which it stands out."""
 STRAY_FAR, STRAY_LEFT = 1.5, 0.15
 """Of strays: median way back, in mean edges, and the share that may still stand out there. Slivers of CAD
 models go 0.1 to 1.3 edges, or a fifth stays."""
@@ -45,20 +45,22 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
     """Vertices far outside their neighbors, put in the middle of them, if there are many."""
     if not probe.counted.any():
         return positions
-    distance, spiky = _distances(positions, probe), _spiky(positions, probe)
-    usual = float(np.quantile(distance[probe.counted], 0.9))
-    stray = spiky & (distance > max(STRAY, FARTHER * usual))
+    stray = _spiky(positions, probe) & (_distances(positions, probe) > STRAY)
     if not _many(stray):
         return positions
     # Only from neighbors that are not strays themselves.
-    known = np.where(stray, 0.0, 1.0)
-    weight = probe.average @ known
-    middle = (probe.average @ (known[:, None] * positions)) / np.maximum(weight, 1e-9)[:, None]
-    place = np.where((stray & (weight > 0.0))[:, None], middle, positions)
-    way = np.median(np.linalg.norm(place - positions, axis=1)[stray])
-    far = way > STRAY_FAR * mean_edge_length(place, probe.topology.faces)
+    trust = np.where(stray, 0.0, 1.0)
+    weight = probe.average @ trust
+    sums = probe.average @ (trust[:, None] * positions)
+    middles = sums / np.maximum(weight, 1e-9)[:, None]
+    movable = stray & (weight > 0.0)
+    result = np.where(movable[:, None], middles, positions)
+    way = np.linalg.norm(result - positions, axis=1)[stray]
     # Slivers of CAD models look like strays. Put "back", they still stand out, and are then left alone.
-    return place if far and _spiky(place, probe)[stray].mean() < STRAY_LEFT else positions
+    far = np.median(way) > STRAY_FAR * mean_edge_length(result, probe.topology.faces)
+    if not far or _spiky(result, probe)[stray].mean() >= STRAY_LEFT:
+        return positions
+    return result
 
 
 def _many(chosen: Mask) -> bool:
