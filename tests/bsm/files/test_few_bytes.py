@@ -18,7 +18,7 @@ FACE = "GRID,1,{0},0.,0.,0.\nGRID,2,{0},1.,0.,0.\nGRID,3,{0},0.,1.,0.\nCTRIA3,1,
 def test_no_pattern_begins_a_line_with_blanks_of_many_lines():
     """Such a pattern starts anew at each of n blank lines, and walks over those after it."""
     for path in SOURCES.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text())):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Constant) and isinstance(node.value, (str, bytes)):
                 text = node.value if isinstance(node.value, str) else node.value.decode("latin-1")
                 assert not re.match(r"\^\(?(\?:)?\\s[*+]", text), f"{path.name}, line {node.lineno}: {text[:40]}"

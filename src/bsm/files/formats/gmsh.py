@@ -8,6 +8,7 @@ not in keywords.csv, refuses a file, and so do elements beyond the second order.
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -56,13 +57,18 @@ class _Numbers:
 
     def take(self, kind: Any, count: int = 1) -> Any:
         """The next numbers, of a kind that they have in binary."""
-        size = count * (np.dtype(kind).itemsize if self._binary else 1)
-        begin, self._at = self._at, self._at + size
+        size = count * np.dtype(kind).itemsize if self._binary else count
+        begin = self._at
+        self._at += size
         if not begin <= self._at <= len(self._data):
             raise TruncatedError("a section ends amid its numbers")
         if self._binary:
             return np.frombuffer(self._data, kind, count, begin)
-        return self._data[begin : self._at] if kind == "f8" else as_integers(self._data[begin : self._at], "a number")
+        numbers = self._data[begin : self._at]
+        return numbers if kind == "f8" else as_integers(numbers, "a number")
+
+    def table(self, kind: str, count: int, width: int) -> Any:
+        return self.take(kind, count * width).reshape(count, width)
 
     def counts(self, count: int, kind: str = "u8") -> list[int]:
         numbers: list[int] = self.take(kind, count).tolist()
@@ -74,9 +80,9 @@ class _Numbers:
     def rows(self, count: int, width: int) -> tuple[Ints, Doubles]:
         """The next rows: a whole number each, and values."""
         if self._binary:
-            table = self.take(np.dtype([("number", "i4"), ("values", "f8", (width,))]), count)
-            return table["number"].astype(np.int64), table["values"]
-        table = self.take("f8", count * (1 + width)).reshape(count, 1 + width)
+            rows = self.take(np.dtype([("number", "i4"), ("values", "f8", (width,))]), count)
+            return rows["number"].astype(np.int64), rows["values"]
+        table = self.table("f8", count, 1 + width)
         return as_integers(table[:, 0], "a number"), table[:, 1:]
 
 
@@ -84,46 +90,61 @@ class _Gmsh:
     """The cells of a file, the groups that name them, and values by time."""
 
     def __init__(self, data: bytes, limits: Limits) -> None:
-        self.keywords, self._sections = Keywords("gmsh", _WAY), dict[str, list[bytes]]()
+        self.keywords = Keywords("gmsh", _WAY)
+        self._sections = self._split(data)
         self._groups: dict[tuple[int, ...], int] = {(): 0}
         self._limits, self._size = limits, len(data)
-        line, counted = 1, 0
-        for match in re.finditer(rb"^\$(?!End)(\w+)[^\n]*\n(.*?)(?=^\$End\1|\Z)", data, re.M | re.S):
-            line, counted = line + data.count(b"\n", counted, match.start()), match.start()
-            name = match[1].decode()
-            sections = self._sections.setdefault(name, [])
-            if sections and name not in _VALUES and match[2] not in sections:  # Gmsh writes all again for each view
-                raise self.keywords.refusal(f"another ${name}", line)
-            sections.append(match[2])
-            self.keywords.leave(name, line)
-        form, _, one = self._sections.get("MeshFormat", [b""])[0].partition(b"\n")
+        header, _, one = self._first("MeshFormat").partition(b"\n")
         with as_format_error("Gmsh"):
-            version, binary, size = form.split()
+            version, binary, size = header.split()
             self._version, self._binary = float(version), binary == b"1"
             if size != b"8" or not 2 <= self._version < 5 or (self._binary and one[:4] != b"\1\0\0\0"):
                 raise FormatError(f"this file has the version {version.decode()}, or numbers of another size; {_WAY}")
             numbers, self.points = self._nodes()
             require_counts(limits, vertices=len(numbers))
             nodes = Numbering(numbers)
-            self.cells = [
-                (shape, cell_numbers, of, nodes.rows(corners)) for shape, cell_numbers, of, corners in self._cells()
-            ]
-            elements = np.concatenate([np.zeros(0, np.int64), *(cell[1] for cell in self.cells)])
-            self._series: dict[tuple[str, str], dict[float, tuple[Ints, Doubles]]] = {}
+            self.cells: list[_Cells] = []
+            elements = [np.zeros(0, np.int64)]
+            for shape, cell_numbers, places, corners in self._cells():
+                self.cells.append((shape, cell_numbers, places, nodes.rows(corners)))
+                elements.append(cell_numbers)
             self._tagged = {"NodeData": nodes}
             if "ElementData" in self._sections:
-                self._tagged["ElementData"] = Numbering(elements, "element")
-            for kind, section in ((whose, one) for whose in _VALUES for one in self._sections.get(whose, ())):
-                series_name, time, value_numbers, values = self._values(section)
-                rows = self._tagged[kind].rows(value_numbers), values
-                if self._series.setdefault((kind, series_name), {}).setdefault(time, rows) is not rows:
-                    raise FormatError(f"the values {series_name} are there twice for the time {time:g}")
+                self._tagged["ElementData"] = Numbering(np.concatenate(elements), "element")
+            self._series: dict[tuple[str, str], dict[float, tuple[Ints, Doubles]]] = {}
+            for kind in _VALUES:
+                for section in self._sections.get(kind, ()):
+                    self._add_values(kind, section)
             self._require_tables()
-            self._names = _names_in(self._sections.get("PhysicalNames", [b""])[0])
-        moving = [[*steps] for steps in self._series.values() if len(steps) > 1] or [[0.0]]
-        if any(times != moving[0] for times in moving):
+            self._names = _names_in(self._first("PhysicalNames"))
+        self.times = [0.0]
+        moving = [[*steps] for steps in self._series.values() if len(steps) > 1]
+        if moving:
+            self.times = moving[0]
+        if any(times != self.times for times in moving):
             raise FormatError(f"values have times of their own each; {_WAY}")
-        self.times = moving[0]
+
+    def _split(self, data: bytes) -> dict[str, list[bytes]]:
+        """Return the sections of a file by their names; refuse those that are there twice."""
+        sections_by_name = dict[str, list[bytes]]()
+        line, counted = 1, 0
+        for match in re.finditer(rb"^\$(?!End)(\w+)[^\n]*\n(.*?)(?=^\$End\1|\Z)", data, re.M | re.S):
+            line += data.count(b"\n", counted, match.start())
+            counted = match.start()
+            name, content = match[1].decode(), match[2]
+            sections = sections_by_name.setdefault(name, [])
+            if sections and name not in _VALUES and content not in sections:  # Gmsh writes all again for each view
+                raise self.keywords.refusal(f"another ${name}", line)
+            sections.append(content)
+            self.keywords.leave(name, line)
+        return sections_by_name
+
+    def _add_values(self, kind: str, section: bytes) -> None:
+        name, time, numbers, values = self._values(section)
+        steps = self._series.setdefault((kind, name), {})
+        if time in steps:
+            raise FormatError(f"the values {name} are there twice for the time {time:g}")
+        steps[time] = self._tagged[kind].rows(numbers), values
 
     def _require_memory(self, size: int) -> None:
         self._limits.check_memory(size, len(self.points), self._size)
@@ -142,8 +163,12 @@ class _Gmsh:
         table[rows] = values
         return table
 
+    def _first(self, name: str) -> bytes:
+        """The first section of a name, or nothing."""
+        return self._sections.get(name, [b""])[0]
+
     def _section(self, name: str) -> _Numbers:
-        return _Numbers(self._sections.get(name, [b""])[0], self._binary)
+        return _Numbers(self._first(name), self._binary)
 
     def _counted(self, name: str) -> tuple[int, _Numbers]:
         """The count of rows that a section of version 2 begins with, and the rest."""
@@ -153,9 +178,13 @@ class _Gmsh:
     def _blocks(self, name: str) -> Iterator[tuple[_Numbers, int, int, int, int]]:
         """The blocks of a section of version 4: dimension and number of an entity, a third number, and a count."""
         section, is_new = self._section(name), self._version > 4
-        for _ in range(section.counts(4 if is_new else 2)[0] if section else 0):
-            *entity, third = section.counts(3, "i4")
-            dimension, number = entity if is_new else entity[::-1]
+        if not section:
+            return
+        blocks = section.counts(4 if is_new else 2)[0]
+        for _ in range(blocks):
+            dimension, number, third = section.counts(3, "i4")
+            if not is_new:
+                dimension, number = number, dimension
             yield section, dimension, number, third, section.count()
 
     def _nodes(self) -> tuple[Ints, Doubles]:
@@ -163,69 +192,87 @@ class _Gmsh:
         if self._version < 4:
             count, section = self._counted("Nodes")
             return section.rows(count, 3)
-        blocks = [(np.zeros(0, np.int64), np.zeros((0, 3)))]
+        numbers, points = [np.zeros(0, np.int64)], [np.zeros((0, 3))]
         for section, dimension, _, parametric, count in self._blocks("Nodes"):
-            width = 3 + dimension * bool(parametric)
+            width = 3 + dimension if parametric else 3
             if self._version > 4:
-                blocks.append((section.take("u8", count).astype(np.int64), section.take("f8", count * width)))
+                block_numbers = section.take("u8", count).astype(np.int64)
+                rows = section.table("f8", count, width)
             else:
-                blocks.append(section.rows(count, width))
-            blocks[-1] = blocks[-1][0], blocks[-1][1].reshape(count, width)[:, :3]
-        numbers, points = map(np.concatenate, zip(*blocks))
-        return numbers, points
+                block_numbers, rows = section.rows(count, width)
+            numbers.append(block_numbers)
+            points.append(rows[:, :3])
+        return np.concatenate(numbers), np.concatenate(points)
 
     def _cells(self) -> Iterator[_Cells]:
         if self._version < 4:
-            cells_left, section = self._counted("Elements")
-            while self._binary and cells_left > 0:
-                kind, count, tags = section.counts(3, "i4")
-                width, cells_left = 1 + tags + self._width(kind), cells_left - count
-                yield self._cell(kind, tags, section.take("i4", count * width).reshape(count, width))
-            flat = section.take("i8", 0 if self._binary else len(section))
-            for table in runs(flat, lambda row: (3 + int(row[2]) + self._width(int(row[1])), slice(1, 3))):
-                yield self._cell(int(table[0, 1]), int(table[0, 2]), np.delete(table, [1, 2], axis=1))
+            yield from self._cells_with_tags()
             return
         groups = self._groups_of_entities()
         for section, dimension, entity, kind, count in self._blocks("Elements"):
-            width = 1 + self._width(kind)
-            table = section.take("u8" if self._version > 4 else "i4", count * width).reshape(count, width)
-            place = self._groups.setdefault(groups.get((dimension, entity), ()), len(self._groups))
+            table = section.table("u8" if self._version > 4 else "i4", count, 1 + self._width(kind))
+            place = self._place_of(groups.get((dimension, entity), ()))
             shape, numbers, _, nodes = self._cell(kind, 0, table)
             yield shape, numbers, np.full(count, place), nodes
+
+    def _cells_with_tags(self) -> Iterator[_Cells]:
+        """The cells of version 2, whose rows have tags."""
+        remaining, section = self._counted("Elements")
+        if not self._binary:
+            flat = section.take("i8", len(section))
+            for table in runs(flat, lambda row: (3 + int(row[2]) + self._width(int(row[1])), slice(1, 3))):
+                _, kind, tags = table[0, :3].tolist()
+                yield self._cell(kind, tags, np.delete(table, [1, 2], axis=1))
+            return
+        while remaining > 0:
+            kind, count, tags = section.counts(3, "i4")
+            remaining -= count
+            yield self._cell(kind, tags, section.table("i4", count, 1 + tags + self._width(kind)))
+
+    def _place_of(self, groups: tuple[int, ...]) -> int:
+        """The place of physical groups in the list of such sets."""
+        return self._groups.setdefault(groups, len(self._groups))
 
     def _width(self, kind: int) -> int:
         if kind not in _TYPES:
             raise FormatError(f"elements of the type {kind} are not read here; gmsh FILE.msh -order 2 -save -o NEW.msh")
         return int(re.sub(r"\D", "", _TYPES[kind]))
 
-    def _cell(self, kind: int, tags: int, table: Any) -> _Cells:
+    def _cell(self, kind: int, tags: int, rows: Any) -> _Cells:
         """Cells of rows: a number, tags, the first of which is the physical group, and nodes."""
-        shape, table = _TYPES[kind].rstrip("0123456789"), table.astype(np.int64)
-        nodes, edges = table[:, 1 + tags :], _EDGES.get(shape, [])
-        if nodes.shape[1] > min(edges, default=99):
+        shape, table = _TYPES[kind].rstrip("0123456789"), rows.astype(np.int64)
+        nodes, edges = table[:, 1 + tags :], _EDGES.get(shape)
+        if edges and nodes.shape[1] > min(edges):
             nodes = nodes[:, [*range(min(edges)), *edges]]
-        tag = np.abs(table[:, 1]) if tags else np.zeros(len(table), np.int64)
-        kinds, of_cell = np.unique(tag, return_inverse=True)
-        sets = ((number,) if number else () for number in kinds.tolist())
-        places = [self._groups.setdefault(groups, len(self._groups)) for groups in sets]
-        return shape, table[:, 0], np.array(places, np.int64)[of_cell.ravel()], nodes
+        groups = np.abs(table[:, 1]) if tags else np.zeros(len(table), np.int64)
+        different, inverse = np.unique(groups, return_inverse=True)
+        places: list[int] = []
+        for group in different.tolist():
+            sets = (group,) if group else ()
+            places.append(self._place_of(sets))
+        return shape, table[:, 0], np.array(places, np.int64)[inverse.ravel()], nodes
 
     def _groups_of_entities(self) -> dict[tuple[int, int], tuple[int, ...]]:
         """The physical groups of entities by their dimensions and numbers."""
         groups_by_entity = dict[tuple[int, int], tuple[int, ...]]()
         for name in ("Entities", "PartitionedEntities"):
             section, is_part = self._section(name), name != "Entities"
-            if is_part and section:
-                section.take("i4", 2 * section.counts(2)[1])  # ghosts
-            for dimension, count in enumerate(section.counts(4) if section else ()):
+            if not section:
+                continue
+            if is_part:
+                _, ghosts = section.counts(2)
+                section.take("i4", 2 * ghosts)
+            for dimension, count in enumerate(section.counts(4)):
+                box = 3 if dimension == 0 and self._version > 4 else 6
                 for _ in range(count):
                     (entity,) = section.counts(1, "i4")
                     if is_part:
                         section.take("i4", 2)  # of which entity it is a part
                         section.take("i4", section.count())
-                    section.take("f8", 3 if dimension == 0 and self._version > 4 else 6)
+                    section.take("f8", box)
                     groups = section.counts(section.count(), "i4")
-                    section.take("i4", section.count() if dimension else 0)
+                    if dimension:
+                        section.take("i4", section.count())
                     groups_by_entity[dimension, entity] = tuple(sorted({*map(abs, groups)}))
         return groups_by_entity
 
@@ -236,7 +283,8 @@ class _Gmsh:
             count, *lines = section.split(b"\n", 1)
             *row, section = lines[0].split(b"\n", int(count))
             tags.append(row)
-        (name, *_), (time, *_), (_, width, rows, *_) = tags
+        name, time = tags[0][0], tags[1][0]
+        _, width, rows = tags[2][:3]
         numbers, values = _Numbers(section, self._binary).rows(int(rows), int(width))
         return name.decode("utf-8", "replace").strip().strip('"'), float(time), numbers, values
 
@@ -245,33 +293,46 @@ class _Gmsh:
         most = max((nodes.shape[1] for *_, nodes in self.cells), default=0)
         tables = [np.zeros((0, 2 + most), np.int64)]  # dimensions, groups and nodes
         for shape, _, group, nodes in self.cells:
-            tables.append(np.pad(nodes, ((0, 0), (2, most - nodes.shape[1])), constant_values=-1))
-            tables[-1][:, 0], tables[-1][:, 1] = _DIMENSIONS.get(shape, 3), group
+            table = np.pad(nodes, ((0, 0), (2, most - nodes.shape[1])), constant_values=-1)
+            table[:, 0] = _DIMENSIONS.get(shape, 3)
+            table[:, 1] = group
+            tables.append(table)
+        rows = np.concatenate(tables)
         # Version 2.2 writes an element again for each further group of it.
-        alike: Ints = row_numbers(np.delete(np.concatenate(tables), 1, axis=1)).astype(np.int64)
-        first_rows = np.unique(alike, return_index=True)[1]
-        again = np.ones(len(alike), np.bool_)
-        again[first_rows] = False
-        there = np.split(~again, np.cumsum([len(table) for table in tables[1:]]))
-        cells = [(shape, nodes[is_kept]) for (shape, _, _, nodes), is_kept in zip(self.cells, there)]
-        rows: dict[str, dict[str, Any]] = {"NodeData": {}, "ElementData": {}}
-        for (kind, series_name), steps in self._series.items():
-            values = self._table(kind, *[*steps.values()][step if len(steps) > 1 else 0])
-            rows[kind][series_name] = values if kind == "NodeData" else values[~again]
-        metadata, of_cells, lost, notes = self._named_groups(np.concatenate(tables)[:, :2], alike, ~again)
-        rows["ElementData"] |= of_cells
+        alike: Ints = row_numbers(np.delete(rows, 1, axis=1)).astype(np.int64)
+        _, first_rows = np.unique(alike, return_index=True)
+        is_kept = np.zeros(len(alike), np.bool_)
+        is_kept[first_rows] = True
+        cells: list[tuple[str, Ints]] = []
+        begin = 0
+        for shape, _, _, nodes in self.cells:
+            end = begin + len(nodes)
+            cells.append((shape, nodes[is_kept[begin:end]]))
+            begin = end
+        of_nodes, of_cells = dict[str, Any](), dict[str, Any]()
+        for (kind, name), steps in self._series.items():
+            numbers, step_values = [*steps.values()][step if len(steps) > 1 else 0]
+            values = self._table(kind, numbers, step_values)
+            if kind == "NodeData":
+                of_nodes[name] = values
+            else:
+                of_cells[name] = values[is_kept]
+        metadata, group_columns, lost, notes = self._named_groups(rows[:, :2], alike, is_kept)
         lost = [*self.keywords.notes, *lost, *losses]
-        skin_mesh = skin(self.points, cells, rows["NodeData"], rows["ElementData"], lost, metadata)
-        return replace(skin_mesh, notes=(*skin_mesh.notes, *notes))
+        polygons = skin(self.points, cells, of_nodes, of_cells | group_columns, lost, metadata)
+        return replace(polygons, notes=(*polygons.notes, *notes))
 
     def _pairs(self, owned: Ints, alike: Ints) -> tuple[Ints, int]:
         """The numbers of cells with the dimension and a group each, 0 for none, and how many pairs are there again."""
         sets = [groups or (0,) for groups in self._groups]
-        flat, sizes = np.array([number for groups in sets for number in groups]), np.array([*map(len, sets)])
-        counts = sizes[owned[:, 1]]
+        flat = np.array([*chain(*sets)])
+        sizes = np.array([*map(len, sets)])
+        begins = np.cumsum(sizes) - sizes
+        dimensions, places = owned.T
+        counts = sizes[places]
         self._require_memory(_COPIES * 3 * AS_NUMBERS * int(counts.sum()))  # three columns
-        groups = flat[ranges((np.cumsum(sizes) - sizes)[owned[:, 1]], counts)]
-        every = np.column_stack([np.repeat(alike, counts), np.repeat(owned[:, 0], counts), groups])
+        groups = flat[ranges(begins[places], counts)]
+        every = np.column_stack([np.repeat(alike, counts), np.repeat(dimensions, counts), groups])
         pairs = np.unique(every, axis=0)
         return pairs, len(every) - len(pairs)
 
@@ -286,19 +347,20 @@ class _Gmsh:
         lost = [f"elements that are there again ({again})"] if again else []
         names = dict(self._names)
         grouped = pairs[pairs[:, 2] > 0]
-        table, kind_of = np.unique(grouped[:, 1:], axis=0, return_inverse=True)
+        table, inverse = np.unique(grouped[:, 1:], axis=0, return_inverse=True)
+        cells, groups = grouped[:, 0], inverse.ravel()
         kinds = [*map(tuple, table.tolist())]
         group_names = [names.pop(kind, str(kind[1])) for kind in kinds]
         lost += [f"the group {name}" for name in names.values()]
         if not kinds:
             return {}, {}, lost, []
-        of_faces = grouped[grouped[:, 1] > 1, 0]
-        further = len(of_faces) - len(np.unique(of_faces))
+        faces = cells[grouped[:, 1] > 1]
+        further = len(faces) - len(np.unique(faces))
         masks = dict[str, Any]()
         if further and len(kinds) <= _MOST_GROUPS:
             self._require_memory(_COPIES * len(alike) * len(kinds))
             is_in = np.zeros((len(alike), len(kinds)), np.uint8)
-            is_in[grouped[:, 0], kind_of.ravel()] = 1
+            is_in[cells, groups] = 1
             is_in = is_in[alike[is_kept]]
             not_in, places = np.unique(1 - is_in, axis=0, return_inverse=True)  # the first group first
             together = [" + ".join(np.array(group_names)[row == 0].tolist()) for row in not_in]
@@ -306,16 +368,18 @@ class _Gmsh:
                 if dimension > 1:
                     masks[f"{name} ({dimension}D)" if name in masks else name] = marks
         else:
-            lost += [f"further groups of faces that are in several ({further})"] if further else []
+            if further:
+                lost.append(f"further groups of faces that are in several ({further})")
             first = np.full(len(alike), len(kinds))
-            np.minimum.at(first, grouped[:, 0], kind_of.ravel())
+            np.minimum.at(first, cells, groups)
             used, places = np.unique(first[alike[is_kept]], return_inverse=True)
-            named_so = [*group_names, ""]
-            together = [named_so[place] for place in used.tolist()]
+            together = [[*group_names, ""][place] for place in used.tolist()]
         metadata = named([name or "0" for name in together], "group")
-        of_cells: dict[str, Any] = {"group": places.ravel().astype(np.int32)} if len(together) > 1 else {}
+        columns: dict[str, Any] = {}
+        if len(together) > 1:
+            columns["group"] = places.ravel().astype(np.int32)
         notes = [f"faces are in several groups, each of which is an attribute: {', '.join(masks)}"] if masks else []
-        return metadata, of_cells | masks, lost, notes
+        return metadata, columns | masks, lost, notes
 
 
 def _names_in(section: bytes) -> dict[tuple[int, int], str]:
@@ -333,5 +397,6 @@ def read_gmsh_mesh(data: bytes, limits: Limits) -> Polygons:
 
 def read_gmsh(path: str, request: Wanted, limits: Limits) -> Frames | None:
     """The times of values as frames; None if there is one."""
-    model = _Gmsh(data := Path(path).read_bytes(), limits)
+    data = Path(path).read_bytes()
+    model = _Gmsh(data, limits)
     return read_steps(model.surface, model.times, len(data), request, limits)

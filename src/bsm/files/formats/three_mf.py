@@ -8,13 +8,13 @@ import re
 import zipfile
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from itertools import chain
 from typing import Any, Literal
 
 import numpy as np
 
 from bsm.bitstream.errors import MeshError, counted, imported
 from bsm.bitstream.limits import Limits
+from bsm.codec.arrays import Mask
 from bsm.codec.geometry.attributes import Attribute, at_corners
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
@@ -23,7 +23,7 @@ from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import Material, appearance, as_text, held_by, lost, one_line, within
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
 from bsm.files.parsing import NO_DOUBLES, Doubles, Ints, as_library_error, single_suffices
-from bsm.files.unread import Taken, rows_of
+from bsm.files.unread import Said, Taken, rows_of
 from bsm.ground.lengths import metres, unit_named
 
 _SIZES = (1e-6, 0.001, 0.01, 0.0254, 0.3048, 1.0)  # of the units in meters, as lib3mf counts them
@@ -37,26 +37,31 @@ _Painted = Literal["color", "texcoord"]
 
 def read_3mf(data: bytes, limits: Limits) -> Polygons:
     library = imported("lib3mf", "3MF is read with lib3mf", "formats")
-    model = library.get_wrapper().CreateModel()
-    reader = model.QueryReader("3mf")
+    library_model = library.get_wrapper().CreateModel()
+    reader = library_model.QueryReader("3mf")
     buffer = ctypes.cast(ctypes.c_char_p(data), ctypes.POINTER(ctypes.c_uint8))
     with as_library_error("lib3mf", "this 3MF file"):
         _call(reader, "reader_readfrombuffer", ctypes.c_uint64(len(data)), buffer)
-        joined = (read := _Model(library, model, limits)).joined(len(data))
+        model = _Model(library, library_model, limits)
+        joined = model.joined(len(data))
     # lib3mf does not tell what it passes over, so the names in the package are looked at once more.
+    said: list[Said] = []
     with as_library_error("zipfile", "this 3MF file"), zipfile.ZipFile(io.BytesIO(data)) as package:
         names = package.namelist()
-        models = (package.read(name) for name in names if name.lower().endswith(".model"))
-        others = [name for name in names if f"/{name}" not in read.files and not _FILES.fullmatch(name)]
-        unread = _TAKEN.unread_names(
-            chain(*map(_TAKEN.in_xml, models), (("", f"the file {name}", "") for name in others))
-        )
-    return replace(joined, dropped=(*joined.dropped, *unread))
+        for name in names:
+            if name.lower().endswith(".model"):
+                said += _TAKEN.in_xml(package.read(name))
+    for name in names:
+        if f"/{name}" not in model.files and not _FILES.fullmatch(name):
+            said.append(("", f"the file {name}", ""))
+    return replace(joined, dropped=(*joined.dropped, *_TAKEN.unread_names(said)))
 
 
 def _call(owner: Any, name: str, *arguments: Any) -> None:
     """Call lib3mf without the lists of its binding, which take a hundred times the memory of an array."""
-    owner._wrapper.checkError(owner, getattr(owner._wrapper.lib, f"lib3mf_{name}")(owner._handle, *arguments))
+    wrapper = owner._wrapper
+    function = getattr(wrapper.lib, f"lib3mf_{name}")
+    wrapper.checkError(owner, function(owner._handle, *arguments))
 
 
 def _table(owner: Any, name: str, kind: Any) -> Array:
@@ -79,108 +84,123 @@ class _Model:
     def __init__(self, library: Any, model: Any, limits: Limits) -> None:
         self._library, self._model, self._limits = library, model, limits
         self._objects = {item.GetUniqueResourceID(): item for item in _items(model.GetObjects())}
-        self._uses: dict[int, list[tuple[int, Any]]] = {
-            number: [
-                ((part := item.GetComponent(i)).GetObjectResource().GetUniqueResourceID(), part.GetTransform())
-                for i in range(item.GetComponentCount() if item.IsComponentsObject() else 0)
-            ]
-            for number, item in self._objects.items()
-        }
+        self._uses = {number: [*_components(item)] for number, item in self._objects.items()}
         # An object is often placed a thousand times: its tables are read once.
-        self._made: dict[int, Part] = {}
+        self._shapes: dict[int, Part] = {}
         self._materials: dict[tuple[int, int], int] = {}
         self._words: dict[int, Material] = {}
         self._images: dict[str, formats.Value] = {}
-        self._left: dict[str, None] = {}
+        self._lost: dict[str, None] = {}
         self.files = set[str]()
 
     def joined(self, size: int) -> Polygons:
         placed = [*_items(self._model.GetBuildItems())]
-        visible = [joined for item in placed for joined in self._below(item)]
+        visible = [mesh for item in placed for mesh in self._below(item)]
         if not placed:
             raise MeshError("this 3MF file places no object: its build has no item")
-        counts = [((mesh := self._objects[n]).GetVertexCount(), mesh.GetTriangleCount()) for n, *_ in visible]
+        counts: list[tuple[int, int]] = []
+        for number, _, _ in visible:
+            item = self._objects[number]
+            counts.append((item.GetVertexCount(), item.GetTriangleCount()))
         parts = (self._part(number, name).placed(matrix) for number, matrix, name in visible)
         joined = joined_parts(parts, counts, self._limits, size)
+        unit = unit_named(_SIZES[int(self._model.GetUnit())])
+        metadata: dict[str, formats.Value] = {"up": "z", "unit": unit}
         group = self._model.GetMetaDataGroup()
-        entries = [group.GetMetaData(i) for i in range(group.GetMetaDataCount())]
-        metadata: dict[str, formats.Value] = {"up": "z", "unit": unit_named(_SIZES[int(self._model.GetUnit())])}
-        metadata |= {str(entry.GetName()): str(entry.GetValue()) for entry in entries}
+        for place in range(group.GetMetaDataCount()):
+            entry = group.GetMetaData(place)
+            metadata[str(entry.GetName())] = str(entry.GetValue())
         if str(metadata.get("Application")).startswith("bsm "):
             metadata["provenance"] = metadata.pop("Application")
-        has_words = any(self._words.values())
-        metadata |= {**(formats.described(self._words) if has_words else {}), **self._images, **joined.metadata}
-        return replace(joined, dropped=tuple(self._left), metadata=metadata)
+        if any(self._words.values()):
+            metadata |= formats.described(self._words)
+        metadata |= {**self._images, **joined.metadata}
+        return replace(joined, dropped=tuple(self._lost), metadata=metadata)
 
     def _below(self, item: Any) -> Iterator[tuple[int, Doubles, str]]:
         """The meshes of an item of the build, each with its place and its name."""
         # A stack and no recursion: a file may nest objects deeper than Python can call.
         waiting = [(item.GetObjectResource().GetUniqueResourceID(), _matrix(item.GetObjectTransform()), "")]
         while waiting:
-            number, matrix, above = waiting.pop()
+            number, matrix, assembly = waiting.pop()
             item = self._objects[number]
-            name = str(item.GetName()) or above
-            self._left |= {f"the assembly {above}": None} if above and name != above else {}
+            name = str(item.GetName()) or assembly
+            if assembly and name != assembly:
+                self._lost[f"the assembly {assembly}"] = None
             if item.IsMeshObject():
                 yield number, matrix, name
             elif item.IsComponentsObject():
-                waiting += [(used, matrix @ _matrix(moved), name) for used, moved in reversed(self._uses[number])]
+                for used, transform in reversed(self._uses[number]):
+                    waiting.append((used, matrix @ _matrix(transform), name))
             else:
-                self._left["objects that are not meshes (level sets)"] = None
+                self._lost["objects that are not meshes (level sets)"] = None
 
     def _part(self, number: int, name: str) -> Part:
-        if number not in self._made:
+        if number not in self._shapes:
             item, kinds = self._objects[number], self._library
-            points = _table(item, "meshobject_getvertices", kinds.Position)["Coordinates"].astype(np.float64)
-            corners = _table(item, "meshobject_gettriangleindices", kinds.Triangle)["Indices"].astype(np.int64)
-            if (use := item.GetType().name) not in ("Model", "Other"):
-                self._left[f"the object type {use}"] = None
+            points = _table(item, "meshobject_getvertices", kinds.Position)["Coordinates"]
+            corners = _table(item, "meshobject_gettriangleindices", kinds.Triangle)["Indices"]
+            use = item.GetType().name
+            if use not in ("Model", "Other"):
+                self._lost[f"the object type {use}"] = None
             columns, materials = self._painted(item, len(corners))
             sizes = np.full(len(corners), 3)
-            self._made[number] = Part(points, sizes, corners.reshape(-1), columns, materials, "")
-        return replace(self._made[number], name=name)
+            flat = corners.astype(np.int64).reshape(-1)
+            self._shapes[number] = Part(points.astype(np.float64), sizes, flat, columns, materials, "")
+        return replace(self._shapes[number], name=name)
 
     def _painted(self, item: Any, count: int) -> tuple[list[Column], Ints]:
         """The colors and texture coordinates of the corners of an object, and the materials of its triangles."""
         properties = _table(item, "meshobject_getalltriangleproperties", self._library.TriangleProperties)
-        owners, places = properties["ResourceID"].astype(np.int64), properties["PropertyIDs"].astype(np.int64)
-        usual, its, has = item.GetObjectLevelProperty()
-        if has:
-            places = np.where((owners == 0)[:, None], its, places)
-            owners = np.where(owners == 0, usual, owners)
-        materials = np.full(count, self._number((0, 0), {}) if (owners == 0).any() or not len(owners) else 0)
+        owners = properties["ResourceID"].astype(np.int64)
+        places = properties["PropertyIDs"].astype(np.int64)
+        object_owner, object_place, has_property = item.GetObjectLevelProperty()
+        if has_property:
+            is_bare = owners == 0
+            places[is_bare] = object_place
+            owners[is_bare] = object_owner
+        materials = np.zeros(count, np.int64)
+        if (owners == 0).any() or not len(owners):
+            materials[:] = self._number((0, 0), {})
         tables: dict[_Painted, tuple[Array, Ints]] = {}
-        name: _Painted
         for owner in filter(None, np.unique(owners).tolist()):
             rows = np.flatnonzero(owners == owner)
-            used, where = np.unique(places[rows], return_inverse=True)
+            used, inverse = np.unique(places[rows], return_inverse=True)
+            corner_numbers = inverse.reshape(-1, 3)
             kind = self._model.GetPropertyTypeByID(owner).name
             if kind == "BaseMaterial":
                 group = self._model.GetBaseMaterialGroupByID(owner)
-                numbers = [self._number((owner, p), _material(group, p)) for p in used.tolist()]
+                numbers = [self._number((owner, place), _material(group, place)) for place in used.tolist()]
                 # Corners of a triangle may have several base materials by the file, but the specification only lets the
                 # first count.
-                materials[rows] = np.array(numbers)[where.reshape(-1, 3)[:, 0]]
+                materials[rows] = np.array(numbers)[corner_numbers[:, 0]]
                 continue
             if kind in ("Composite", "Multi", "NoPropertyType"):
                 materials[rows] = self._number((0, 0), {})
                 continue
+            name: _Painted
             if kind == "Colors":
-                group = self._model.GetColorGroupByID(owner)
-                values: Array = np.array([bytes(group.GetColor(p)) for p in used.tolist()])
-                values, name, blank = values.view(np.uint8).reshape(-1, 4), "color", np.full((1, 4), 255, np.uint8)
+                name = "color"
+                values, blank = self._colors(owner, used.tolist())
                 materials[rows] = self._number((0, 0), {})
             else:
+                name = "texcoord"
                 group = self._model.GetTexture2DGroupByID(owner)
-                coordinates = [group.GetTex2Coord(p) for p in used.tolist()]
-                values = np.array([(at.U, at.V) for at in coordinates], np.float32).reshape(-1, 2)
-                name, blank = "texcoord", np.zeros((1, 2), np.float32)
+                values, blank = _texcoords(group, used.tolist())
                 materials[rows] = self._textured(owner, group)
             table, indices = tables.get(name, (blank, np.zeros((count, 3), np.int64)))
-            indices[rows] = len(table) + where.reshape(-1, 3)
+            indices[rows] = len(table) + corner_numbers
             tables[name] = np.concatenate([table, values]), indices
-        columns = [Column(name, table, "corner", name, at.reshape(-1)) for name, (table, at) in tables.items()]
+        columns: list[Column] = []
+        for name, (table, indices) in tables.items():
+            columns.append(Column(name, table, "corner", name, indices.reshape(-1)))
         return columns, materials
+
+    def _colors(self, owner: int, places: list[int]) -> tuple[Array, Array]:
+        """The colors of a group at some places, and that of corners without any."""
+        group = self._model.GetColorGroupByID(owner)
+        data = b"".join(bytes(group.GetColor(place)) for place in places)
+        return np.frombuffer(data, np.uint8).reshape(-1, 4), np.full((1, 4), 255, np.uint8)
 
     def _number(self, key: tuple[int, int], words: Material) -> int:
         number = self._materials.setdefault(key, len(self._materials))
@@ -195,7 +215,7 @@ class _Model:
         self.files.add(str(attachment.GetPath()))
         data = _table(attachment, "attachment_writetobuffer", ctypes.c_uint8).tobytes()
         if formats.kind_of_image(data) is None:
-            self._left["a texture of an unknown format"] = None
+            self._lost["a texture of an unknown format"] = None
             return self._number((owner, -1), {})
         image = len(self._images) // 2
         name = str(attachment.GetPath()).rpartition("/")[2]
@@ -203,10 +223,28 @@ class _Model:
         return self._number((owner, -1), {"name": name, "map_Kd": image})
 
 
+def _components(item: Any) -> Iterator[tuple[int, Any]]:
+    """The objects that an assembly is made of, each with its transform; none of other objects."""
+    if item.IsComponentsObject():
+        for place in range(item.GetComponentCount()):
+            component = item.GetComponent(place)
+            yield component.GetObjectResource().GetUniqueResourceID(), component.GetTransform()
+
+
+def _texcoords(group: Any, places: list[int]) -> tuple[Array, Array]:
+    """The texture coordinates of a group at some places, and those of corners without any."""
+    coordinates = [group.GetTex2Coord(place) for place in places]
+    values = np.array([(at.U, at.V) for at in coordinates], np.float32)
+    return values.reshape(-1, 2), np.zeros((1, 2), np.float32)
+
+
 def _material(group: Any, place: int) -> Material:
     color = group.GetDisplayColor(place)
-    kd, d = (as_text(np.array(numbers) / 255) for numbers in ((color.Red, color.Green, color.Blue), color.Alpha))
-    return {"name": str(group.GetName(place)), "Kd": kd, **({} if d == "1" else {"d": d})}
+    rgba = np.array([color.Red, color.Green, color.Blue, color.Alpha]) / 255
+    material: Material = {"name": str(group.GetName(place)), "Kd": as_text(rgba[:3])}
+    if color.Alpha < 255:
+        material["d"] = as_text(rgba[3])
+    return material
 
 
 def _matrix(transform: Any) -> Doubles:
@@ -228,35 +266,46 @@ def write_3mf(mesh: TriangleMesh, stem: str) -> formats.Written:
 
 def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     model = library.get_wrapper().CreateModel()
-    place, size = placement(mesh.metadata, "3mf"), metres(str(mesh.metadata.get("unit", "")))
-    unit = next((number for number, unit_size in enumerate(_SIZES) if size and math.isclose(unit_size, size)), None)
-    scale = size / _SIZES[1] if unit is None and size else 1.0
-    model.SetUnit(library.ModelUnit(1 if unit is None else unit))
-    if not single_suffices(positions := scale * mesh.positions @ place.turn.T):
+    place = placement(mesh.metadata, "3mf")
+    size = metres(str(mesh.metadata.get("unit", "")))
+    unit, scale = _unit_of(size)
+    model.SetUnit(library.ModelUnit(unit))
+    positions = scale * mesh.positions @ place.turn.T
+    if not single_suffices(positions):
         raise MeshError(NO_DOUBLES.format("3MF"))
     # lib3mf would refuse the whole mesh with a number in place of a reason.
-    if repeated := int((mesh.faces == np.roll(mesh.faces, 1, axis=1)).any(axis=1).sum()):
+    repeated = int((mesh.faces == np.roll(mesh.faces, 1, axis=1)).any(axis=1).sum())
+    if repeated:
         raise MeshError(f"{counted(faces=repeated)} with one vertex twice, which 3MF does not have; {_ELSE}")
-    metadata_held = {"up", "unit"} & ({*place.expressed} | ({"unit"} if size else set()))
+    metadata_held = {"up", "unit"} & {*place.expressed}
+    if size:
+        metadata_held.add("unit")
     numbers, materials = formats.face_numbers(mesh, "material"), formats.materials_in(mesh.metadata)
-    which = np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
     sorting, objects = _objects(mesh)
-    metadata_held |= {f"{sorting.name}.names", *(f"{sorting.name}.{n}.name" for n in objects)} if sorting else {"name"}
-    painted = _colored(library, model, which, materials, metadata_held) if materials else None
-    color = formats.first(mesh, "color", (3, 4), "vertex", "corner", "face")
-    shades = None if color is None else _bytes_of(at_corners(color, mesh.faces))
-    looks = [number for number, words in materials.items() if words.keys() - {"name"}]
-    hidden = np.isin(which, looks)  # a triangle has the color of its material, or of its corners
-    tinted = None if shades is None else _tinted(library, model, shades)
-    if shades is None or tinted is None or (shades[hidden] != 255).any():
-        color = None
+    if sorting is None:
+        metadata_held.add("name")
     else:
-        painted = tinted if painted is None else np.where(hidden, painted, tinted)
+        metadata_held |= {f"{sorting.name}.names", *(f"{sorting.name}.{number}.name" for number in objects)}
+    face_materials = np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
+    painted = _colored(library, model, face_materials, materials, metadata_held) if materials else None
+    looks = [number for number, words in materials.items() if words.keys() - {"name"}]
+    # A triangle has the color of its material, or of its corners.
+    hidden = np.isin(face_materials, looks)
+    color = formats.first(mesh, "color", (3, 4), "vertex", "corner", "face")
+    tinted = None if color is None else _tinted(library, model, _bytes_of(at_corners(color, mesh.faces)), hidden)
+    if tinted is None:
+        color = None
+    elif painted is None:
+        painted = tinted
+    else:
+        painted = np.where(hidden, painted, tinted)
     for name, rows in objects.values():
-        item, used = model.AddMeshObject(), np.unique(mesh.faces[rows]) if sorting else np.arange(len(positions))
+        item = model.AddMeshObject()
+        used = np.arange(len(positions)) if sorting is None else np.unique(mesh.faces[rows])
         corners = np.searchsorted(used, mesh.faces[rows]).astype(np.uint32)
-        kinds = ((positions[used].astype(np.float32), library.Position), (corners, library.Triangle))
-        _call(item, "meshobject_setgeometry", *chain.from_iterable(_counted(table, kind) for table, kind in kinds))
+        points = positions[used].astype(np.float32)
+        tables = (*_counted(points, library.Position), *_counted(corners, library.Triangle))
+        _call(item, "meshobject_setgeometry", *tables)
         if painted is not None:
             first = painted[rows[0]]
             item.SetObjectLevelProperty(int(first["ResourceID"]), int(first["PropertyIDs"][0]))
@@ -264,27 +313,46 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
         item.SetName(one_line(name))
         model.AddBuildItem(item, library.get_wrapper().GetIdentityTransform())
     entries = {"Application": mesh.metadata.get("provenance"), **mesh.metadata}
+    group = model.GetMetaDataGroup()
     for name in _KNOWN:
-        if isinstance(value := entries.get(name), str):
-            model.GetMetaDataGroup().AddMetaData("", name, value.encode(errors="replace").decode(), "xs:string", True)
+        value = entries.get(name)
+        if isinstance(value, str):
+            group.AddMetaData("", name, value.encode(errors="replace").decode(), "xs:string", True)
             metadata_held |= {key for key in (name, "provenance") if mesh.metadata.get(key) == value}
     writer = model.QueryWriter("3mf")
     largest = max(float(np.abs(positions).max(initial=0)), 1e-30)
     # Coordinates become text. As many decimals as single precision has digits, counted from the largest coordinate.
-    writer.SetDecimalPrecision(int(np.clip(8 - math.floor(math.log10(largest)), 0, 15)))  # more of them go wrong
+    decimals = 8 - math.floor(math.log10(largest))
+    writer.SetDecimalPrecision(int(np.clip(decimals, 0, 15)))  # more of them go wrong
     data = _table(writer, "writer_writetobuffer", ctypes.c_uint8).tobytes()
-    attributes_written = [numbers if materials else None, sorting, color]
-    finer = () if color is None or color.values.dtype == np.uint8 else (f"{color.name} beyond 8 bits",)
-    lost = formats.left_out(mesh, attributes_written, [name for name in mesh.metadata if name not in metadata_held])
-    return formats.Written(data, (*lost, *finer))
+    written_attributes = [numbers if materials else None, sorting, color]
+    left_out = formats.left_out(mesh, written_attributes, [name for name in mesh.metadata if name not in metadata_held])
+    if color is not None and color.values.dtype != np.uint8:
+        left_out = (*left_out, f"{color.name} beyond 8 bits")
+    return formats.Written(data, left_out)
+
+
+def _unit_of(size: float | None) -> tuple[int, float]:
+    """Return the unit of a file, and the factor of positions, for a mesh whose unit has this size in meters."""
+    millimeters = 1
+    if not size:
+        return millimeters, 1.0
+    for number, unit_size in enumerate(_SIZES):
+        if math.isclose(unit_size, size):
+            return number, 1.0
+    return millimeters, size / _SIZES[millimeters]
 
 
 def _objects(mesh: TriangleMesh) -> tuple[Attribute | None, dict[int, tuple[str, Ints]]]:
     """Return the attribute of faces that tells objects apart, if one does, and the name and the faces of each."""
-    for sorting in filter(None, (formats.face_numbers(mesh, what) for what in ("part", "object"))):
-        kinds, names = np.unique(sorting.values), formats.names_in(mesh.metadata, sorting.name)
+    for what in ("part", "object"):
+        sorting = formats.face_numbers(mesh, what)
+        if sorting is None:
+            continue
+        kinds = np.unique(sorting.values).tolist()
         if 1 < len(kinds) <= _MOST_OBJECTS:
-            return sorting, {n: (names.get(n, ""), np.flatnonzero(sorting.values == n)) for n in kinds.tolist()}
+            names = formats.names_in(mesh.metadata, what)
+            return sorting, {n: (names.get(n, ""), np.flatnonzero(sorting.values == n)) for n in kinds}
     return None, {0: (str(mesh.metadata.get("name") or ""), np.arange(len(mesh.faces)))}
 
 
@@ -300,35 +368,44 @@ def _bytes_of(colors: Array) -> Array:
     return np.asarray(np.rint(255 * opaque), np.uint8)
 
 
-def _tinted(library: Any, model: Any, colors: Array) -> Array | None:
-    """Return the colors of the corners of each triangle as properties; None for more of them than are written."""
+def _tinted(library: Any, model: Any, colors: Array, hidden: Mask) -> Array | None:
+    """Return the colors of the corners of each triangle as properties.
+
+    None if there are too many to be written, or if hidden ones are not white, which would be lost.
+    """
     used, where = np.unique(colors.reshape(-1, 4).view(np.uint32)[:, 0], return_inverse=True)
     if len(used) > _MOST_COLORS:
         return None
     group = model.AddColorGroup()
     places = [group.AddColor(library.Color(*rgba)) for rgba in used.view(np.uint8).reshape(-1, 4).tolist()]
+    if (colors[hidden] != 255).any():
+        return None
     properties = np.zeros(len(colors), np.dtype(library.TriangleProperties))
-    properties["ResourceID"], properties["PropertyIDs"] = (
-        group.GetUniqueResourceID(),
-        np.array(places)[where].reshape(-1, 3),
-    )
+    properties["ResourceID"] = group.GetUniqueResourceID()
+    properties["PropertyIDs"] = np.array(places)[where].reshape(-1, 3)
     return properties
 
 
 def _colored(
     library: Any, model: Any, numbers: Ints, materials: Mapping[int, Material], fields_held: set[str]
 ) -> Array:
-    """Return the color of each triangle by its material; `held` gets the metadata that this holds."""
+    """Return the color of each triangle by its material; `fields_held` gets the metadata that this holds."""
     used, where = np.unique(numbers, return_inverse=True)
     group = model.AddBaseMaterialGroup()
-    places = np.full(len(used), group.AddMaterial("none", library.Color(255, 255, 255, 255)), np.uint32)
-    for place in np.flatnonzero(np.isin(used, [*materials])).tolist():
-        number, words = int(used[place]), materials[int(used[place])]
+    white = group.AddMaterial("none", library.Color(255, 255, 255, 255))
+    places = np.full(len(used), white, np.uint32)
+    for place, number in enumerate(used.tolist()):
+        if number not in materials:
+            continue
+        words = materials[number]
         look, _ = within(appearance(words))
         shares = conventions.to_srgb(np.array([*look.color, look.opacity]))
-        rgba = library.Color(*np.rint(255 * shares).astype(int).tolist())
-        places[place] = group.AddMaterial(one_line(str(words.get("name") or f"material {number}")), rgba)
-        fields_held |= {f"material.{number}.{word}" for word in words.keys() - {*lost(words, held_by("3MF"))}}
+        rgba = np.rint(255 * shares).astype(int).tolist()
+        name = one_line(str(words.get("name") or f"material {number}"))
+        places[place] = group.AddMaterial(name, library.Color(*rgba))
+        lost_words = lost(words, held_by("3MF"))
+        fields_held |= {f"material.{number}.{word}" for word in words if word not in lost_words}
     properties = np.zeros(len(numbers), np.dtype(library.TriangleProperties))
-    properties["ResourceID"], properties["PropertyIDs"] = group.GetUniqueResourceID(), places[where][:, None]
+    properties["ResourceID"] = group.GetUniqueResourceID()
+    properties["PropertyIDs"] = places[where][:, None]
     return properties
