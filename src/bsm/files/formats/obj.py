@@ -48,25 +48,23 @@ _ENDS = (b"", b"\n")  # before the beginning of a line
 
 
 def read_obj(data: bytes, limits: Limits, counts_before: tuple[int, int, int] | None = None) -> Polygons:
-    """Read an OBJ, or lines of one after `seen` vertices, texture coordinates and normals: their corners, -1 for none,
+    """Read an OBJ, or lines of one after some vertices, texture coordinates and normals: their corners, -1 for none,
     may refer to values elsewhere."""
     if b"\0" in data:
         raise FormatError("this is not an OBJ file: it holds binary data")
     require_counts(limits, **{name: data.count(begin) for name, begin in _COUNTED.items()})  # before lines are objects
     text = continued(data)
-    lines = _plain_lines(text, counts_before or (0, 0, 0)) or _Lines(text, counts_before or (0, 0, 0))
-    points, sizes = lines.rows(b"v", "vertex"), lines.sizes
-    numbers, most = int(points.counts.min(initial=100)), int(points.counts.max(initial=0))
-    # A fourth number alone is a weight. A color is only taken for one if all vertices have it, with or without an
-    # opacity.
-    colored = 6 <= numbers == most <= 7
-    columns = [color_column(points.columns(3, numbers - 3), "vertex")] if colored else []
-    unread = b", ".join(sorted(lines.keywords - _KNOWN)[:_FEW]).decode(errors="replace")
-    dropped = [f"lines that begin with {unread}"] if unread else []
-    if most > 3 and not colored and (most > 4 or (points.values[(points.starts + 3)[points.counts > 3]] != 1).any()):
-        dropped.append(f"numbers after the coordinates ({int((points.counts > 3).sum())} vertices have some)")
-    dropped += ["colors in comments (#MRGB)"] if b"#MRGB " in data and re.search(rb"^#MRGB ", data, re.M) else []
+    before = counts_before or (0, 0, 0)
+    lines = _plain_lines(text, before) or _Lines(text, before)
+    dropped: list[str] = []
     notes: list[str] = []
+    unread = b", ".join(sorted(lines.keywords - _KNOWN)[:_FEW]).decode(errors="replace")
+    if unread:
+        dropped.append(f"lines that begin with {unread}")
+    points, sizes = lines.rows(b"v", "vertex"), lines.sizes
+    columns = _colors(points, dropped)
+    if b"#MRGB " in data and re.search(rb"^#MRGB ", data, re.M):
+        dropped.append("colors in comments (#MRGB)")
     positions, corners = points.columns(0, 3), lines.places(0)
     for which, (keyword, name) in enumerate(_OF_CORNERS.items(), 1):
         rows = lines.rows(keyword, name)
@@ -80,13 +78,30 @@ def read_obj(data: bytes, limits: Limits, counts_before: tuple[int, int, int] | 
             columns += column
             notes += note
     states, names, again = _states(lines)
-    notes += [f"objects of one name became one: {', '.join(again)}"] if again else []
+    if again:
+        notes.append(f"objects of one name became one: {', '.join(again)}")
     metadata: dict[str, materials.Value] = {**names}
     libraries = dict.fromkeys(text_of(library) for library in lines.values_of(b"mtllib"))
-    metadata |= {"mtllib": "\n".join(libraries)} if libraries else {}
+    if libraries:
+        metadata["mtllib"] = "\n".join(libraries)
     metadata |= _comments(data, dropped)
     all_columns = (*columns, *states)
     return Polygons(sealed(positions), sizes, corners, tuple(notes), tuple(dropped), all_columns, metadata)
+
+
+def _colors(points: Rows, dropped: list[str]) -> list[Column]:
+    """Return the colors after the coordinates of vertices, if those are colors."""
+    numbers = int(points.counts.min(initial=100))
+    most = int(points.counts.max(initial=0))
+    # A color is only taken for one if all vertices have it, with or without an opacity.
+    if 6 <= numbers == most <= 7:
+        return [color_column(points.columns(3, numbers - 3), "vertex")]
+    has_more = points.counts > 3
+    fourth = points.values[points.starts[has_more] + 3]
+    # A fourth number alone is a weight.
+    if most > 4 or (fourth != 1).any():
+        dropped.append(f"numbers after the coordinates ({int(has_more.sum())} vertices have some)")
+    return []
 
 
 def _comments(data: bytes, dropped: list[str]) -> dict[str, materials.Value]:
@@ -94,39 +109,47 @@ def _comments(data: bytes, dropped: list[str]) -> dict[str, materials.Value]:
     if b"#" not in data:
         return {}
     begin = re.search(rb"^[ \t]*[^#\s]", data, re.M)
+    body = len(data) if begin is None else begin.start()
+    lines: list[str] = []
+    ahead: list[str] = []
+    later = 0
     # The sign first: a search for beginnings of lines looks at each of them.
-    signs = re.finditer(rb"#([^\r\n]*)", data)
-    comments = (sign for sign in signs if data[sign.start() - 1 : sign.start()] in _ENDS)
-    lines = [(entries.start(), text_of(entries[1])) for entries in comments]
-    entries = materials.parse_remarks(line for _, line in lines)
-    others = [(at, line) for at, line in lines if line and not line.startswith(("meta ", "MRGB "))]
-    ahead = "\n".join(line for at, line in others if begin is None or at < begin.start())
-    later = sum(at >= (begin.start() if begin else 0) and not _OF_EXPORTERS.match(line) for at, line in others)
+    for sign in re.finditer(rb"#([^\r\n]*)", data):
+        place = sign.start()
+        if data[place - 1 : place] not in _ENDS:
+            continue
+        line = text_of(sign[1])
+        lines.append(line)
+        if not line or line.startswith(("meta ", "MRGB ")):
+            continue
+        if place < body:
+            ahead.append(line)
+        elif not _OF_EXPORTERS.match(line):
+            later += 1
     # Asked only where there are other number signs: it takes as long as all else.
     if data.count(b"#") > len(lines):
         later += len(re.findall(rb"^[ \t]*(?:v[nt]?|f)[ \t][^\r\n#]*#", data, re.M))
-    dropped += [f"comments amid the data ({later})"] if later else []
-    return {**({"comment": ahead} if 0 < len(ahead) < materials.MOST_TEXT else {}), **entries}
+    if later:
+        dropped.append(f"comments amid the data ({later})")
+    metadata: dict[str, materials.Value] = {}
+    comment = "\n".join(ahead)
+    if 0 < len(comment) < materials.MOST_TEXT:
+        metadata["comment"] = comment
+    return metadata | materials.parse_remarks(lines)
 
 
 class _PlainLines:
     """The lines of a text that the kernel reads."""
 
     def __init__(self, text: bytes, counts: Ints, counts_before: Ints) -> None:
-        points, point_numbers, texcoords, texcoord_numbers, normals, normal_numbers = counts[:6].tolist()
-        faces, corners, others, words, with_texcoords, with_normals = counts[6:].tolist()
-        tables = (
-            np.empty((points, point_numbers)),
-            np.empty((texcoords, texcoord_numbers)),
-            np.empty((normals, normal_numbers)),
-        )
+        *shapes, faces, corners, others, words, with_texcoords, with_normals = counts.tolist()
+        tables = tuple(np.empty((rows, numbers)) for rows, numbers in zip(shapes[::2], shapes[1::2], strict=True))
         self.sizes: Ints = np.empty(faces, np.int64)
-        point: Ints = np.empty(corners, np.int64)
-        texcoord: Ints = np.empty(corners if with_texcoords else 0, np.int64)
-        normal: Ints = np.empty(corners if with_normals else 0, np.int64)
-        self._places = (point, texcoord, normal)
+        self._corners = corners
+        lengths = [corners if count else 0 for count in (corners, with_texcoords, with_normals)]
+        self._places = tuple(np.empty(length, np.int64) for length in lengths)
         lines, hard = np.empty((others, 3), np.int64), np.empty((words, 4), np.int64)
-        arrays = (*tables, self.sizes, point, texcoord, normal, lines, hard)
+        arrays = (*tables, self.sizes, *self._places, lines, hard)
         _kernels.scan_obj(np.frombuffer(text, np.uint8), counts_before, True, np.empty_like(counts), arrays)
         for table, place, begin, end in hard.tolist():
             tables[table].reshape(-1)[place] = float(text[begin:end])
@@ -142,7 +165,7 @@ class _PlainLines:
 
     def places(self, which: int) -> Ints:
         places = self._places[which]
-        return places if len(places) == len(self._places[0]) else np.full(len(self._places[0]), _NOWHERE)
+        return places if len(places) == self._corners else np.full(self._corners, _NOWHERE)
 
     def values_of(self, keyword: bytes) -> list[bytes]:
         return [name for _, name in self._others.get(keyword, ())]
@@ -154,7 +177,8 @@ class _PlainLines:
 
 def _plain_lines(text: bytes, counts_before: tuple[int, int, int]) -> _PlainLines | None:
     """Read the lines as nearly all programs write them; None: some need another reader, or an error in words."""
-    counts, before = np.empty(_kernels.OBJ_COUNTS, np.int64), np.array(counts_before, np.int64)
+    counts = np.empty(_kernels.OBJ_COUNTS, np.int64)
+    before = np.array(counts_before, np.int64)
     nothing: Any = tuple(np.empty(shape, kind) for shape, kind in _NOTHING)
     if _kernels.scan_obj(np.frombuffer(text, np.uint8), before, False, counts, nothing):
         return None
@@ -165,7 +189,7 @@ class _Lines:
     """The lines of any text by their keywords; # begins a comment at the start of a line, and after numbers."""
 
     def __init__(self, text: bytes, counts_before: tuple[int, int, int]) -> None:
-        self._seen = counts_before
+        self._counts_before = counts_before
         self._lines = text.splitlines()
         keywords = [(line.split(None, 1) or [b""])[0] for line in self._lines] or [b""]
         self.keywords = {word for word in set(keywords) if not word.startswith(b"#")}
@@ -188,9 +212,10 @@ class _Lines:
 
     def places(self, which: int) -> Ints:
         """Return the indices of corners, from 0 on; a negative one counts back from the last line before the face."""
-        present = np.repeat(self.before_faces(_NUMBERS[which]), self.sizes) + self._seen[which]
+        present = np.repeat(self.before_faces(_NUMBERS[which]), self.sizes) + self._counts_before[which]
         written = self._references.of(which)
-        return np.where(written > 0, written - 1, np.where(written < 0, written + present, _NOWHERE))
+        indices = np.where(written > 0, written - 1, written + present)
+        return np.where(written == 0, _NOWHERE, indices)
 
     def before_faces(self, keyword: bytes) -> Ints:
         """Return how many lines with a keyword are before each face."""
@@ -199,8 +224,9 @@ class _Lines:
     def values_of(self, keyword: bytes) -> list[bytes]:
         """Return the rest of each line with a keyword."""
         names = [b"".join(self._lines[i].split(None, 1)[1:]) for i in np.flatnonzero(self._are(keyword)).tolist()]
-        numbers = self._commented and keyword in _NUMBERS
-        return [line.partition(b"#")[0] for line in names] if numbers else [line.strip() for line in names]
+        if self._commented and keyword in _NUMBERS:
+            return [line.partition(b"#")[0] for line in names]
+        return [line.strip() for line in names]
 
 
 class _References:
@@ -218,9 +244,9 @@ class _References:
         self._numbers = as_integers(self._rows.values, "a vertex index")
 
     def of(self, which: int) -> Ints:
-        there = self._rows.counts > which
-        numbers = np.zeros(len(there), np.int64)
-        numbers[there] = self._numbers[self._rows.starts[there] + which]
+        has_number = self._rows.counts > which
+        numbers = np.zeros(len(has_number), np.int64)
+        numbers[has_number] = self._numbers[self._rows.starts[has_number] + which]
         return numbers
 
 
@@ -228,17 +254,21 @@ def _corner_column(
     table: Rows, name: Literal["texcoord", "normal"], indices: Ints, flat: tuple[Doubles, Ints, Ints] | None
 ) -> tuple[list[Column], list[str]]:
     """Return the values of `vt` or `vn` lines, for the corners that have them."""
-    present = indices != _NOWHERE
-    if not present.any():
+    missing = indices == _NOWHERE
+    if missing.all():
         return [], []
-    values, notes = _texcoords(table) if name == "texcoord" else table.columns(0, 3), []
-    if not present.all():  # after all other values there are those of the faces, or zeros
-        more = np.zeros((1, values.shape[1])) if flat is None else polygon_normals(*flat)
-        owner = 0 if flat is None else np.repeat(np.arange(len(flat[1])), flat[1])
-        indices = np.where(present, indices, len(values) + owner)
+    values = _texcoords(table) if name == "texcoord" else table.columns(0, 3)
+    notes: list[str] = []
+    if missing.any():  # after all other values there are those of the faces, or zeros
+        substitute = "zeros"
+        more, owner = np.zeros((1, values.shape[1])), np.zeros(len(indices), np.int64)
+        if flat is not None:
+            substitute = "those of their faces"
+            _, sizes, _ = flat
+            more, owner = polygon_normals(*flat), np.repeat(np.arange(len(sizes)), sizes)
+        indices = np.where(missing, len(values) + owner, indices)
         values = np.vstack([values, more])
-        substitute = "zeros" if flat is None else "those of their faces"
-        notes = [f"corners without {PLURALS[name]} were given {substitute}: {int((~present).sum())}"]
+        notes.append(f"corners without {PLURALS[name]} were given {substitute}: {int(missing.sum())}")
     return [Column(name, compact(values), "corner", name, indices)], notes
 
 
@@ -247,8 +277,8 @@ def _texcoords(table: Rows) -> Doubles:
     table.require(1)
     values = np.zeros((len(table.counts), _MOST_NUMBERS))
     for place in range(_MOST_NUMBERS):
-        there = table.counts > place
-        values[there, place] = table.values[table.starts[there] + place]
+        has_number = table.counts > place
+        values[has_number, place] = table.values[table.starts[has_number] + place]
     return values if values[:, 2].any() else values[:, :2]
 
 
@@ -256,7 +286,7 @@ def _states(lines: _Lines | _PlainLines) -> tuple[list[Column], dict[str, str], 
     """Materials, groups, ... of the faces: numbers, their names as metadata, and names that several objects have."""
     columns: list[Column] = []
     metadata: dict[str, str] = {}
-    again = dict[str, None]()
+    again: list[str] = []
     for what, keyword in STATES.items():
         names = ["", *map(text_of, lines.values_of(keyword.encode()))]
         of_face = lines.before_faces(keyword.encode())
@@ -265,8 +295,8 @@ def _states(lines: _Lines | _PlainLines) -> tuple[list[Column], dict[str, str], 
         metadata |= group_names
         if what == "object":
             counts = Counter(names[place] for place in np.unique(of_face).tolist())
-            again |= {name: None for name, count in counts.items() if name and count > 1}
-    return columns, metadata, [*again][:_FEW]
+            again = [name for name, count in counts.items() if name and count > 1]
+    return columns, metadata, again[:_FEW]
 
 
 # ------------------------------------------------------------------------------------------------------------ writing
@@ -290,39 +320,47 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     if mtl:
         library.beside[f"{stem}.mtl"] = mtl
         libraries = [f"{stem}.mtl"]
-        library.written |= {f"material.{n}.{word}" for n, m in library.materials.items() for word in m} - {*unsaid}
-    library.written |= {f"{what}.{number}.name" for what in STATES for number in names[what]}
-    library.written |= {f"{what}.names" for what in STATES if names[what]}
+        library.written |= materials.described(library.materials).keys() - {*unsaid}
+    group_metadata: dict[str, str] = {}
+    for what in STATES:
+        group_metadata |= {f"{what}.{number}.name": name for number, name in names[what].items()}
+        if names[what]:
+            library.written.add(f"{what}.names")
+    library.written |= {*group_metadata, "mtllib"}
+    lines: list[str] = []
     comment = mesh.metadata.get("comment")
-    free = comment.split("\n") if isinstance(comment, str) else []
-    lines, omitted = materials.remarks(mesh.metadata, library.written | {"mtllib"} | ({"comment"} if free else set()))
-    lines = [*(one_line(line) for line in free), *lines]
-    parts = [*(f"# {line}\n" for line in lines)]
+    if isinstance(comment, str):
+        lines = [one_line(line) for line in comment.split("\n")]
+        library.written.add("comment")
+    remarks, omitted = materials.remarks(mesh.metadata, library.written)
+    parts = [f"# {line}\n" for line in (*lines, *remarks)]
     parts += [f"mtllib {one_line(name)}\n" for name in libraries if name]
     parts.append(_points(mesh, color))
-    indices = [mesh.faces]
+    indices, corner = [mesh.faces], "{}"
     for keyword, attribute in (("vt", texcoord), ("vn", normal)):
         if attribute is not None:
             number = " {!r}" if attribute.values.dtype == np.float64 else " {:.9g}"
             joined = materials.without_seams(attribute, mesh)  # VTK shades only these smoothly
-            rows, corners = joined.values, mesh.faces if joined.indices is None else joined.indices
-            parts.append(text_table(f"{keyword}{number * attribute.components}\n", rows).decode())
-            indices.append(corners)
-    corner = "{}/{}/{}" if texcoord and normal else "{}//{}" if normal else "{}/{}" if texcoord else "{}"
+            parts.append(text_table(f"{keyword}{number * attribute.components}\n", joined.values).decode())
+            indices.append(mesh.faces if joined.indices is None else joined.indices)
+            corner += "/{}" if keyword == "vt" or texcoord else "//{}"
     columns = np.stack(indices, axis=2).reshape(len(mesh.faces), -1) + 1
     nothing = np.zeros(len(mesh.faces), np.int64)
-    states = {what: nothing if a is None else a.values[:, 0] for what, a in numbers.items() if names[what]}
+    states: dict[str, npt.NDArray[Any]] = {}
+    for what, attribute in numbers.items():
+        if names[what]:
+            states[what] = nothing if attribute is None else attribute.values[:, 0]
     order = _grouped(list(states.values()), len(mesh.faces))
     faces = map(f"f {corner} {corner} {corner}\n".format, *columns[order].T.tolist())
     before = np.full(len(mesh.faces), "", dtype=object)
     for what, values in states.items():
-        changes = np.flatnonzero(np.diff(values[order], prepend=values[order[0]] - 1))
-        before[changes] += [f"{STATES[what]} {names[what][number]}\n" for number in values[order[changes]].tolist()]
+        ordered = values[order]
+        changes = np.flatnonzero(np.diff(ordered, prepend=ordered[0] - 1))
+        before[changes] += [f"{STATES[what]} {names[what][number]}\n" for number in ordered[changes].tolist()]
     parts += chain.from_iterable(zip(before.tolist(), faces))
-    attributes_held = (color, texcoord, normal, *numbers.values())
-    group_metadata = {f"{what}.{number}.name": name for what in STATES for number, name in names[what].items()}
     renamed = [key for key, name in group_metadata.items() if mesh.metadata.get(key, name) != name]
-    lost = materials.left_out(original, attributes_held, (*dict.fromkeys((*omitted, *unsaid)), *renamed))
+    written_attributes = (color, texcoord, normal, *numbers.values())
+    lost = materials.left_out(original, written_attributes, (*dict.fromkeys((*omitted, *unsaid)), *renamed))
     if color is not None and color.components > _COLORS:
         lost = (f"alpha of {color.name}", *lost)
     return materials.Written("".join(parts).encode(), lost, library.beside)
@@ -331,14 +369,15 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
 def _grouped(states: list[npt.NDArray[Any]], faces: int) -> Ints:
     """The order in which faces are written: grouped by their materials where these change for every few faces."""
     order = np.arange(faces)
-    if states:
-        table = np.column_stack(states[::-1])
-        kinds, of_face = np.unique(table, axis=0, return_inverse=True)
-        changes = np.count_nonzero(np.diff(of_face.reshape(-1)))
-        # A line before every few faces makes a file much longer; where there are fewer, the order of faces is worth
-        # more.
-        if changes >= len(kinds) and _FEW * changes > faces:
-            order = np.argsort(of_face.reshape(-1), kind="stable")
+    if not states:
+        return order
+    table = np.column_stack(states[::-1])
+    kinds, inverse = np.unique(table, axis=0, return_inverse=True)
+    of_face = inverse.reshape(-1)
+    changes = np.count_nonzero(np.diff(of_face))
+    # A line before every few faces makes a file much longer; where there are fewer, the order of faces is worth more.
+    if changes >= len(kinds) and _FEW * changes > faces:
+        return np.argsort(of_face, kind="stable")
     return order
 
 
@@ -348,12 +387,13 @@ def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[i
     used = [0] if attribute is None else np.unique(attribute.values).tolist()
     has = materials.materials_in(mesh.metadata) if what == "material" else {}  # a library may hold some of no face
     names_by_number = {number: names.get(number) for number in (*used, *has)}
-    if attribute is None and not any(names_by_number.values()) and not has:
+    if attribute is None and not has and not any(names_by_number.values()):
         return {}
     unique_names: dict[int, str] = {}
     uses: dict[str, int] = {}
     for number, name in names_by_number.items():
-        text = unique = one_line(str(f"{what}_{number}" if name is None else name))[:_MOST_NAME]
+        known_name = f"{what}_{number}" if name is None else name
+        text = unique = one_line(known_name)[:_MOST_NAME]
         while unique in uses:
             uses[text] += 1
             unique = f"{text}_{uses[text]}"
@@ -363,9 +403,9 @@ def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[i
 
 
 def _points(mesh: TriangleMesh, color: Attribute | None) -> str:
-    row = point_row("v ", mesh.positions)
-    if color is None:
-        return text_table(row, mesh.positions).decode()
-    # Six digits: bytes and even words of 16 bits come back from shares with as many.
-    row = row.replace("\n", " {:.6g}" * _COLORS + "\n")
-    return text_table(row, np.hstack([mesh.positions, shares_of(color.values[:, :_COLORS])])).decode()
+    row, table = point_row("v ", mesh.positions), mesh.positions
+    if color is not None:
+        # Six digits: bytes and even words of 16 bits come back from shares with as many.
+        row = row.replace("\n", " {:.6g}" * _COLORS + "\n")
+        table = np.hstack([table, shares_of(color.values[:, :_COLORS])])
+    return text_table(row, table).decode()

@@ -1,9 +1,9 @@
 """PLY: a header that declares elements and their properties, then the elements, binary or as text."""
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import count, takewhile
 
 import numpy as np
 import numpy.typing as npt
@@ -55,7 +55,13 @@ class Element:
     properties: tuple[Property, ...]
 
     def index(self, *names: str) -> int:
-        return next((i for i, column in enumerate(self.properties) if column.name in names), -1)
+        return next((place for place, column in enumerate(self.properties) if column.name in names), -1)
+
+    @property
+    def repeated(self) -> list[str]:
+        """The names of properties that are there several times."""
+        counts = Counter(column.name for column in self.properties)
+        return [name for name, count in counts.items() if count > 1]
 
 
 @dataclass(frozen=True)
@@ -70,21 +76,32 @@ class PlyHeader:
     @property
     def images(self) -> dict[int, str]:
         """The names of images by their numbers, in the order of the file."""
-        names = [line.removeprefix(IMAGE).strip() for _, line in self.comments if line.startswith(f"{IMAGE} ")]
-        remarks = formats.parse_remarks(line for _, line in self.comments)
-        numbers = {name: number for number, (name, _) in formats.images_in(remarks).items()}
-        return {numbers.get(name, place): name for place, name in enumerate(names)}
+        numbers = {name: number for number, (name, _) in formats.images_in(self._remarks).items()}
+        images: dict[int, str] = {}
+        for _, line in self.comments:
+            if line.startswith(f"{IMAGE} "):
+                images[len(images)] = line.removeprefix(IMAGE).strip()
+        return {numbers.get(name, place): name for place, name in images.items()}
+
+    @property
+    def _remarks(self) -> dict[str, formats.Value]:
+        return formats.parse_remarks(line for _, line in self.comments)
 
     @property
     def metadata(self) -> Metadata:
         """Return the metadata in the comments; images are those of materials."""
-        contents = formats.parse_remarks(line for _, line in self.comments)
+        contents = self._remarks
         for keyword in COMMENTS:
-            lines = [line for kind, line in self.comments if kind == keyword and not line.startswith(f"{IMAGE} ")]
-            if own_comments := [line for line in lines if line and not formats.parse_remarks([line])]:
-                contents.setdefault(keyword, "\n".join(own_comments))
-        entries = [item for material in formats.materials_in(contents).values() for item in material.items()]
-        image_numbers = {value for name, value in entries if refers_to_image(name)}
+            lines: list[str] = []
+            for line_keyword, line in self.comments:
+                is_free = line and not line.startswith(f"{IMAGE} ") and not formats.parse_remarks([line])
+                if line_keyword == keyword and is_free:
+                    lines.append(line)
+            if lines:
+                contents.setdefault(keyword, "\n".join(lines))
+        image_numbers: set[object] = set()
+        for material in formats.materials_in(contents).values():
+            image_numbers |= {value for name, value in material.items() if refers_to_image(name)}
         for number, name in self.images.items():
             contents[f"image.{number}.name"] = name
             if number not in image_numbers:
@@ -100,16 +117,16 @@ def parse_header(data: bytes) -> PlyHeader:
     end = re.compile(rb"[\r\n][ \t]*end_header[ \t]*(?:\r?\n|\r|\Z)").search(data, begin.end() - 1, MOST_HEADER)
     if end is None:
         raise TruncatedError(f"the PLY header has no end_header in its first {MOST_HEADER} bytes")
+    size = end.end()
     # Where all lines before end in \r, \n after the last one is the first byte of the body.
-    in_body = end[0].endswith(b"\r\n") and b"\n" not in data[: end.start() + 1]
-    ends = end.end() - 1 if in_body else end.end()
+    if end[0].endswith(b"\r\n") and b"\n" not in data[: end.start() + 1]:
+        size -= 1
     order: str | None = None
     elements: list[Element] = []
     comments: list[tuple[str, str]] = []
     for line in re.split("[\r\n]+", text_of(data[begin.end() : end.start()])):
-        words = line.split()
         try:
-            match words:
+            match line.split():
                 case []:
                     pass
                 case ["comment" | "obj_info" as keyword, *_]:
@@ -130,7 +147,7 @@ def parse_header(data: bytes) -> PlyHeader:
             raise FormatError(f"the PLY header has an invalid line: {line[:80]!r}") from None
     if order is None or len(elements) > _MAX_ELEMENTS:
         raise FormatError("the PLY header names no format, or too many elements")
-    return PlyHeader(order, tuple(elements), ends, tuple(comments))
+    return PlyHeader(order, tuple(elements), size, tuple(comments))
 
 
 def _extend(elements: list[Element], column: Property) -> None:
@@ -143,15 +160,18 @@ def _extend(elements: list[Element], column: Property) -> None:
 def tables_of(header: PlyHeader, body: bytes) -> "dict[str, _Table]":
     """The elements of a file by their names; those of a text as integers of eight bytes, lengths among them."""
     tables: dict[str, _Table] = {}
-    begin, raw, text = 0, np.frombuffer(body, np.uint8), None
+    raw, text = np.frombuffer(body, np.uint8), None
     if not header.order:
         lines = [line for line in body.splitlines() if line.strip()]
         require_lines(len(lines), sum(element.count for element in header.elements))
         text = Rows(lines, "row").values
         # The numbers of a text as integers of eight bytes, so that one walk over rows serves binary files and texts.
-        raw = np.where(text == np.rint(text), text, -1).clip(-1, _LONGEST).astype("<i8").view(np.uint8)
+        integers = np.where(text == np.rint(text), text, -1).clip(-1, _LONGEST)
+        raw = integers.astype("<i8").view(np.uint8)
+    begin = 0
     for element in header.elements:
-        tables[element.name] = table = _Table(element, header.order, raw, begin, text)
+        table = _Table(element, header.order, raw, begin, text)
+        tables[element.name] = table
         begin = table.walk(0)[2]
     if text is not None and begin < raw.size:
         raise MeshError(f"the rows of this PLY file have {(raw.size - begin) // 8} numbers more than its header says")
@@ -184,26 +204,29 @@ class _Table:
         kind = np.dtype(self.order + self.element.properties[place].type)
         if self.text is not None:
             return sizes, _typed(self.text[ranges(starts // 8, sizes)], kind.str)
-        step = np.diff(starts[:2]).sum()
+        steps = np.diff(starts)
+        step = int(steps[:1].sum())
         # A view of the bytes: indices of all of them would take eight times the memory of the file.
-        if len(starts) and (np.diff(starts) == step).all() and (sizes == sizes[0]).all():  # as of most files
-            shape, strides = (len(starts), int(sizes[0])), (int(step), kind.itemsize)
-            values = np.ndarray(shape, kind, self.raw.data, int(starts[0]), strides).reshape(-1)
+        if len(starts) and (steps == step).all() and (sizes == sizes[0]).all():  # as of most files
+            shape = (len(starts), int(sizes[0]))
+            values = np.ndarray(shape, kind, self.raw.data, int(starts[0]), (step, kind.itemsize)).reshape(-1)
         else:
-            picked: npt.NDArray[np.uint8] = self.raw[ranges(starts, sizes * kind.itemsize)]
-            values = picked.view(kind)
+            items: npt.NDArray[np.uint8] = self.raw[ranges(starts, sizes * kind.itemsize)]
+            values = items.view(kind)
         return sizes, values.astype(kind.newbyteorder("="))
 
     def walk(self, place: int) -> tuple[Ints, Ints, int]:
         """Where each row's property begins, how many items it has, and where the last row ends."""
-        properties = self.element.properties
         # The bytes of the length of each property's lists (0: it is a number), and of an item.
-        kinds = ((p.length, p.type) if self.text is None else (p.length and "i8", "i8") for p in properties)
-        widths = [(np.dtype(length).itemsize if length else 0, np.dtype(kind).itemsize) for length, kind in kinds]
+        widths: list[tuple[int, int]] = []
+        for column in self.element.properties:
+            length = self._size(column.length) if column.length else 0
+            widths.append((length, self._size(column.type)))
         count = self.element.count if widths else 0  # rows without properties take no bytes, however many they are
         # Every row is at least as long as its numbers and the lengths of its lists.
         least = sum(length or width for length, width in widths)
-        if (missing := self.begin + count * least - len(self.raw)) > 0:
+        missing = self.begin + count * least - len(self.raw)
+        if missing > 0:
             raise TruncatedError(f"the PLY file is cut short: its header claims {missing} bytes more than there are")
         if not any(length for length, _ in widths):
             first = self.begin + sum(width for _, width in widths[:place])
@@ -213,6 +236,10 @@ class _Table:
         if end < 0:
             raise TruncatedError("the PLY file is cut short: a list runs over its end", offset=-end)
         return starts, sizes, end
+
+    def _size(self, kind: str) -> int:
+        """The bytes of a number; those of a text have eight."""
+        return np.dtype(kind).itemsize if self.text is None else 8
 
 
 # -------------------------------------------------------------------------------------------------- reading and writing
@@ -241,75 +268,91 @@ _WEDGES = "texcoord"  # the list of texture coordinates of corners, by MeshLab, 
 def read_ply(data: bytes, limits: Limits) -> Polygons:
     """Read a PLY with points and faces, of any byte order, and whatever numbers they have."""
     header = parse_header(data)
-    names = [element.name for element in header.elements]
-    if "tristrips" in names:
-        raise MeshError("this PLY file holds triangle strips; convert it to faces (MeshLab does when it saves)")
-    if twice := [name for name in ("vertex", "face") if names.count(name) > 1]:
-        raise MeshError(f"this PLY file has the element {twice[0]} several times; save it with one")
-    if "range_grid" in names and "face" not in names:
-        raise NoFacesError("this PLY file is a range grid; mesh it first, for instance with MeshLab")
-    if "vertex" not in names or "face" not in names:
-        raise NoFacesError("this PLY file has no faces; point clouds are not supported")
-    require_counts(limits, **{_COUNTED[e.name]: e.count for e in header.elements if e.name in _COUNTED})
-    body = data[header.size :]
-    tables = tables_of(header, body)
+    _require_mesh([element.name for element in header.elements])
+    counts = {_COUNTED[element.name]: element.count for element in header.elements if element.name in _COUNTED}
+    require_counts(limits, **counts)
+    tables = tables_of(header, data[header.size :])
     vertex, face = tables["vertex"], tables["face"]
-    with np.errstate(invalid="ignore"):  # a later check refuses NaN
-        places = [vertex.element.index(name) for name in "xyz"]
-        if min(places) < 0 or any(vertex.element.properties[place].length for place in places):
-            raise MeshError("the vertices of this PLY file have no numbers x, y and z")
-        positions = np.column_stack([vertex.numbers(place).astype(np.float64) for place in places])
+    positions = _positions(vertex)
     corners = face.element.index("vertex_indices", "vertex_index")
     if corners < 0 or face.element.properties[corners].length is None:
         raise MeshError("the faces of this PLY file have no list vertex_indices")
     sizes, items = face.lists(corners)
-    wedges, dropped, notes = _wedges(face, corners, sizes)
-    wedges = [replace(w, file_name="" if header.images else w.name) if w.name == _WEDGES else w for w in wedges]
     textured = bool(header.images)
+    wedges, dropped, notes = _wedges(face, corners, sizes, textured)
     columns = [*_columns(vertex, "vertex", "xyz", textured), *_columns(face, "face", (), textured), *wedges]
     dropped += [f"the list {column.name} of vertices" for column in vertex.element.properties if column.length]
-    others = [element.name for element in header.elements if element.name not in ("vertex", "face") and element.count]
     for element in (vertex.element, face.element):
-        names = [column.name for column in element.properties]
-        repeated = {name: 0 for name in names if names.count(name) > 1}
-        dropped += [f"the first {name}, of which there are several" for name in repeated]
+        dropped += [f"the first {name}, of which there are several" for name in element.repeated]
+    dropped += [element.name for element in header.elements if element.name not in _COUNTED and element.count]
     flat = as_integers(items, "a vertex index")
     plain_columns = tuple(_without_textures(columns, header))
-    return Polygons(positions, sizes, flat, tuple(notes), (*dropped, *others), plain_columns, header.metadata)
+    return Polygons(positions, sizes, flat, tuple(notes), tuple(dropped), plain_columns, header.metadata)
+
+
+def _require_mesh(names: list[str]) -> None:
+    """Refuse a file whose elements are not those of a mesh."""
+    if "tristrips" in names:
+        raise MeshError("this PLY file holds triangle strips; convert it to faces (MeshLab does when it saves)")
+    for name in _COUNTED:
+        if names.count(name) > 1:
+            raise MeshError(f"this PLY file has the element {name} several times; save it with one")
+    if "range_grid" in names and "face" not in names:
+        raise NoFacesError("this PLY file is a range grid; mesh it first, for instance with MeshLab")
+    if not {*_COUNTED} <= {*names}:
+        raise NoFacesError("this PLY file has no faces; point clouds are not supported")
+
+
+def _positions(vertex: _Table) -> Doubles:
+    places = [vertex.element.index(name) for name in "xyz"]
+    if min(places) < 0 or any(vertex.element.properties[place].length for place in places):
+        raise MeshError("the vertices of this PLY file have no numbers x, y and z")
+    with np.errstate(invalid="ignore"):  # a later check refuses NaN
+        positions: Doubles = np.column_stack([vertex.numbers(place).astype(np.float64) for place in places])
+    return positions
 
 
 def _columns(table: _Table, domain: Domain, needed: Sequence[str], textured: bool) -> Iterator[Column]:
     """The properties that are numbers, those together that are one value."""
-    properties = table.element.properties
-    plain = (place for place, p in enumerate(properties) if p.length is None and p.name not in needed)
-    places = {properties[place].name: place for place in plain}
+    types: dict[str, str] = {}
+    places: dict[str, int] = {}
+    for place, column in enumerate(table.element.properties):
+        if column.length is None and column.name not in needed:
+            types[column.name] = column.type
+            places[column.name] = place
+
+    def values_of(names: Sequence[str]) -> Array:
+        return np.column_stack([table.numbers(places[name]) for name in names])
+
     for semantic, names in _GROUPS:
-        types = {properties[places[name]].type for name in names if name in places}
-        if len(types) != 1 or not all(name in places for name in names):
+        if not {*names} <= types.keys() or len({types[name] for name in names}) != 1:
             continue
-        values = np.column_stack([table.numbers(places[name]) for name in names])
-        column = Column(semantic, values, domain, semantic)
+        group = Column(semantic, values_of(names), domain, semantic)
         if semantic == "color":
-            column = color_column(_narrow(values), domain)
-        if column.semantic != semantic:
+            group = color_column(_narrow(group.values), domain)
+        if group.semantic != semantic:
             continue  # numbers that are not colors keep their names
-        places = {name: place for name, place in places.items() if name not in names}
-        usual = (semantic, names) in _USUAL and not (textured and semantic == "texcoord")
-        yield replace(column, components=() if usual else names)
-    for name, together in _series({name: properties[place].type for name, place in places.items()}):
-        values = np.column_stack([table.numbers(places[member]) for member in together])
+        for name in names:
+            del types[name]
+        is_usual = (semantic, names) in _USUAL and not (textured and semantic == "texcoord")
+        yield replace(group, components=() if is_usual else names)
+    material_names = [name for name in types if name in _NAMES]
+    for name, members in _series(types):
         short_name = _NAMES.get(name, name)
-        if name == _TEXTURE and not _NAMES.keys().isdisjoint(places.keys() - {name}):
+        if name == _TEXTURE and len(material_names) > 1:
             short_name = name  # another property has the materials
-        yield Column(short_name, values, domain, file_name=name if short_name != name else "")
+        file_name = name if short_name != name else ""
+        yield Column(short_name, values_of(members), domain, file_name=file_name)
 
 
 def _narrow(colors: Array) -> Array:
     """Whole numbers as bytes or words if all of them fit: VCG and trimesh show colors of any type of integers."""
     if colors.dtype.kind not in "iu" or not colors.size or colors.min() < 0:
         return colors
-    fits = (kind for kind in (np.uint8, np.uint16) if colors.max() <= np.iinfo(kind).max)
-    return colors.astype(next(fits, colors.dtype))
+    for kind in (np.uint8, np.uint16):
+        if colors.max() <= np.iinfo(kind).max:
+            return colors.astype(kind)
+    return colors
 
 
 def _without_textures(columns: Sequence[Column], header: PlyHeader) -> list[Column]:
@@ -319,51 +362,61 @@ def _without_textures(columns: Sequence[Column], header: PlyHeader) -> list[Colu
     if materials is None or textures is None:
         return list(columns)
     numbers = _texture_numbers(header.metadata, list(header.images))
-    same = np.array_equal(textures[:, 0], [numbers.get(number, -1) for number in materials[:, 0].tolist()])
-    return [column for column in columns if column.name != _TEXTURE or not same]
+    expected = [numbers.get(number, -1) for number in materials[:, 0].tolist()]
+    if not np.array_equal(textures[:, 0], expected):
+        return list(columns)
+    return [column for column in columns if column.name != _TEXTURE]
 
 
 def _texture_numbers(metadata: Metadata, order: Sequence[int]) -> dict[int, int]:
     """The place of the color image of each material among the images in this order; -1 for none."""
-    textures = {number: appearance(words).color_texture for number, words in formats.materials_in(metadata).items()}
-    texture_images = {number: texture.image for number, texture in textures.items() if texture}
-    return {
-        number: order.index(texture_images[number]) if texture_images.get(number) in order else -1
-        for number in textures
-    }
+    numbers: dict[int, int] = {}
+    for number, words in formats.materials_in(metadata).items():
+        texture = appearance(words).color_texture
+        numbers[number] = -1
+        if texture is not None and texture.image in order:
+            numbers[number] = order.index(texture.image)
+    return numbers
 
 
 def _series(types: dict[str, str]) -> Iterator[tuple[str, list[str]]]:
     """Names of properties, those that only differ in a number at the end together: a_0, a_1, ... are a."""
     remaining = dict(types)
     while remaining:
-        name = next(iter(remaining))
+        name, kind = next(iter(remaining.items()))
         stem = name.removesuffix("_0")
-        like_it = {member for member, kind in remaining.items() if kind == types[name]}
-        run = list(takewhile(like_it.__contains__, (f"{stem}_{i}" for i in count())))
-        together = run if name.endswith("_0") and 2 <= len(run) <= MOST_COMPONENTS else [name]
-        yield (stem if len(together) > 1 else name), together
-        remaining = {member: kind for member, kind in remaining.items() if member not in together}
+        members = [name]
+        if stem != name:
+            while remaining.get(f"{stem}_{len(members)}") == kind:
+                members.append(f"{stem}_{len(members)}")
+        if not 2 <= len(members) <= MOST_COMPONENTS:
+            stem, members = name, [name]
+        yield stem, members
+        for member in members:
+            del remaining[member]
 
 
-def _wedges(table: _Table, corners: int, sizes: Ints) -> tuple[list[Column], list[str], list[str]]:
+def _wedges(table: _Table, corners: int, sizes: Ints, textured: bool) -> tuple[list[Column], list[str], list[str]]:
     """Values of corners: lists as long as that of the vertices, or twice, ...; the lists that are not; and notes."""
     columns, dropped, notes = [], [], []
     for place, column in enumerate(table.element.properties):
+        name = column.name
         if column.length is None or place == corners:
             continue
         lengths, values = table.lists(place)
-        width = 2 if column.name == _WEDGES else int(lengths.max(initial=0)) // max(int(sizes.max(initial=0)), 1)
-        present = lengths == width * sizes
-        if not 1 <= width <= MOST_COMPONENTS or not (present | (lengths == 0)).all() or not present.any():
-            dropped.append(column.name)
+        width = int(lengths.max(initial=0)) // max(int(sizes.max(initial=0)), 1)
+        if name == _WEDGES:
+            width = 2
+        is_full = lengths == width * sizes
+        if not 1 <= width <= MOST_COMPONENTS or not (is_full | (lengths == 0)).all() or not is_full.any():
+            dropped.append(name)
             continue
         rows = np.zeros((int(sizes.sum()), width), values.dtype)  # a face without any gets zeros
-        rows[np.repeat(present, sizes)] = values.reshape(-1, width)
-        columns.append(Column(column.name, rows, "corner", meaning_of(column.name, width)))
-        if not present.all():
-            what = PLURALS.get(column.name, column.name)
-            notes.append(f"faces without {what} were given zeros: {int((~present).sum())}")
+        rows[np.repeat(is_full, sizes)] = values.reshape(-1, width)
+        file_name = _WEDGES if name == _WEDGES and not textured else ""
+        columns.append(Column(name, rows, "corner", meaning_of(name, width), file_name=file_name))
+        if not is_full.all():
+            notes.append(f"faces without {PLURALS.get(name, name)} were given zeros: {int((~is_full).sum())}")
     return columns, dropped, notes
 
 
@@ -373,22 +426,12 @@ def _wedges(table: _Table, corners: int, sizes: Ints) -> tuple[list[Column], lis
 def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
     """The binary PLY of a mesh; values of corners are those of vertices where all corners of each have the same."""
     library = formats.Library(mesh, stem)
-    color_textures = (appearance(words).color_texture for words in library.materials.values())
-    first = {texture.image for texture in color_textures if texture}  # which most readers show
-    order = dict(sorted(library.images.items(), key=lambda image: image[0] not in first))
-    images = [f"{IMAGE} {name}" for name in order.values()]
-    # Comments of other programs have no numbers, so images count from 0 in their order; ours are named where that
-    # fails.
-    if [*order] != [*range(len(order))]:
-        images += formats.remarks({f"image.{number}.name": name for number, name in order.items()})[0]
-    texts = {word: text for word in COMMENTS if isinstance(text := mesh.metadata.get(word), str)}
-    texts = {word: text for word, text in texts.items() if len(text) < formats.MOST_TEXT}
-    free = [f"{word} {one_line(line)}" for word, text in texts.items() for line in text.split("\n")]
-    names = {name for name in mesh.metadata if name.startswith((formats.CALLED, formats.COMPONENTS))}
-    comments, omitted = formats.remarks(mesh.metadata, library.written | texts.keys() | names)
-    textures = _texture_numbers(mesh.metadata, [*order])
-    wedges = _wedge_texcoords(mesh, textured=bool(order), several=len({*textures.values()}) > 1)
     metadata, original = mesh.metadata, mesh
+    order = _image_order(library)
+    comments, omitted = _comments(metadata, library, order)
+    textures = _texture_numbers(metadata, order)
+    has_several = len({*textures.values()}) > 1
+    wedges = _wedge_texcoords(mesh, textured=bool(order), several=has_several)
     mesh = formats.split_at_seams(mesh, *(attribute for attribute in mesh.attributes if attribute is not wedges))
     single = np.float32 if single_suffices(mesh.positions) else np.float64
     columns: dict[str, list[tuple[str, Array]]] = {
@@ -397,38 +440,73 @@ def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
     }
     values = formats.with_none(mesh.attributes)
     for attribute in mesh.attributes:
-        if attribute.name not in values:
-            continue
         if attribute is wedges:
-            columns["face"].append((_WEDGES, at_corners(attribute, mesh.faces).reshape(len(mesh.faces), -1)))
-            continue
-        fields = columns[attribute.domain]
-        names_of = _property_names(attribute, metadata, [name for name, _ in fields])
-        fields += zip(names_of, values[attribute.name].T)
+            corner_values = at_corners(attribute, mesh.faces)
+            columns["face"].append((_WEDGES, corner_values.reshape(len(mesh.faces), -1)))
+        elif attribute.name in values:
+            fields = columns[attribute.domain]
+            names = _property_names(attribute, metadata, [name for name, _ in fields])
+            fields += zip(names, values[attribute.name].T)
     material = formats.face_numbers(mesh, "material")
-    if material is not None and len({*textures.values()}) > 1 and _TEXTURE not in dict(columns["face"]):
+    if material is not None and has_several and _TEXTURE not in dict(columns["face"]):
         numbers = [textures.get(number, -1) for number in material.values[:, 0].tolist()]
         columns["face"].append((_TEXTURE, np.array(numbers, np.int32)))
-    lines = ["ply", "format binary_little_endian 1.0"]
-    lines += [*free, *(f"comment {line}" for line in (*images, *comments))]
-    body = []
+    lines = ["ply", "format binary_little_endian 1.0", *comments]
+    body: list[bytes] = []
     for element, fields in columns.items():
         properties, rows = table_of(fields)
         lines += [f"element {element} {len(rows)}", *properties]
         body.append(rows.tobytes())
-    header = "".join(f"{line}\n" for line in (*lines, "end_header"))
+    header = "\n".join([*lines, "end_header", ""])
     unsaid_words = formats.unsaid(metadata, "PLY")
     lost = formats.left_out(original, mesh.attributes, dict.fromkeys((*omitted, *unsaid_words)))
     return formats.Written(header.encode() + b"".join(body), lost, library.beside)
 
 
+def _image_order(library: formats.Library) -> list[int]:
+    """The numbers of the images in the order in which they are written: first those of colors, which readers show."""
+    color_images: set[int] = set()
+    for words in library.materials.values():
+        texture = appearance(words).color_texture
+        if texture is not None:
+            color_images.add(texture.image)
+    return sorted(library.images, key=lambda number: number not in color_images)
+
+
+def _comments(metadata: Metadata, library: formats.Library, order: list[int]) -> tuple[list[str], tuple[str, ...]]:
+    """Return the lines with comments, images and metadata, and the names of entries that they cannot hold."""
+    lines: list[str] = []
+    held = set(library.written)
+    for keyword in COMMENTS:
+        text = metadata.get(keyword)
+        if isinstance(text, str) and len(text) < formats.MOST_TEXT:
+            lines += [f"{keyword} {one_line(line)}" for line in text.split("\n")]
+            held.add(keyword)
+    remarks = [f"{IMAGE} {library.images[number]}" for number in order]
+    # Comments of other programs have no numbers, so images count from 0 in their order; ours are named where that
+    # fails.
+    if order != [*range(len(order))]:
+        remarks += formats.remarks({f"image.{number}.name": library.images[number] for number in order})[0]
+    held |= {name for name in metadata if name.startswith((formats.CALLED, formats.COMPONENTS))}
+    entries, omitted = formats.remarks(metadata, held)
+    lines += [f"comment {line}" for line in (*remarks, *entries)]
+    return lines, omitted
+
+
 def table_of(columns: Sequence[tuple[str, Array]]) -> tuple[list[str], Array]:
     """The lines that declare columns, numbers or lists that are as long in each row, and the rows as bytes."""
-    lines, row, length = list[str](), list[Array](), len(columns[0][1])
+    lines: list[str] = []
+    row: list[Array] = []
     for name, values in columns:
-        lines.append(f"property {'list uchar ' * (values.ndim - 1)}{_NAMES_OF_TYPES[values.dtype.str[1:]]} {name}")
-        row += [np.full((length, 1), values.shape[1], np.uint8)] if values.ndim == 2 else []
-        little = np.ascontiguousarray(np.atleast_2d(values.T).T, values.dtype.newbyteorder("<"))
+        kind = _NAMES_OF_TYPES[values.dtype.str[1:]]
+        table = values
+        if values.ndim == 2:
+            kind = f"list uchar {kind}"
+            row.append(np.full((len(values), 1), values.shape[1], np.uint8))
+        else:
+            table = values[:, None]
+        lines.append(f"property {kind} {name}")
+        little = np.ascontiguousarray(table, values.dtype.newbyteorder("<"))
         row.append(little.view(np.uint8))
     return lines, np.hstack(row)
 
@@ -446,10 +524,12 @@ def _wedge_texcoords(mesh: TriangleMesh, *, textured: bool, several: bool) -> At
 
 def _property_names(attribute: Attribute, metadata: Metadata, names_taken: list[str]) -> list[str]:
     """The names of an attribute's properties: those of its file, those that everybody knows, or its own."""
-    usual = (names for meaning, names in _USUAL if meaning == attribute.semantic)
-    usual_names = next((names for names in usual if len(names) == attribute.components), ())
-    in_file = [re.sub(r"\s", "_", name) for name in formats.components_in_file(metadata, attribute)]
-    for names in (in_file, list(usual_names)):
+    candidates = [[re.sub(r"\s", "_", name) for name in formats.components_in_file(metadata, attribute)]]
+    for meaning, usual_names in _USUAL:
+        if meaning == attribute.semantic and len(usual_names) == attribute.components:
+            candidates.append([*usual_names])
+            break
+    for names in candidates:
         if names and not {*names} & {*names_taken}:
             return names
     file_name = re.sub(r"\s", "_", formats.name_in_file(metadata, attribute))
