@@ -78,9 +78,22 @@ ODD = {
 }
 
 
+@pytest.fixture
+def reads(monkeypatch):
+    """How often each file was read."""
+    times, read_cut = Counter(), meshes.read_cut
+
+    def counted(source, *rest, **more):
+        times[source.name if hasattr(source, "name") else str(source)] += 1
+        return read_cut(source, *rest, **more)
+
+    monkeypatch.setattr(meshes, "read_cut", counted)
+    return times
+
+
 @pytest.mark.parametrize("untrusted", [False, True])
 @pytest.mark.parametrize("odd", ODD)
-def test_a_bad_file_is_named_and_the_others_are_encoded(odd, untrusted, tmp_path, monkeypatch, capsys):
+def test_a_bad_file_is_named_and_the_others_are_encoded(odd, untrusted, tmp_path, monkeypatch, capsys, reads):
     monkeypatch.chdir(tmp_path)
     if untrusted:
         pytest.importorskip("landlockpy")
@@ -91,13 +104,12 @@ def test_a_bad_file_is_named_and_the_others_are_encoded(odd, untrusted, tmp_path
         write(Path("in/good"), {f"{name}.obj": with_material(b"skin.png")["x.obj"]})
     write(Path("in/good"), {"x.mtl": with_material(b"skin.png")["x.mtl"], "skin.png": PNG})
     ODD[odd](Path("in"))
-    monkeypatch.setattr(meshes, "read_cut", read := counting(meshes.read_cut))
     main(["encode", "-r", "in", "-o", "out", *["--untrusted"][:untrusted]])
     said = capsys.readouterr().err
     assert {path.name for path in Path("out/good").iterdir()} == {"a.bsm", "b.bsm"}
     assert [path.read_bytes() for path in Path("out/images").iterdir()] == [PNG]
     assert "1 image of several meshes" in said and "Traceback" not in said and "unexpected" not in said
-    assert set(read.often.values()) <= {1, 2}, "a file is read to find what others have too, and to encode it"
+    assert set(reads.values()) <= {1, 2}, "a file is read to find what others have too, and to encode it"
     odd_one = next(path for path in Path("in").iterdir() if path.suffix in (".obj", ".ply", ".gltf", ".3mf"))
     encoded = main(["encode", str(odd_one), "-o", "alone.bsm", *["--untrusted"][:untrusted]]) == 0
     assert encoded == Path("out", odd_one.with_suffix(".bsm").name).exists()
@@ -107,21 +119,11 @@ def test_a_bad_file_is_named_and_the_others_are_encoded(odd, untrusted, tmp_path
         assert f"in/{odd_one.name}: " in said
 
 
-def counting(function):
-    def counted(source, *given, **more):
-        counted.often[source.name if hasattr(source, "name") else str(source)] += 1
-        return function(source, *given, **more)
-
-    counted.often = Counter()
-    return counted
-
-
-def test_folders_without_other_files_are_read_once(tmp_path, monkeypatch):
+def test_folders_without_other_files_are_read_once(tmp_path, reads):
     for name in ("a", "b"):
         write(tmp_path, {f"{name}.obj": with_material(b"")["x.obj"]})
-    monkeypatch.setattr(meshes, "read_cut", read := counting(meshes.read_cut))
     assert main(["encode", "-r", str(tmp_path), "-o", str(tmp_path / "out"), "-q"]) == 0
-    assert set(read.often.values()) == {1}
+    assert set(reads.values()) == {1}
 
 
 def patterns_of_bytes():

@@ -13,13 +13,11 @@ import socket
 import stat
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 import urllib.error
 import urllib.parse
 import urllib.request
-import webbrowser
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
@@ -38,7 +36,7 @@ from bsm.codec.geometry.metrics import distances_to_surface
 from bsm.codec.static.presets import SEQUENCE_ROWS
 from bsm.evaluation.curve import decode_draco, encode_draco
 from bsm.viewer.contents import DRACO_BITS, DRACO_LEVEL, Content, Shown, compared, uploaded
-from bsm.viewer.page import MOST_BYTES, UPLOAD, Arrival, PageServer, Ranged, Tiled, in_browser, written_to
+from bsm.viewer.page import MOST_BYTES, UPLOAD, Arrival, PageServer, Ranged, Tiled, written_to
 from tests.motion import bending, sequence_in
 from tests.shapes import curved, torus
 from tests.streams import all_events, frame_ends, moving_events_of
@@ -303,16 +301,19 @@ def test_a_file_that_is_begun_again_has_ended(tmp_path):
     assert list(chunks) == []
 
 
-def test_command_line_of_the_browser_has_no_token(tmp_path, monkeypatch):
+def test_command_line_of_the_browser_has_no_token(tmp_path):
     (folder := tmp_path / os.fsdecode(b'a b#?%20"\xff')).mkdir()
-    monkeypatch.setattr(tempfile, "tempdir", str(folder))
-    asked: list[str] = []
-    monkeypatch.setattr(webbrowser, "open", asked.append)
-    with in_browser("http://127.0.0.1:1/token/"):
-        (file,) = folder.glob("*/*")
-        assert stat.S_IMODE(file.stat().st_mode) == 0o600 and "token" not in asked[0]
-        assert urllib.parse.unquote_to_bytes(asked[0]) == b"file://" + os.fsencode(file)
-        assert 'url=http://127.0.0.1:1/token/"' in file.read_text()
+    browser = tmp_path / "browser"
+    browser.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/asked\ncp -p "$TMPDIR"/*/view.html {tmp_path}\n')
+    browser.chmod(0o700)
+    code = "from bsm.viewer.page import in_browser\nwith in_browser('http://127.0.0.1:1/token/'): pass"
+    variables = {**os.environ, "BROWSER": f"{browser} %s", "TMPDIR": str(folder)}
+    subprocess.run([sys.executable, "-c", code], env=variables, check=True)
+    asked = (tmp_path / "asked").read_text().strip()
+    assert stat.S_IMODE((tmp_path / "view.html").stat().st_mode) == 0o600 and "token" not in asked
+    place = urllib.parse.unquote_to_bytes(asked)
+    assert place.startswith(b"file://" + os.fsencode(folder)) and place.endswith(b"/view.html")
+    assert 'url=http://127.0.0.1:1/token/"' in (tmp_path / "view.html").read_text()
     assert not list(folder.iterdir())
 
 

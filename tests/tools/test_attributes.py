@@ -1,23 +1,19 @@
 """The comparison of attributes with Draco's: figures that stay what they are."""
 
-import sys
 from pathlib import Path
 
 import pytest
 
-from tools.measure import attributes
+from tests.bsm.program import python
 
 
 @pytest.mark.real
 @pytest.mark.parametrize(
     ("name", "what", "most"), [("spot_uv.obj", "texcoord", 0.73), ("cortex_sulc.ply", "sulc", 0.51)]
 )
-def test_real_attributes_are_small(
-    meshes: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], name: str, what: str, most: float
-):
+def test_real_attributes_are_small(meshes: Path, name: str, what: str, most: float):
     pytest.importorskip("DracoPy")
-    monkeypatch.setattr(sys, "argv", ["attributes", str(meshes / "assets" / name), "--grid", "12"])
-    attributes.main()
-    rows = [[cell.strip() for cell in line.split("|")] for line in capsys.readouterr().out.splitlines()]
+    done = python("-m", "tools.measure", "attributes", meshes / "assets" / name, "--grid", 12, text=True)
+    rows = [[cell.strip() for cell in line.split("|")] for line in done.stdout.splitlines()]
     found = {row[2].split(",")[0]: row for row in rows if row[1] == name}
     assert float(found[what][5]) < most and float(found["whole file"][5]) < 0.85

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 from dataclasses import replace
@@ -149,7 +150,9 @@ class TestTables:
         pytest.importorskip("DracoPy", reason="needs DracoPy (extra eval)")
         pytest.importorskip("pymeshlab", reason="needs pymeshlab (extra replicate)")
         save(torus(24, 16), tmp_path / "ring.ply")
-        monkeypatch.setattr(run, "meshopt_package", lambda *_: None)
+        (tmp_path / "programs").mkdir()
+        (tmp_path / "programs" / "git").symlink_to(shutil.which("git"))
+        monkeypatch.setenv("PATH", str(tmp_path / "programs"))  # where node and npm would be
         run.measure_all(tmp_path, {"rates": 1.0}, quick=False, docs=False, named=[tmp_path / "ring.ply"])
         (found,) = json.loads((tmp_path / "results.json").read_text())["rates"]
         assert (found["mesh"], found["group"], found["vertices"]) == ("ring", "named", 384)
@@ -254,18 +257,17 @@ class TestTables:
         assert "|0.750|" in noise and "|estimates|11|1.500|" in noise
         assert "|1.5to2.0|" in (tmp_path / "denoising-pairs.md").read_text().replace(" ", "")
 
-    def test_tables_are_put_into_the_page_and_others_stay(self, tmp_path, monkeypatch):
+    def test_tables_are_put_into_the_page_and_others_stay(self, tmp_path):
         page = tmp_path / "measured.md"
         page.write_text("# Old\n\nwords\n\n## Moving meshes\n\nCommit a.\n\n| t |\n")
-        monkeypatch.setattr(report, "PAGE", page)
         for commit in ("b", "c"):
-            report.write_page({"rates": [row(commit=commit)]})
+            report.write_page({"rates": [row(commit=commit)]}, page)
         text = page.read_text()
         page.write_text(text + "\n## The paper, 9: an old table\n\n| t |\n")
         made = published.printed("The paper, 4: new", ("x",), [("a", (1.0,), ())]) | {"run": RUN | {"commit": "d"}}
-        report.write_page({"paper": [made]})
+        report.write_page({"paper": [made]}, page)
         assert "## The paper, 4: new" in page.read_text() and "an old table" in page.read_text()
-        report.write_page({"paper": [made] * len(paper.TABLES)})
+        report.write_page({"paper": [made] * len(paper.TABLES)}, page)
         assert "## The paper, 4: new" in page.read_text() and "an old table" not in page.read_text()
         assert text.startswith("# Measured\n") and "words" not in text and "Commit c, p, d" in text
         assert "Commit b" not in text and "## Moving meshes\n\nCommit a.\n\n| t |\n" in text and "| default" in text
@@ -311,13 +313,12 @@ def test_only_the_file_of_the_list_is_taken_and_what_is_missing_is_named(tmp_pat
         {"name": name, "path": f"{name}.ply", "sha256": digest, **common}
         for name, digest in (("a", right), ("b", "0" * 64), ("c", right))
     ]
-    monkeypatch.setattr(fetch, "LIST", tmp_path / "list.json")
     gone = {"package": "no-such-package", "registry": "none", "version": "1", "archive": "", "meshes": meshes[:1]}
     packages = [{"package": "made", "registry": "pypi", "version": "1", "meshes": meshes}, gone]
-    fetch.LIST.write_text(json.dumps({"packages": packages}))
-    monkeypatch.setattr(fetch, "_run", lambda *_, **__: (_ for _ in ()).throw(FileNotFoundError("no apt-get")))
+    (tmp_path / "list.json").write_text(json.dumps({"packages": packages}))
+    monkeypatch.setenv("PATH", "")  # where apt-get would be
     notes = []
-    (found,) = fetch_meshes(tmp_path / "meshes", notes.append)
+    (found,) = fetch_meshes(tmp_path / "meshes", notes.append, tmp_path / "list.json")
     assert found.name == "a" and len(found.mesh().positions) == 64
     assert len(notes) == 3 and "b.ply" in notes[0] and "c.ply" in notes[1] and "no-such-package" in notes[2]
 
@@ -531,11 +532,10 @@ def test_algorithm_2_and_the_codec_s_rule_keep_their_bounds(study):
     assert (np.abs(np.diff(theirs.sizes)) <= theirs.iterations[1:] - 1).all() and theirs.iterations.max() > 1
 
 
-def test_one_table_keeps_the_numbers_of_others(tmp_path, monkeypatch):
+def test_one_table_keeps_the_numbers_of_others(tmp_path):
     kept = tmp_path / "paper.json"
     kept.write_text('{"runs": {"a": 1, "b": 2}, "numbers": {"a": {"x": "1"}, "b": {"y": "2"}}}')
-    monkeypatch.setattr(quotes, "KEPT", kept)
-    quotes.keep({"b": [{"run": 3, "numbers": {"y": "4"}}], "c": [{"run": 5, "numbers": {}}]})
+    quotes.keep({"b": [{"run": 3, "numbers": {"y": "4"}}], "c": [{"run": 5, "numbers": {}}]}, kept)
     found = json.loads(kept.read_text())
     assert found == {"runs": {"a": 1, "b": 3, "c": 5}, "numbers": {"a": {"x": "1"}, "b": {"y": "4"}}}
 

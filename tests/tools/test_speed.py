@@ -25,17 +25,15 @@ def test_what_needs_no_fetching_is_in_the_file() -> None:
 )
 @pytest.mark.parametrize("made", [False, True])
 def test_a_ratio_above_the_file_fails(
-    known: list[float], most: float, code: int | None, made: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    known: list[float], most: float, code: int | None, made: bool, tmp_path: Path
 ) -> None:
     file = tmp_path / "speed.json"
     file.write_text(json.dumps({"work": known}))
     works = (lambda: sum(range(9000)), lambda: sum(range(900))) * 2
-    monkeypatch.setattr(speed, "FIGURES", file)
-    monkeypatch.setattr(speed, "made" if made else "cases", lambda *_: iter([("work", works)]))
     given = Namespace(folder=tmp_path, write=False, made=made, most=most)
     if code is None:
-        speed.guard(given)
+        speed.compare(iter([("work", works)]), given, file)
     else:
         with pytest.raises(SystemExit) as stopped:
-            speed.guard(given)
+            speed.compare(iter([("work", works)]), given, file)
         assert stopped.value.code == code

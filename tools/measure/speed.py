@@ -131,9 +131,15 @@ def ratios(works: Works) -> tuple[float, float]:
 
 def guard(args: argparse.Namespace) -> None:
     """Compare all ratios with those of the file."""
-    known = json.loads(FIGURES.read_text()) if FIGURES.exists() else {}
+    measured = made() if args.made else cases(args.folder, lambda text: print(text, file=sys.stderr))
+    compare(measured, args, FIGURES)
+
+
+def compare(measured: Iterator[tuple[str, Works]], args: argparse.Namespace, figures: Path) -> None:
+    """Compare ratios with those of a file, or write it; exit with 1 where one is above the file's."""
+    known = json.loads(figures.read_text()) if figures.exists() else {}
     found, slower = dict[str, tuple[float, float]](), list[str]()
-    for name, works in made() if args.made else cases(args.folder, lambda text: print(text, file=sys.stderr)):
+    for name, works in measured:
         now, before = ratios(works), known.get(name, (math.inf, math.inf))
         if any(new > args.most * old for new, old in zip(now, before, strict=True)):
             again = ratios(works)  # something else may have run beside it
@@ -146,7 +152,7 @@ def guard(args: argparse.Namespace) -> None:
         values = [ratio[at] for ratio in found.values()]
         print(f"{what}: median {median(values):.1f}, worst {max(values):.1f} times Draco")
     if args.write:
-        FIGURES.write_text(json.dumps(found, indent=1) + "\n")
+        figures.write_text(json.dumps(found, indent=1) + "\n")
     if slower or (len(found) < len(known) / 2 and not args.made):
         print(f"slower by more than {args.most:g}: {', '.join(slower)}" if slower else "too few meshes were fetched")
         sys.exit(1)

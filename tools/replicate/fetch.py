@@ -39,10 +39,10 @@ class Source:
         return TriangleMesh(positions.astype(np.float64), faces)
 
 
-def fetch_meshes(folder: Path, note: Callable[[str], None]) -> list[Source]:
+def fetch_meshes(folder: Path, note: Callable[[str], None], listing: Path = LIST) -> list[Source]:
     """All that can be had, by size; what is missing or another file is named."""
     found = []
-    for package in json.loads(LIST.read_text())["packages"]:
+    for package in json.loads(listing.read_text())["packages"]:
         root = folder / package["package"]
         try:
             unpacked(package, root)

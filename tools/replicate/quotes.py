@@ -22,14 +22,14 @@ PASSAGES = {
 """The document of each; its text, with the numbers of jobs, is a file in passages/. Marks in the document name it."""
 
 
-def keep(tables: dict[str, list[Row]]) -> None:
+def keep(tables: dict[str, list[Row]], file: Path = KEPT) -> None:
     """Write the numbers that are quoted, and the run of each experiment; those of others stay."""
-    kept = json.loads(KEPT.read_text(encoding="utf-8"))
+    kept = json.loads(file.read_text(encoding="utf-8"))
     for name, rows in tables.items():
         kept["runs"][name] = rows[0]["run"]
         if numbers := {k: v for row in rows for k, v in row["numbers"].items()}:
             kept["numbers"][name] = numbers
-    KEPT.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
+    file.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
 
 
 def passage(name: str) -> str:

@@ -218,9 +218,9 @@ def origin(rows: Sequence[Row]) -> str:
     return " ".join(f"Commit {', '.join(run)}." for run in sorted(runs, key=itemgetter(2, 0)))
 
 
-def write_page(results: dict[str, list[Row]]) -> None:
+def write_page(results: dict[str, list[Row]], file: Path = PAGE) -> None:
     """Put the tables into docs/measured.md, each with its origin; what no run in this folder made stays."""
-    page = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
+    page = file.read_text(encoding="utf-8") if file.exists() else ""
     kept = {f"## {part.partition(chr(10))[0]}": part.partition("\n")[2].strip() for part in page.split("\n## ")[1:]}
     if len(results.get("paper", ())) >= len(TABLES):  # all are made anew: tables of earlier experiments go
         kept = {title: text for title, text in kept.items() if not title.startswith("## The paper, ")}
@@ -230,4 +230,4 @@ def write_page(results: dict[str, list[Row]]) -> None:
         words = fill(f"{entry.note} {origin(rows)}".strip(), 120)
         kept[f"## {entry.title}"] = f"{words}\n\n{table(entry.columns, entry.rows)}"
     parts = [f"{title}\n\n{text}" for title, text in kept.items()]
-    PAGE.write_text("\n\n".join([INTRODUCTION, *parts]) + "\n", encoding="utf-8")
+    file.write_text("\n\n".join([INTRODUCTION, *parts]) + "\n", encoding="utf-8")
