@@ -23,42 +23,55 @@ INLINE void place_of(const Sides *s, int32_t v, bool wanted, double *place) {
         place[j] = wanted ? s->wanted[WANTED * (int64_t)v + j] : s->places[AXES * (int64_t)v + j];
 }
 
-/* The normal of the face of corner k; whether it has an area. */
-static bool face_at(const Sides *s, int32_t k, bool wanted, double *normal) {
+/* The normal of the face of corner k, twice as long as its area. */
+INLINE void normal_at(const Sides *s, int32_t k, bool wanted, double *normal) {
     const int32_t *vertex = s->corners->faces.data;
-    double at[3][AXES], most = 0.0, area = 0.0;
-    place_of(s, vertex[k], wanted, at[0]);
-    place_of(s, vertex[next_corner(k)], wanted, at[1]);
-    place_of(s, vertex[previous_corner(k)], wanted, at[2]);
-    for (int i = 0; i < 3; i++) {
-        const double *a = at[i], *b = at[(i + 1) % 3];
-        double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2], square = x * x + y * y + z * z;
-        if (square > most) most = square;
-    }
+    double a[AXES], b[AXES], c[AXES];
+    place_of(s, vertex[k], wanted, a);
+    place_of(s, vertex[next_corner(k)], wanted, b);
+    place_of(s, vertex[previous_corner(k)], wanted, c);
     for (int j = 0; j < AXES; j++) {
         int p = (j + 1) % 3, q = (j + 2) % 3;
-        normal[j] = (at[1][p] - at[0][p]) * (at[2][q] - at[0][q]) - (at[1][q] - at[0][q]) * (at[2][p] - at[0][p]);
-        area += normal[j] * normal[j];
+        normal[j] = (b[p] - a[p]) * (c[q] - a[q]) - (b[q] - a[q]) * (c[p] - a[p]);
     }
-    return area > FLAT * most * most;
 }
 
 INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* Whether a face with this normal has an area. */
+static bool has_area(const Sides *s, int32_t k, bool wanted, const double *normal) {
+    const int32_t *vertex = s->corners->faces.data;
+    double most = 0.0;
+    for (int i = 0; i < 3; i++, k = next_corner(k)) {
+        double a[AXES], b[AXES], side[AXES];
+        place_of(s, vertex[k], wanted, a);
+        place_of(s, vertex[next_corner(k)], wanted, b);
+        for (int j = 0; j < AXES; j++) side[j] = b[j] - a[j];
+        double square = dot(side, side);
+        if (square > most) most = square;
+    }
+    return dot(normal, normal) > FLAT * most * most;
+}
 
 /* Faults of the face of corner k: whether it has lost its area, and how many of its edges are folded. */
 static int64_t faults_of(const Sides *s, int32_t k) {
     const int32_t *vertex = s->corners->faces.data, *opposite = s->corners->opposite.data;
     double own[AXES], other[AXES];
-    int64_t count = !face_at(s, k, false, own) && face_at(s, k, true, own);
+    normal_at(s, k, false, own);
+    int64_t count = 0;
+    if (!has_area(s, k, false, own)) { /* its edges fold as they would where it had one */
+        normal_at(s, k, true, own);
+        count = has_area(s, k, true, own);
+    }
     for (int side = 0; side < 3; side++, k = next_corner(k)) {
         if (opposite[k] < 0) continue;
-        (void)!face_at(s, opposite[k], false, other);
+        normal_at(s, opposite[k], false, other);
         /* One of both may be turned over. */
         double turn = vertex[next_corner(k)] == vertex[next_corner(opposite[k])] ? -1.0 : 1.0;
         if (turn * dot(own, other) >= 0.0) continue;
         double first[AXES], second[AXES];
-        (void)!face_at(s, k, true, first);
-        (void)!face_at(s, opposite[k], true, second);
+        normal_at(s, k, true, first);
+        normal_at(s, opposite[k], true, second);
         count += FOLD * (turn * dot(first, second) >= 0.0);
     }
     return count;
@@ -83,7 +96,8 @@ static double height_of(const Sides *s, int32_t v, const int32_t *cell) {
     double off[AXES], sum = 0.0, areas = 0.0, normal[AXES];
     for (int j = 0; j < AXES; j++) off[j] = cell[j] - s->wanted[WANTED * (int64_t)v + j];
     for (int32_t i = s->corners->starts.data[v]; i < s->corners->starts.data[v + 1]; i++) {
-        if (!face_at(s, s->corners->corners.data[i], true, normal)) continue;
+        normal_at(s, s->corners->corners.data[i], true, normal);
+        if (!has_area(s, s->corners->corners.data[i], true, normal)) continue;
         double area = __builtin_sqrt(dot(normal, normal)), along = dot(normal, off);
         sum += along * along / area;
         areas += area;

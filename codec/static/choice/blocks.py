@@ -114,6 +114,9 @@ class Plain:
         moved = base.moved(layer, levels, base.known_steps(layer, levels))
         return Trial(step, moved, partial(base.refined, layer, levels, moved))
 
+    def mended(self, trial: Trial) -> Trial | None:
+        """Return None: no look is asked for."""
+
 
 class Refined:
     """Blocks and a layer of refinement, by its step; steps along tangents are wider by a ratio."""
@@ -169,6 +172,9 @@ class Refined:
         layer = Layer(single(step), RATIO)
         levels = self._shaped(base, layer)
         return self._leveled(step, base, layer, levels, base.known_steps(layer, levels))
+
+    def mended(self, trial: Trial) -> Trial | None:
+        """Return None: folds are mended as levels are chosen."""
 
     def _unfolded(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Trial:
         """Return the trial of levels with fewer edges folded over; others may then need it."""

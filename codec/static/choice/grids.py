@@ -12,7 +12,7 @@ from bsm._core import rounded as places_on
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import MOST_GRID, Header
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Levels, Matrix
+from bsm.codec.arrays import Faces, Levels, Matrix, Positions
 from bsm.codec.geometry.mesh import box_around, extent_of, squares_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
 from bsm.codec.static.choice.bounds import COARSEST, SEEN, SPIKE, Bounds
@@ -26,6 +26,7 @@ from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_going, encode_grid
 MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
 HALVES = 0, 1, 2, 7  # how often the usual step is halved: where images are near to places, finer steps may be cheaper
 UNSURE = 1.0  # standard deviation of what a wider step saves with images, over the guess
+MENDINGS = 3  # codings in which vertices of folded edges stay where they are
 STAYING = 1.05  # times the bytes with images to which vertices go: those where they stay
 
 
@@ -312,24 +313,35 @@ class Gridded:
 
     def at(self, step: float) -> Trial:
         """Return the trial of a step."""
-        wanted = float(self.frame.dividing(step))
-        grid, places = self.places(wanted)
-        code: Callable[[], Draft] = partial(self._draft, grid, places)
+        width = float(self.frame.dividing(step))
+        grid, places = self.places(width)
         if self._going:
-            draft = code()  # the coder decides where vertices go
-            decoded, code = draft.decoded, lambda: draft
-        else:
-            decoded = grid.positions(places)
-        positions = np.ascontiguousarray(self._prepared.units.into(decoded))
-        return Trial(
-            wanted,
-            positions,
-            code,
-            decoded=decoded,
-            complete=partial(completed, self._prepared, grid, places, self._images),
-        )
+            return self._coded_trial(width, grid, places, self._draft(grid, places, self._wanted(grid, places)))
+        return self._trial(width, grid, places, grid.positions(places), partial(self._draft, grid, places))
 
-    def places(self, step: float) -> tuple[Raster, Levels]:
+    def mended(self, trial: Trial) -> Trial | None:
+        """Return a trial whose vertices of folded edges are where they fold least, and do not go to images."""
+        if not self._going:
+            return None
+        grid, places = self.places(trial.step, unfolded=True)
+        wanted = self._wanted(grid, places)
+        for _ in range(MENDINGS):
+            folded = self._shaper.over(trial.positions)
+            if not wanted[folded, 3].any():
+                break
+            wanted[folded, 3] = 0.0
+            trial = self._coded_trial(trial.step, grid, places, self._draft(grid, places, wanted))
+        return trial
+
+    def _coded_trial(self, step: float, grid: Raster, places: Levels, draft: Draft) -> Trial:
+        return self._trial(step, grid, places, draft.decoded, lambda: draft)
+
+    def _trial(self, step: float, grid: Raster, places: Levels, decoded: Positions, code: Callable[[], Draft]) -> Trial:
+        positions = np.ascontiguousarray(self._prepared.units.into(decoded))
+        complete = partial(completed, self._prepared, grid, places, self._images)
+        return Trial(step, positions, code, decoded=decoded, complete=complete)
+
+    def places(self, step: float, *, unfolded: bool = False) -> tuple[Raster, Levels]:
         """Return a grid, and the place of each vertex on it."""
         frame, unit = self.frame, self._prepared.units.scale
         length, origin = frame.cells(step, mirrored=not self._made)
@@ -338,7 +350,8 @@ class Gridded:
         if self._worth:
             worth, reach = self._worth * step / self._shaper.mean_edge, float(self._bounds.reaches.min())
             places = self._shaper.places(places, low, cell, worth, min(reach, SPIKE * step))
-        if self._bounds.metric is not None and not self._going:  # or the coder decides where vertices go
+        # The coder decides where vertices go to images: it mends most folds.
+        if self._bounds.metric is not None and (unfolded or not self._going):
             places = self._unfolded(places, low, cell)
         places = self._apart(places, low, cell)
         least = places.min(axis=0)  # some may be below the origin
@@ -365,17 +378,21 @@ class Gridded:
         away = -np.rint(toward / np.abs(toward).max(axis=1, keepdims=True)).astype(np.int32)
         for first in (1, 0, 0) if len(away) else ():
             moved = turned_by(places * cell + low - self.frame.positions, turn)
-            wrong = (gaps.closed(moved) > 1.0) & (gaps.ends[:, 0] >= first * gaps.ends[:, 1])  # at first, of one part
+            closed = gaps.closed(moved) > 1.0
+            if not closed.any():
+                break
+            wrong = closed & (gaps.ends[:, 0] >= first * gaps.ends[:, 1])  # at first, of one part
             places[gaps.ends[wrong, 0]] += away[wrong]
         return places
 
-    def _draft(self, grid: Raster, places: Levels) -> Draft:
-        """Return the stream of places."""
+    def _draft(self, grid: Raster, places: Levels, wanted: Matrix | None = None) -> Draft:
+        """Return the stream of places; vertices go to images as `_wanted` has it."""
         may_be_brief = may_repeat(self._prepared) and not self._prepared.light
         if not self._images:
             return grid_draft(self._prepared, grid, places, may_be_brief)
         transforms = transforms_of(self._prepared, grid)
-        wanted = self._wanted(grid, places) if self._going and len(transforms) else None
+        if not len(transforms):
+            wanted = None
         return grid_draft(self._prepared, replace(grid, transforms=transforms), places, may_be_brief, wanted)
 
     def _wanted(self, grid: Raster, places: Levels) -> Matrix:

@@ -186,6 +186,13 @@ class OneSearch:
         self._trace.note("draw", way.name, step=trial.step, size=math.exp(size), error=math.exp(error), reason=reason)
         if error > 0.0 or size >= self._least:
             return
+        mended = way.mended(trial) if self._is_faulty(trial) else None
+        if mended is not None:
+            trial, error, size = mended, self._bounds.excess(mended), self.size_of(way, mended)
+            facts = {"step": trial.step, "size": math.exp(size), "error": math.exp(error)}
+            self._trace.note("draw", way.name, **facts, reason="with fewer folds")
+            if error > 0.0 or size >= self._least:
+                return
         finer = self._finer(trial)
         if finer:
             prospect.close(prospect.steps > prospect.steps[index] - finer)
@@ -201,10 +208,14 @@ class OneSearch:
 
     def _finer(self, trial: Trial) -> float:
         """Return by how much a step must be finer, as a logarithm, where a trial is refused; 0: it is not."""
-        if self._bounds.metric is not None and self._refusals < MOST_REFUSALS and self._bounds.is_faulty(trial):
+        if self._is_faulty(trial):
             self._refusals += 1  # slivers may need steps that are far finer
             return DOUBT
         return 0.0 if self._bounds.keeps(trial) else SLACK
+
+    def _is_faulty(self, trial: Trial) -> bool:
+        is_seen = self._bounds.metric is not None
+        return is_seen and self._refusals < MOST_REFUSALS and self._bounds.is_faulty(trial)
 
     def widen(self, ways: list[Way]) -> None:
         """Find the widest step of each way that keeps the bounds, until finer ones take more bytes than another way."""

@@ -69,6 +69,8 @@ class Way(Protocol):
         """Return about the bytes of a trial at the first step. It may be rough if it is far above those of a rival."""
 
     def at(self, step: float) -> Trial: ...
+    def mended(self, trial: Trial) -> Trial | None:
+        """Return another trial of the step of a trial, with fewer folds; None: all trials have few."""
 
 
 def ladder_of(least: float, most: float) -> Matrix:

@@ -11,11 +11,13 @@ from bsm._core import Field
 from bsm.account.comparison import in_order_of
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Original, face_normals, folded_edges
+from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.shaping import Shaper
+from bsm.codec.static.choice.table import ways_of
 from bsm.codec.static.preamble_encoding import join
 from bsm.codec.static.ways.grid import grid_field
 from tests.codec.static.test_presets import PROMISING
-from tests.shapes import curved, grid_faces, patch
+from tests.shapes import curved, grid_faces, patch, together
 
 
 def box(cells: int, lines: int, seed: int = 0) -> TriangleMesh:
@@ -103,6 +105,22 @@ def test_faces_keep_their_areas(options: EncodeOptions) -> None:
     assert len(np.unique(decoded.positions, axis=0)) == len(mesh.positions)
     most = folded_edges(mesh.positions, mesh.faces) + 1 + 2  # two come over 90 degrees, but not over 100
     assert folded_edges(decoded.positions, decoded.faces) <= most
+
+
+def test_folds_are_mended_where_vertices_go_to_images() -> None:
+    one = slivers(20)
+    mesh = together(one, replace(one, positions=one.positions + np.array([1.5, 0.25, 0.0])))
+    encoder = Encoder(mesh, EncodeOptions(threads=1))
+    sent = encoder._input
+    bounds = Bounds(sent.measures, encoder.options.promise)
+    way = ways_of(sent.prepared, bounds, encoder.options)[0]
+    assert way.name == "images"
+    shaper, trial = sent.measures.shaper, way.at(4.0 * way.first)
+    mended = way.mended(trial)
+    assert mended is not None and mended.step == trial.step
+    assert shaper.more_folds(trial.positions) > 0
+    assert shaper.more_folds(mended.positions) <= 0
+    assert mended.draft.size < 1.3 * trial.draft.size
 
 
 @pytest.mark.real
