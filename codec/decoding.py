@@ -46,6 +46,10 @@ def mask_of(*types: int) -> int:
     return sum(1 << kind for kind in types)
 
 
+ALWAYS_TAKEN = mask_of(HEADER, METADATA)
+RESULT_ONLY = mask_of(END)
+
+
 def _in_turn(method: Callable[Concatenate[Self, Given], Result]) -> Callable[Concatenate[Self, Given], Result]:
     """Let threads that share a decoder take turns, so that an event and its arrays go to one of them."""
 
@@ -188,7 +192,7 @@ class StreamDecoder:
         if self._error is not None:
             raise self._error
         while True:
-            event = self._open.next(wanted | mask_of(HEADER, METADATA))
+            event = self._open.next(wanted | ALWAYS_TAKEN)
             # Python has no event for metadata: they are set by the time of the next event.
             if event[0] == METADATA:
                 entries = [self._open.metadata(index) for index in range(self._entries, event[1])]
@@ -278,7 +282,9 @@ class Decoder(StreamDecoder):
         """
         self.receive_eof()
         # Fewer events are fewer calls from C to Python, and that is the time of small meshes.
-        wanted = mask_of(END) if progress is None else mask_of(END, BLOCK, REFINEMENT, ATTRIBUTE, VALUES)
+        wanted = RESULT_ONLY
+        if progress is not None:
+            wanted = mask_of(END, BLOCK, REFINEMENT, ATTRIBUTE, VALUES)
         while (event := self._next(wanted))[0] != OVER:
             if event[0] == END:
                 self._sizes = event[3:]

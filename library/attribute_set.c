@@ -227,6 +227,9 @@ static bool link_rows(Attributes *attributes, const Attribute *attribute, bool n
         return true;
     }
     if (normals) return gather_mesh(context, attribute->faces, attribute->rows, arena, corners);
+    if (attributes->has_corners) {
+        return link_parts_of(context, &attributes->corners, attribute->faces, attribute->rows, arena, scratch, corners);
+    }
     return link_mesh(context, attribute->faces, attribute->rows, arena, scratch, corners);
 }
 

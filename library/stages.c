@@ -186,6 +186,10 @@ static bool accept_attribute(bsmdec *decoder, const Packet *packet) {
     if (!mesh->has_attributes)
         begin_attributes(&mesh->attributes, &decoder->context, &mesh->header, const_ints2(mesh->faces), &mesh->arena);
     mesh->has_attributes = true;
+    if (mesh->has_grid && !mesh->attributes.has_corners) {
+        mesh->attributes.corners = mesh->grid.corners;
+        mesh->attributes.has_corners = true;
+    }
     if (!declare_attribute(&mesh->attributes, packet->index, packet->declaration, packet->data, &decoder->scratch))
         return tolerate_error(decoder, -1, true);
     return decoder->tolerant || check_rows(&mesh->attributes, packet->index, &mesh->numbering);

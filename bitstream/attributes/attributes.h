@@ -81,7 +81,13 @@ typedef struct {
 void survey_values(const Work *work, int32_t v, Place *place);
 int32_t fold_at(const Work *work, int32_t v, const Base *base, int component);
 int32_t gap_classes(const Work *work, const Place *place, int component, int32_t unit);
-int64_t square_root(uint64_t x);
+/* The square root of x, 0 .. 2^62, rounded down. */
+INLINE int64_t square_root(int64_t x) {
+    int64_t root = (int64_t)__builtin_sqrt((double)x);
+    while (root * root > x) root--; /* a double has 53 bits of x */
+    while ((root + 1) * (root + 1) <= x) root++;
+    return root;
+}
 /* x / n, towards zero, of numbers below 2^53: faster than a division of integers, and exact, too. */
 INLINE int64_t quotient(int64_t x, int64_t n) { return (int64_t)((double)x / (double)n); }
 

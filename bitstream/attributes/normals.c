@@ -37,7 +37,7 @@ static void add_face(const Corners *c, const Values *g, int32_t k, int64_t *by_a
     int shift = 0;
     while (most >> shift >= 1 << 28) shift++;
     for (int j = 0; j < AXES; j++) square += (normal[j] >> shift) * (normal[j] >> shift);
-    int64_t length = square_root((uint64_t)square), angle = angle_of(dot >> shift, length);
+    int64_t length = square_root(square), angle = angle_of(dot >> shift, length);
     for (int j = 0; j < AXES && length > 0; j++) by_angle[j] += (normal[j] >> shift) * (1 << 14) / length * angle;
 }
 

@@ -21,7 +21,7 @@ INLINE int state_of(const int32_t *end) {
     return (int)(least(end[KNOWN_SEAMS], 3) * 8 + least(end[LEFT], 3) * 2 + (end[BORDER] > 0));
 }
 
-static bool code_edge(RangeCoder *coder, const Bank *bank, const Corners *c, const uint8_t *seams,
+INLINE bool code_edge(RangeCoder *coder, const Bank *bank, const Corners *c, const uint8_t *seams,
     const uint8_t *others, int32_t *ends, int32_t k, bool seam) {
     int32_t beyond = c->opposite.data[k];
     int32_t *u = ends + END_COLUMNS * c->faces.data[next_corner(k)],
@@ -45,26 +45,45 @@ static bool code_edge(RangeCoder *coder, const Bank *bank, const Corners *c, con
     return seam;
 }
 
-/* Code for each edge that two corners face whether it is a seam; `seams` has an entry for each corner, for the edge
- * that it faces. `ends`: three numbers for each vertex, scratch. */
-void code_edges(
-    RangeCoder *coder, const Bank *bank, const Corners *corners, uint8_t *seam, const uint8_t *others, Ints2 ends) {
-    int64_t size = corners->corners.size;
+/* Count the edges of each vertex, and forget seams that a reader does not know yet. */
+static void begin_edges(const Corners *corners, uint8_t *seam, Ints2 ends) {
     for (int64_t i = 0; i < END_COLUMNS * ends.rows; i++) ends.data[i] = 0;
-    for (int32_t k = 0; k < size; k++) {
-        bool open = corners->opposite.data[k] < 0;
-        int32_t *u = ends.data + END_COLUMNS * corners->faces.data[next_corner(k)];
-        int32_t *v = ends.data + END_COLUMNS * corners->faces.data[previous_corner(k)];
-        if (open) u[BORDER]++, v[BORDER]++;
-        else if (corners->opposite.data[k] > k) u[LEFT]++, v[LEFT]++;
-        seam[k] = open ? OPEN : (uint8_t)(UNKNOWN | (seam[k] == SEAM ? WRITTEN : 0));
+    for (int64_t f = 0; f < corners->faces.rows; f++) {
+        int32_t *end[3];
+        for (int j = 0; j < 3; j++) end[j] = ends.data + END_COLUMNS * corners->faces.data[3 * f + j];
+        for (int j = 0; j < 3; j++) {
+            int64_t k = 3 * f + j;
+            int32_t beyond = corners->opposite.data[k], *u = end[(j + 1) % 3], *v = end[(j + 2) % 3];
+            if (beyond < 0) u[BORDER]++, v[BORDER]++;
+            else if (beyond > k) u[LEFT]++, v[LEFT]++;
+            seam[k] = beyond < 0 ? OPEN : (uint8_t)(UNKNOWN | (seam[k] == SEAM ? WRITTEN : 0));
+        }
     }
-    for (int32_t k = 0; k < size && !overran(coder); k++) {
+}
+
+INLINE void code_all_edges(
+    RangeCoder *coder, const Bank *bank, const Corners *corners, uint8_t *seam, const uint8_t *others, Ints2 ends) {
+    for (int32_t k = 0; k < corners->corners.size && !overran(coder); k++) {
         int32_t beyond = corners->opposite.data[k];
         if (beyond <= k) continue;
         bool is_seam = code_edge(coder, bank, corners, seam, others, ends.data, k, seam[k] & WRITTEN);
         seam[k] = seam[beyond] = is_seam ? SEAM : NO_SEAM;
     }
+}
+
+/* Code for each edge that two corners face whether it is a seam; `seams` has an entry for each corner, for the edge
+ * that it faces. `ends`: three numbers for each vertex, scratch. */
+void code_edges(
+    RangeCoder *coder, const Bank *bank, const Corners *corners, uint8_t *seam, const uint8_t *others, Ints2 ends) {
+    RangeCoder own = *coder; /* in registers */
+    begin_edges(corners, seam, ends);
+    if (is_reading(coder)) {
+        own.reading = true; /* the compiler leaves out the writer */
+        code_all_edges(&own, bank, corners, seam, others, ends);
+    } else {
+        code_all_edges(&own, bank, corners, seam, others, ends);
+    }
+    *coder = own;
 }
 
 int32_t first_joined(int32_t *joined, int32_t k) {

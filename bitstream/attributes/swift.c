@@ -32,7 +32,7 @@ INLINE int32_t few(int32_t x) { return (int32_t)least(size_class(size_of(x) >> 3
 static void survey_row(const Swift *s, int32_t v, RowPlace *place) {
     const Corners *c = &s->corners;
     const int32_t *row = c->faces.data;
-    int64_t tally[TALLIES] = {0, 0, 0, 0};
+    int32_t tally[TALLIES] = {0, 0, 0, 0}; /* of at most MOST_ENDS rows */
     int columns = (int)s->own.values.columns;
     place->ends = place->bases = place->flaps = place->best = 0;
     place->latest = -1;
@@ -52,7 +52,7 @@ static void survey_row(const Swift *s, int32_t v, RowPlace *place) {
     }
     for (int q = 1; q < CANDIDATES; q++)
         if (tally[q] < tally[place->best]) place->best = q;
-    if (place->ends > 0) place->size = (int32_t)(tally[ERROR] / (place->ends * columns));
+    if (place->ends > 0) place->size = tally[ERROR] / (place->ends * columns);
     else place->size = s->normals ? NORMAL_SIZE : FINE * s->own.largest.data[0];
 }
 
@@ -219,7 +219,7 @@ static void add_normal(const Swift *s, int64_t f, int64_t *sums) {
     }
     int shift = most > 0 ? (int)largest(36 - __builtin_clzll((uint64_t)most), 0) : 0;
     for (int j = 0; j < SPACE; j++) square += (normal[j] >> shift) * (normal[j] >> shift);
-    int64_t length = square_root((uint64_t)square);
+    int64_t length = square_root(square);
     if (length == 0) return;
     for (int j = 0; j < SPACE; j++) unit[j] = quotient((normal[j] >> shift) * (1 << 14), length);
     for (int k = 0; k < 3; k++) {

@@ -45,7 +45,7 @@ static bool locate(const Values *g, int32_t a, int32_t b, int32_t x, Spot *spot)
         int s = (j + 1) % 3, t = (j + 2) % 3;
         normal[j] = edge[s] * to[t] - edge[t] * to[s];
     }
-    int64_t area = square_root((uint64_t)dot(normal, normal));
+    int64_t area = square_root(dot(normal, normal));
     spot->along = within(quotient(dot(edge, to) * WHOLE, square), -MOST_RATIO, MOST_RATIO);
     spot->beside = within(quotient(area * WHOLE, square), 0, MOST_RATIO);
     spot->weight = within(quotient(square * 256, area + 1), 1, WHOLE);

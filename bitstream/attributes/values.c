@@ -20,14 +20,6 @@ void keep_value(const Values *g, int32_t v, int j, int32_t value) {
 
 /* What is known around a vertex before its values (specification, A 2). */
 
-/* The square root of x, below 2^62, rounded down. */
-int64_t square_root(uint64_t x) {
-    uint64_t root = (uint64_t)__builtin_sqrt((double)x);
-    while (root * root > x) root--; /* a double has 53 bits of x */
-    while ((root + 1) * (root + 1) <= x) root++;
-    return (int64_t)root;
-}
-
 void survey_values(const Work *w, int32_t v, Place *p) {
     const Values *g = &w->values;
     const Corners *c = &w->corners;

@@ -9,8 +9,7 @@ int64_t gather_corners(Corners c) {
     int32_t *starts = c.starts.data;
     int64_t n = c.rank.size;
     if (c.corners.size > MOST_CORNERS) return MISUSED;
-    for (int64_t k = 0; k < c.corners.size; k++)
-        if (vertex[k] < 0 || vertex[k] >= n) return MISUSED;
+    if (!all_below(vertex, c.corners.size, n)) return MISUSED;
     for (int64_t v = 0; v <= n; v++) starts[v] = 0;
     for (int64_t k = 0; k < c.corners.size; k++) starts[vertex[k]]++;
     for (int64_t v = 0; v < n; v++) starts[v + 1] += starts[v];
@@ -18,41 +17,59 @@ int64_t gather_corners(Corners c) {
     return 0;
 }
 
-/* Pair the corners that face the edges from v to vertices of higher number; where more than two face one, the last
- * that came is paired first. `waiting` holds, by that vertex, the corner that waits for a partner, or -1, and is left
- * as it was; `below` the corner that waited before. */
-OFTEN static void pair_corners(Corners c, int32_t v, int32_t *waiting, int32_t *below) {
-    const int32_t *vertex = c.faces.data;
-    int32_t alone = 0; /* corners that wait */
-    for (int pass = 0; pass == 0 || (pass == 1 && alone > 0); pass++)
-        for (int32_t i = c.starts.data[v]; i < c.starts.data[v + 1]; i++)
-            for (int side = 0; side < 2; side++) {
-                int32_t next = next_corner(c.corners.data[i]), previous = previous_corner(c.corners.data[i]);
-                int32_t u = vertex[side == 0 ? next : previous], facing = side == 0 ? previous : next;
-                if (u <= v) continue;
-                int32_t other = waiting[u];
-                if (pass == 1) {
-                    waiting[u] = -1;
-                } else if (other < 0) {
-                    below[facing] = other;
-                    waiting[u] = facing;
-                    alone++;
-                } else {
-                    waiting[u] = below[other];
-                    c.opposite.data[facing] = other;
-                    c.opposite.data[other] = facing;
-                    alone--;
-                }
+typedef struct { /* the edge to a vertex from the last vertex that had one */
+    int32_t from, facing; /* the corner that faces it and waits for a partner, or -1 */
+} WaitingEdge;
+
+/* Pair the corners that face the edges from v to vertices of higher number, as they come. `edges`: by that vertex.
+ * Returns whether more than two corners face one. */
+OFTEN static bool pair_corners(const Corners *c, int32_t v, WaitingEdge *edges) {
+    const int32_t *vertex = c->faces.data;
+    bool crowded = false;
+    for (int32_t i = c->starts.data[v]; i < c->starts.data[v + 1]; i++) {
+        int32_t next = next_corner(c->corners.data[i]), previous = previous_corner(c->corners.data[i]);
+        for (int side = 0; side < 2; side++) {
+            int32_t u = vertex[side == 0 ? next : previous], facing = side == 0 ? previous : next;
+            WaitingEdge *edge = edges + u;
+            if (u <= v) continue;
+            if (edge->from != v) {
+                *edge = (WaitingEdge){.from = v, .facing = facing};
+            } else if (edge->facing < 0) {
+                crowded = true;
+                edge->facing = facing;
+            } else {
+                c->opposite.data[facing] = edge->facing;
+                c->opposite.data[edge->facing] = facing;
+                edge->facing = -1;
             }
+        }
+    }
+    return crowded;
 }
 
-/* Fill opposite as well; scratch: n + 3 m. */
-int64_t link_corners(Corners c, Ints scratch) {
-    int64_t n = c.rank.size;
-    if (gather_corners(c) != 0) return MISUSED;
-    for (int64_t k = 0; k < c.corners.size; k++) c.opposite.data[k] = -1;
-    for (int64_t v = 0; v < n; v++) scratch.data[v] = -1;
-    for (int64_t v = 0; v < n; v++) pair_corners(c, (int32_t)v, scratch.data, scratch.data + n);
+/* Fill opposite as well; scratch: 2 n. */
+int64_t link_corners(Corners *c, Ints scratch) {
+    int64_t n = c->rank.size;
+    WaitingEdge *edges = (WaitingEdge *)scratch.data;
+    if (gather_corners(*c) != 0) return MISUSED;
+    for (int64_t k = 0; k < c->corners.size; k++) c->opposite.data[k] = -1;
+    for (int64_t i = 0; i < scratch.size; i++) scratch.data[i] = -1;
+    for (int64_t v = 0; v < n; v++) c->crowded |= pair_corners(c, (int32_t)v, edges);
+    return 0;
+}
+
+/* The same where vertices are parts of those of a mesh that is not crowded: corners are partners if they are there. */
+int64_t link_parts(const Corners *c, const Corners *whole) {
+    const int32_t *vertex = c->faces.data;
+    if (gather_corners(*c) != 0) return MISUSED;
+    for (int32_t k = 0; k < c->corners.size; k++) {
+        int32_t beyond = whole->opposite.data[k];
+        c->opposite.data[k] = -1;
+        if (beyond < 0) continue;
+        int32_t a = vertex[next_corner(k)], b = vertex[previous_corner(k)];
+        int32_t p = vertex[next_corner(beyond)], q = vertex[previous_corner(beyond)];
+        if ((a == p && b == q) || (a == q && b == p)) c->opposite.data[k] = beyond;
+    }
     return 0;
 }
 

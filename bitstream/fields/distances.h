@@ -37,30 +37,41 @@ INLINE int code_plain_bit(RangeCoder *coder, uint32_t *slot, int bit) {
 
 INLINE int32_t size_class_of(int32_t size) { return (int32_t)least(size_class(size >> 3), LIGHT_SIZES - 1); }
 
-INLINE int decide(const DistanceModel *m, int node, int bit) {
+/* Code a decision by one slot of a row of these, or by the contexts. */
+INLINE int decide(RangeCoder *coder, const DistanceModel *m, uint32_t *row, uint32_t *slots, int node, int bit) {
     if (BSMDEC_LIGHT != 1 && m->weights != NULL) {
         Bank bank = {m->slots, m->weights, LATEST_MIXED, MIXING_RATE};
-        return code_decision(m->coder, &bank, LEAN_INPUTS, m->context, node, 0, bit);
+        return code_decision(coder, &bank, LEAN_INPUTS, m->context, node, 0, bit);
     }
-    int row = node < LIGHT_ROW ? m->kind : LIGHT_KINDS - 1;
-    return code_plain_bit(m->coder, m->slots + size_class_of(m->size) * LIGHT_SPAN + row * LIGHT_ROW + node, bit);
+    return code_plain_bit(coder, (node < LIGHT_ROW ? row : slots) + node, bit);
 }
 
-/* Code how far a value is from its guess, `off` being the guess less that level in 1/16 (V 15.6). */
-OFTEN static int32_t code_distance(const DistanceModel *m, int32_t off, int32_t distance) {
+INLINE int32_t code_distance_by(RangeCoder *coder, const DistanceModel *m, int32_t off, int32_t distance) {
+    uint32_t *span = m->slots + size_class_of(m->size) * LIGHT_SPAN;
+    uint32_t *row = span + m->kind * LIGHT_ROW, *slots = span + (LIGHT_KINDS - 1) * LIGHT_ROW;
     int part = (size_of(off) > 1) + (size_of(off) > 4), width = (int)largest(bit_length((uint32_t)m->size) - 6, 0);
-    if (decide(m, ZERO + part, distance == 0)) return 0;
-    bool below = off < 0, negative = decide(m, SIGN + part, (distance < 0) != below) != below;
+    if (decide(coder, m, row, slots, ZERO + part, distance == 0)) return 0;
+    bool below = off < 0, negative = decide(coder, m, row, slots, SIGN + part, (distance < 0) != below) != below;
     int32_t rest = size_of(distance) - 1, start = 0, i = 0;
     while (start + (1 << width) < MOST_REST
-        && decide(m, UNARY + (int)least(i, UNARY_SLOTS - 1), rest - start >= 1 << width)) {
+        && decide(coder, m, row, slots, UNARY + (int)least(i, UNARY_SLOTS - 1), rest - start >= 1 << width)) {
         start += 1 << width;
         width += ++i >= EVEN_CLASSES;
     }
     if (width > 0) {
         int32_t half = 1 << (width - 1);
-        if (decide(m, LOW + (int)least(i, LOW_SLOTS - 1), rest - start >= half)) start += half;
-        start += (int32_t)code_uniform(m->coder, rest - start, half);
+        if (decide(coder, m, row, slots, LOW + (int)least(i, LOW_SLOTS - 1), rest - start >= half)) start += half;
+        if (half > 1) start += (int32_t)code_uniform(coder, rest - start, half);
     }
     return negative ? -1 - start : 1 + start;
+}
+
+/* Code how far a value is from its guess, `off` being the guess less that level in 1/16 (V 15.6). */
+OFTEN static int32_t code_distance(const DistanceModel *m, int32_t off, int32_t distance) {
+    RangeCoder coder = *m->coder; /* in registers */
+    if (!is_reading(&coder)) return code_distance_by(m->coder, m, off, distance);
+    coder.reading = true;
+    distance = code_distance_by(&coder, m, off, distance);
+    *m->coder = coder;
+    return distance;
 }

@@ -13,6 +13,7 @@ typedef struct {
     Ints corners;     /* 3 m, ascending at each vertex */
     Ints opposite;    /* 3 m: the corner that faces the same edge from the other side, or -1 */
     Ints rank;        /* n: when each vertex is coded */
+    bool crowded;     /* whether more than two corners face an edge */
 } Corners;
 
 /* Two coded ends of an edge, and the coded vertex beyond it as seen from the vertex to be coded. */
@@ -33,7 +34,8 @@ INLINE int32_t faces_at(const Corners *c, int32_t v) { return c->starts.data[v +
 void gather_around(const Corners *corners, int32_t v, Around *around);
 
 int64_t gather_corners(Corners corners);
-int64_t link_corners(Corners corners, Ints scratch);
+int64_t link_corners(Corners *corners, Ints scratch);
+int64_t link_parts(const Corners *corners, const Corners *whole);
 int64_t order_vertices(Corners corners, Ints order, Ints2 scratch);
 
 /* One integer, given predictions of it and what their errors may depend on (specification, V 3 to V 5).

@@ -18,14 +18,20 @@ bool gather_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *ar
 }
 
 bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Arena *scratch, Corners *corners) {
-    int64_t size = 3 * faces.rows;
     Mark mark = mark_of(scratch);
     Ints room;
-    bool done = take_corners(faces, vertices, arena, corners) && take_ints(arena, size, &corners->opposite)
-        && take_ints(scratch, vertices + size, &room);
-    done = done && (link_corners(*corners, room) == 0 || FAIL(context, LIMIT, "# faces are too many", faces.rows));
+    bool done = take_corners(faces, vertices, arena, corners) && take_ints(arena, 3 * faces.rows, &corners->opposite)
+        && take_ints(scratch, 2 * vertices, &room);
+    done = done && (link_corners(corners, room) == 0 || FAIL(context, LIMIT, "# faces are too many", faces.rows));
     release_to(scratch, mark);
     return done;
+}
+
+bool link_parts_of(Context *context, const Corners *whole, ConstInts2 faces, int64_t vertices, Arena *arena,
+    Arena *scratch, Corners *corners) {
+    if (whole->crowded) return link_mesh(context, faces, vertices, arena, scratch, corners);
+    return take_corners(faces, vertices, arena, corners) && take_ints(arena, 3 * faces.rows, &corners->opposite)
+        && (link_parts(corners, whole) == 0 || FAIL(context, LIMIT, "# faces are too many", faces.rows));
 }
 
 bool order_mesh(Corners *corners, Arena *arena, Arena *scratch, Ints *order) {

@@ -75,6 +75,9 @@ bool write_order(Context *context, const Arrangement *arrangement, Arena *scratc
 
 /* Corners of faces, their partners, and the rank of each vertex, which is its number until it is ordered (V 1). */
 bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Arena *scratch, Corners *corners);
+/* The same where vertices are parts of those of another mesh with the same faces. */
+bool link_parts_of(Context *context, const Corners *whole, ConstInts2 faces, int64_t vertices, Arena *arena,
+    Arena *scratch, Corners *corners);
 /* The same without partners. */
 bool gather_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Corners *corners);
 bool order_mesh(Corners *corners, Arena *arena, Arena *scratch, Ints *order);
