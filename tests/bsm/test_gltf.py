@@ -183,6 +183,33 @@ def test_primitives_of_a_mesh_share_a_stream(source):
     assert accessors[1]["byteOffset"] == 2 * half and "byteOffset" not in accessors[0]
 
 
+def test_equal_meshes_share_a_stream():
+    built, mesh = Built(), torus(40, 24)
+    for number, scale in enumerate((1.0, 1.0, 1.5)):
+        table = (scale * mesh.positions).astype(np.float32)
+        positions = built.array(table, min=table.min(axis=0).tolist(), max=table.max(axis=0).tolist())
+        normals = built.array(mesh.positions.astype(np.float32) / 2, name=f"normals {number}")
+        indices = built.array(mesh.faces.astype(np.uint16).ravel())
+        built.mesh({"attributes": {"POSITION": positions, "NORMAL": normals}, "indices": indices})
+    built.nodes({"mesh": 0}, {"mesh": 1}, {"mesh": 2})
+    compressed = compress(Document(built.bytes), CODE)
+    after = Document(compressed.data)
+    assert compressed.coded == 3 and len(after.streams) == 2
+    one, two, larger = (mesh["primitives"][0] for mesh in after.tree["meshes"])
+    assert one["indices"] == two["indices"] != larger["indices"]
+    assert one["attributes"]["POSITION"] == two["attributes"]["POSITION"] != larger["attributes"]["POSITION"]
+    named = [after.tree["accessors"][primitive["attributes"]["NORMAL"]] for primitive in (one, two)]
+    assert [accessor["name"] for accessor in named] == ["normals 0", "normals 1"]
+    assert named[0]["bufferView"] == named[1]["bufferView"]
+    alone = Document(built.bytes)
+    del alone.tree["meshes"][1:], alone.tree["nodes"][1:]
+    alone.tree["scenes"][0]["nodes"] = [0]
+    single = Document(compress(alone, CODE).data)
+    for name, index in two["attributes"].items():
+        expected = single.array(single.tree["meshes"][0]["primitives"][0]["attributes"][name])
+        np.testing.assert_array_equal(after.array(index), expected)
+
+
 def test_fallback_holds_what_decoders_fill_in(source, tmp_path):
     target = tmp_path / "with space.glb"
     assert main(["glb", str(source), "-o", str(target), "--fallback"]) == 0

@@ -216,8 +216,10 @@ function meshOf(primitive: Primitive): MeshInput {
     };
     if (primitive.getMode() !== Primitive.Mode.TRIANGLES || !positions) return refused("no triangles");
     if (primitive.listTargets().length > 0) refused("morph targets");
-    const attributes = arraysOf(primitive)
-        .filter(([name]) => name !== "POSITION")
+    // Tangents are turned from normals and texture coordinates, which come first.
+    const arrays = arraysOf(primitive).filter(([name]) => name !== "POSITION");
+    arrays.sort(([one], [other]) => Number(one === "TANGENT") - Number(other === "TANGENT"));
+    const attributes = arrays
         .map(([name, accessor]): AttributeInput => ({
             ...MEANINGS[name],
             ...(isFloat(name, accessor) ? {} : { quality: "exact" }),

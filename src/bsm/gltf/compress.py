@@ -15,7 +15,7 @@ from bsm.files.parsing import as_format_error
 from bsm.gltf import document as gltf
 from bsm.gltf.bundles import Bundle, BundleStream, as_mesh, bundles_of, code_bundle
 from bsm.gltf.coding import EXTENSION, Array, Tree
-from bsm.gltf.rewrite import Rewritten, group_by_accessors, users_of
+from bsm.gltf.rewrite import Rewritten, group_bundles, users_of
 from bsm.gltf.scene import parents_of, places_of
 
 
@@ -70,7 +70,11 @@ def compress(
             progress(sum(sizes[: len(coded)]), sum(sizes))
         coded.append(stream_or_reason)
     coded_primitives, errors = 0, [(0.0, 0.0)]
-    for together in group_by_accessors(bundles, users):
+    copies: dict[bytes, set[int]] = {}
+    for number, stream_or_reason in enumerate(coded):
+        if isinstance(stream_or_reason, BundleStream):
+            copies.setdefault(stream_or_reason.stream, set()).add(number)
+    for together in group_bundles(bundles, [*users.values(), *copies.values()]):
         streams = {
             number: stream_or_reason
             for number in together
@@ -82,7 +86,7 @@ def compress(
         freed = [index for index, theirs in users.items() if theirs <= streams.keys()]
         primitives = sum(sizes[number] for number in streams)
         # Bundles that share accessors are put in together or not at all: half of them would leave the accessors in the
-        # file.
+        # file. Those with equal streams pay for one together.
         if scene.would_shrink(list(streams.values()), freed):
             coded_primitives += primitives
             for number, stream_or_reason in streams.items():

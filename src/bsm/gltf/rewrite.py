@@ -2,8 +2,9 @@
 
 import copy
 import io
+import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import chain
 from typing import Any
 from urllib.parse import quote
@@ -36,10 +37,10 @@ def users_of(bundles: list[Bundle], tree: Tree, foreign_numbers: set[int]) -> di
     return users
 
 
-def group_by_accessors(bundles: list[Bundle], users: dict[int, set[int]]) -> list[list[int]]:
-    """Return the numbers of bundles, those together that share accessors, if only by others."""
+def group_bundles(bundles: list[Bundle], sharers: Iterable[set[int]]) -> list[list[int]]:
+    """Return the numbers of bundles, those together that share accessors or a stream, if only by others."""
     groups = {number: {number} for number in range(len(bundles))}
-    for numbers in users.values():
+    for numbers in sharers:
         joined = set().union(*(groups[number] for number in numbers if number >= 0))
         for number in joined:
             groups[number] = joined
@@ -135,6 +136,8 @@ class Rewritten(gltf.Growing):
                 document.item(kind, number)
         self._moved: set[int] = set()  # bufferViews whose bytes are in the new buffer
         self._virtual = 0  # bytes of what decoders fill
+        self._streams: dict[bytes, int] = {}  # the bufferView of each stream
+        self._shared: dict[object, int] = {}  # bufferViews and accessors of streams, by what they are
         self.plain: list[bytes] = []
         self.images: list[ImageComparison] = []
 
@@ -155,14 +158,17 @@ class Rewritten(gltf.Growing):
             if entry.get("bufferView") in views or number in self._document.of_draco:
                 size_before += self._document.array(number).nbytes
         size = 0
-        for coded in streams:
+        # Equal streams are written once.
+        for coded in {coded.stream: coded for coded in streams}.values():
             words = 3 + 2 * len(coded.shape.arrays) + len(coded.shape.pieces)
             size += len(coded.stream) + _WORDS * words
         return size < size_before
 
     def put(self, bundle: Bundle, coded: BundleStream) -> None:
         """Put a stream in the place of the accessors of a bundle."""
-        stream = self.view(coded.stream)
+        if coded.stream not in self._streams:
+            self._streams[coded.stream] = self.view(coded.stream)
+        stream = self._streams[coded.stream]
         entries: list[Tree] = self.tree["accessors"]
         accessors = arrays_of(bundle[0][0])
         places: dict[str, int] = {}
@@ -173,7 +179,7 @@ class Rewritten(gltf.Growing):
             if name.rpartition("/")[2] == "POSITION":
                 more |= gltf.bounds_of(array)
             more |= _words(entries[accessors[name]])
-            places[name] = self.accessor(component, len(array), array.shape[1], view, **more)
+            places[name] = self._accessor(component, len(array), array.shape[1], view, more)
         component, _ = coded.accessors.get("indices", (UINT, False))
         corners = stored("indices", coded.shape.index, component)
         view = self._view(stream, "indices", corners, component)
@@ -181,7 +187,7 @@ class Rewritten(gltf.Growing):
             more = {"byteOffset": start * corners.itemsize} if start else {}
             if "indices" in primitives[0]:
                 more |= _words(entries[primitives[0]["indices"]])
-            indices = self.accessor(component, count, 1, view, **more)
+            indices = self._accessor(component, count, 1, view, more)
             for primitive in primitives:
                 primitive["indices"] = indices
                 # Strips and fans were made triangles, which is the default.
@@ -190,7 +196,21 @@ class Rewritten(gltf.Growing):
                 for number, target in enumerate(primitive.get("targets", [])):
                     target |= {name: places[f"{number}/{name}"] for name in target}
 
+    def _accessor(self, component: int, count: int, width: int, view: int, more: Tree) -> int:
+        """Return an accessor of a stream; primitives with equal streams share it."""
+        key = ("accessor", component, count, width, view, json.dumps(more, sort_keys=True))
+        if key not in self._shared:
+            self._shared[key] = self.accessor(component, count, width, view, **more)
+        return self._shared[key]
+
     def _view(self, stream: int, name: str, array: Array, component: int) -> int:
+        """Return the bufferView of an array of a stream; primitives with equal streams share it."""
+        key = ("bufferView", stream, name, component)
+        if key not in self._shared:
+            self._shared[key] = self._new_view(stream, name, array, component)
+        return self._shared[key]
+
+    def _new_view(self, stream: int, name: str, array: Array, component: int) -> int:
         extension: Tree = {"stream": stream, "attribute": name}
         usual_component = UINT if name == "indices" else FLOAT
         if component != usual_component:
