@@ -15,6 +15,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import MeshError, public
 from bsm.codec.arrays import Faces, Matrix, Positions, end_phase
 from bsm.codec.geometry.attributes import Attribute, Semantic, at_corners
+from bsm.codec.geometry.graph import Lists
 from bsm.codec.geometry.mesh import LARGEST, TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import degenerate, group_rows
@@ -106,7 +107,14 @@ class Gallery:
 class LookMetric:
     """Pictures of an original, and versions of it: with its own normals if it has some."""
 
-    def __init__(self, mesh: TriangleMesh, *, threads: int | None = None, most_pixels: int = MOST_PIXELS) -> None:
+    def __init__(
+        self,
+        mesh: TriangleMesh,
+        *,
+        threads: int | None = None,
+        most_pixels: int = MOST_PIXELS,
+        around: Lists | None = None,
+    ) -> None:
         self._mesh, self._crew = mesh, Crew(threads)
         # Encoders leave out faces with two corners at one position, so that these may not count here, either.
         # The original has such faces and the decoded mesh has not. Its size and its frames must be the same for both.
@@ -128,7 +136,7 @@ class LookMetric:
         # alone would count as a difference.
         self._kept = np.dtype(np.float32 if lost <= 1e-6 * self._diagonal else np.float64)  # as files have them
         positions = self._placed(mesh.positions)
-        self._shape = Shape.of(positions, mesh.faces)
+        self._shape = Shape.of(positions, mesh.faces, around=around)
         self._size = Size.of(positions, faces, most_pixels)
         self.pixels = self._size.pixels
         self._cameras = cameras(self._placed(used), self.pixels)
@@ -137,13 +145,17 @@ class LookMetric:
         self._pictures = Gallery(self._cameras, positions, self._shape.faces, self._shape.normals(positions))
         # A mesh with area may still be invisible, if all of it is seen edge-on. Any number would then be a false
         # promise.
-        seen = ((self._pictures.picture(self._idle[-1], side) < BACKGROUND).any() for side in self._sides)
-        if self._size.thickest < LEAST_THICKNESS or not any(seen):
+        if self._size.thickest < LEAST_THICKNESS or not self._shows_something():
             raise MeshError(f"the mesh cannot be looked at: its faces have no area{_outlier(used)}")
         own = own_normals(mesh)
         self._own = None if own is None else (Gallery(self._cameras, positions, self._shape.faces, own), own)
         self._known: dict[tuple[int, ...], Look] = {}
         self._turned: dict[tuple[int, ...], tuple[float, float]] = {}
+
+    def _shows_something(self) -> bool:
+        # All pictures at once: after the last one, the gallery lets go of its mesh and normals.
+        originals = self._each(self._pictures.picture, self._sides)
+        return any((picture < BACKGROUND).any() for picture in originals)
 
     def against(self, mesh: TriangleMesh) -> LookMetric:
         """Return a metric of versions of another mesh, which shows the pictures of this original."""

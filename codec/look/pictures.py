@@ -60,8 +60,11 @@ class Shape:
     around: Lists  # without faces that have two corners at one place
 
     @classmethod
-    def of(cls, positions: Positions, faces: Faces, known: Shape | None = None) -> Shape:
-        """The shape of positions, shape (n, 3), within a box of diagonal 1: a known one of these faces if it is so."""
+    def of(cls, positions: Positions, faces: Faces, known: Shape | None = None, around: Lists | None = None) -> Shape:
+        """The shape of positions, shape (n, 3), within a box of diagonal 1: a known one of these faces if it is so.
+
+        `around`, if it is known already, lists the faces around each vertex.
+        """
         end_phase(len(positions))  # what follows takes many arrays
         index = group_rows(np.rint(positions * _GRID))
         # Grouped on a grid of 2^-24 of the diagonal: finer distances are rounding.
@@ -73,7 +76,8 @@ class Shape:
             return known
         counted, places = np.flatnonzero(~degenerate(joined)).astype(np.int32), int(index.max()) + 1
         if len(counted) == len(joined):
-            around = vertex_faces(joined, places)
+            if around is None or joined is not faces:
+                around = vertex_faces(joined, places)
         else:
             around = vertex_faces(joined[counted], places)
             around = Lists(around.starts, counted[around.members])

@@ -276,7 +276,8 @@ class SequenceEncoder:
         self._done, known = 0, meshes.find(run)
         prepared = known.prepared if known else _prepared(run.joined, options)
         original = AsGiven(run.mesh, run.joined, prepared)
-        self.vertex_order, self.face_order = original.vertex_order, run.joined.kept[prepared.face_order]
+        self.vertex_order = original.vertex_order
+        self.face_order = run.joined.kept[prepared.face_order].astype(np.int64)
         frames = (frame[prepared.coding_order] for frame in run.frames)
         longest = options.together(len(prepared.positions))
         group = next_group(frames, longest, prepared, run.moving)

@@ -171,7 +171,7 @@ class Encoder:
     @property
     def face_order(self) -> Order:
         """The decoder's face i is face `face_order[i]` of the given mesh; int64, shape (m,)."""
-        return self._input.joined.kept[self._input.prepared.face_order]
+        return self._input.joined.kept[self._input.prepared.face_order].astype(np.int64)
 
     def encode(self) -> bytes:
         return b"".join(self.chunks())

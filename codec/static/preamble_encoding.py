@@ -38,7 +38,7 @@ class JoinedMesh:
     mesh: TriangleMesh
     index: Indices
     first: Order
-    kept: Order
+    kept: Indices  # the given faces that are coded
     splits: Order | None  # the given vertices that come back; None: the joined ones do
     notes: tuple[str, ...]
     coder: GivenMesh | None  # None: nothing is coded from it anymore
@@ -85,8 +85,7 @@ def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool =
         whole = TriangleMesh(mesh.positions, mesh.faces)  # which share the arrays
     else:
         whole = TriangleMesh(sealed(mesh.positions[first]), sealed(index[mesh.faces[kept]]))
-    places, faces = first.astype(np.int64), kept.astype(np.int64)
-    return JoinedMesh(whole, index, places, faces, splits, tuple(notes), coder, mesh.positions)
+    return JoinedMesh(whole, index, first.astype(np.int64), kept, splits, tuple(notes), coder, mesh.positions)
 
 
 MOST_CELLS = 1 << 20  # along an axis of a grid
@@ -137,8 +136,8 @@ class Prepared:
     order: tuple[packets.Order, ...]
     coding_order: Order
     vertex_order: Order
-    face_order: Order
-    coding_faces: Order
+    face_order: Indices
+    coding_faces: Indices
     first_corners: npt.NDArray[np.uint8]
     joined_faces: Faces
     light: bool
@@ -250,7 +249,7 @@ def prepare(
     """Code the connectivity of a mesh."""
     mesh, connectivity = joined.mesh, EncodedConnectivity(*joined.coding.code())
     coding_order = connectivity.vertex_order.astype(np.int64)
-    coding_faces = connectivity.face_order.astype(np.int64)
+    coding_faces = np.ascontiguousarray(connectivity.face_order, np.int32)
     ordered = TriangleMesh(sealed(mesh.positions[coding_order]), sealed(connectivity.faces))
     order = (packets.Order(joined.coding.order(joined.given)),) if keep_order else ()
     return Prepared(
@@ -263,7 +262,7 @@ def prepare(
         coding_order=coding_order,
         # A stream with an order is decoded in the given one, so for callers nothing has moved.
         vertex_order=np.arange(len(coding_order)) if keep_order else coding_order,
-        face_order=np.arange(len(mesh.faces)) if keep_order else coding_faces,
+        face_order=np.arange(len(mesh.faces), dtype=np.int32) if keep_order else coding_faces,
         coding_faces=coding_faces,
         first_corners=connectivity.first_corners,
         joined_faces=mesh.faces,

@@ -1,6 +1,7 @@
 """Blocks, alone or with a layer of refinement on them: ways to code a mesh."""
 
 import math
+from dataclasses import replace
 from functools import lru_cache, partial
 
 import numpy as np
@@ -17,7 +18,7 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.targets import TRIES
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
+from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase, refine_blocks
 from bsm.codec.static.ways.in_cells import MOST_STEPS, SPREADS, InCells
 
 BROADEST = 0.14
@@ -112,7 +113,7 @@ class Plain:
         layer = Layer(single(max(float(reaches[out].min()), LEAST)), 1.0)
         levels = np.where(out[:, None], np.rint(base.offsets / layer.step), 0.0).astype(np.int32)
         moved = base.moved(layer, levels, base.known_steps(layer, levels))
-        return Trial(step, moved, partial(base.refined, layer, levels, moved))
+        return Trial(step, moved, partial(refine_blocks, base.prepared, base.draft, layer, levels, moved))
 
     def mended(self, trial: Trial) -> Trial | None:
         """Return None: no look is asked for."""
@@ -165,7 +166,8 @@ class Refined:
 
     def at(self, step: float) -> Trial:
         """Return the trial of a step."""
-        base = self._base(step)
+        # A copy: what levels need of a base, which is large, ends with it.
+        base = replace(self._base(step))
         if self._settled:
             nearest = self._nearer(base, *self._evened(step, base))
             return self._unfolded(step, base, *nearest)
@@ -189,7 +191,8 @@ class Refined:
 
     def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Trial:
         positions = base.moved(layer, levels, known)
-        return Trial(step, positions, partial(base.refined, layer, levels, positions), self._settled)
+        code = partial(refine_blocks, base.prepared, base.draft, layer, levels, positions)
+        return Trial(step, positions, code, self._settled)
 
     def _near(self, steps: Matrix) -> Matrix:
         """How far vertices may be brought from their places by steps, shape (n, 3)."""

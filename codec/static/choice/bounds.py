@@ -11,7 +11,7 @@ import numpy as np
 
 from bsm.bitstream.errors import MeshError
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Matrix, Order, Positions
+from bsm.codec.arrays import Faces, Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
 from bsm.codec.geometry.metrics import face_geometry, nearest_points
@@ -34,6 +34,7 @@ pixel in a picture of 512. Of a gap between parts, as much is left."""
 FLAT = 1e-9  # area of a face that has none, over the square of its longest side
 NO_FACE_LOST, FEW_LOST = 0.5, 200  # the widest look with which no face loses its area; one in so many with wider ones
 SLIVERS = 2e-3  # of the faces: so many edges may fold on a grid
+PIECE = 1 << 15  # faces that are looked at together
 MOST_PARTS = 64  # of more parts than these, none is asked how near it is to others
 
 
@@ -71,9 +72,9 @@ class Measures:
     def flat_faces(self, positions: Matrix) -> int:
         """Return how many faces have no area, within rounding."""
         faces = self.prepared.mesh.faces
-        areas = face_geometry(positions, faces).areas
-        sides = positions[faces] - positions[np.roll(faces, 1, axis=1)]
-        return int(np.count_nonzero(areas <= FLAT * np.square(sides).sum(axis=2).max(axis=1)))
+        # In pieces: their sides take six times the memory of the faces.
+        pieces = (faces[begin : begin + PIECE] for begin in range(0, len(faces), PIECE))
+        return sum(count_flat(positions, piece) for piece in pieces)
 
     @cached_property
     def flat_before(self) -> int:
@@ -86,12 +87,21 @@ class Measures:
         # As given and as decoded, to the last bit: in BSM units, rounding may show other shades.
         mesh = TriangleMesh(self.prepared.mesh.positions, self.prepared.mesh.faces, own)
         try:
-            return self.shown.against(mesh) if self.shown else LookMetric(mesh, threads=self._threads)
+            if self.shown is not None:
+                return self.shown.against(mesh)
+            return LookMetric(mesh, threads=self._threads, around=self.shaper.around)
         except MeshError as error:
             self.unseen = error.message
             return None
         finally:
             self.near.by()
+
+
+def count_flat(positions: Matrix, faces: Faces) -> int:
+    """Return how many faces have no area, within rounding."""
+    areas = face_geometry(positions, faces).areas
+    sides = positions[faces] - positions[np.roll(faces, 1, axis=1)]
+    return int(np.count_nonzero(areas <= FLAT * np.square(sides).sum(axis=2).max(axis=1)))
 
 
 def trial_of(prepared: Prepared, draft: Draft) -> Trial:

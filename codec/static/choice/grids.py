@@ -31,9 +31,17 @@ STAYING = 1.05  # times the bytes with images to which vertices go: those where 
 
 
 def grid_draft(
-    prepared: Prepared, grid: Raster, places: Levels, brief: bool = False, wanted: Matrix | None = None
+    prepared: Prepared,
+    grid: Raster,
+    places: Levels,
+    brief: bool = False,
+    wanted: Matrix | None = None,
+    decoded: Positions | None = None,
 ) -> Draft:
-    """The stream of places on a grid, shape (n, 3), none negative; some may come to be elsewhere (`wanted`)."""
+    """The stream of places on a grid, shape (n, 3), none negative; some may come to be elsewhere (`wanted`).
+
+    `decoded`, if known, are the positions of the places.
+    """
     grid = replace(grid, light=grid.light or prepared.light)
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
     faces = prepared.linked if brief else prepared.mesh.faces  # if others follow
@@ -42,7 +50,9 @@ def grid_draft(
         coded = encode_grid(faces, grid, places)
     else:
         coded, places = encode_going(faces, grid, places, wanted)
-    return Draft(header, (*prepared.before_grid, *coded), grid.positions(places), places, brief)
+    if decoded is None or wanted is not None:
+        decoded = grid.positions(places)
+    return Draft(header, (*prepared.before_grid, *coded), decoded, places, brief)
 
 
 def may_repeat(prepared: Prepared) -> bool:
@@ -60,7 +70,7 @@ def repeating(prepared: Prepared, grid: Raster, places: Levels, draft: Draft) ->
         sampled = partial(sampled_size, prepared.mesh.faces, coded=places)
         if len(places) > SAMPLE and sampled(with_images) >= sampled(grid):
             return draft
-    other = grid_draft(prepared, with_images, places, not prepared.light)
+    other = grid_draft(prepared, with_images, places, not prepared.light, decoded=draft.decoded)
     return min(draft, other, key=lambda draft: draft.size)
 
 
@@ -74,7 +84,7 @@ def paying(prepared: Prepared, draft: Draft) -> Draft:
     for i in range(count := len(kept), max(count - 3, 0), -1):
         some = kept[:i] + kept[i + 1 :]
         grid = replace(grid, transforms=np.concatenate(some), whole=i < count and draft.header.whole)
-        coded = grid_draft(prepared, grid, places, draft.may_be_brief)
+        coded = grid_draft(prepared, grid, places, draft.may_be_brief, decoded=draft.decoded)
         if coded.size < (1.0 - SLACK * (i == count)) * draft.size:
             draft, kept = coded, some
         elif i < count:
@@ -317,7 +327,9 @@ class Gridded:
         grid, places = self.places(width)
         if self._going:
             return self._coded_trial(width, grid, places, self._draft(grid, places, self._wanted(grid, places)))
-        return self._trial(width, grid, places, grid.positions(places), partial(self._draft, grid, places))
+        decoded = grid.positions(places)
+        code = partial(self._draft, grid, places, decoded=decoded)
+        return self._trial(width, grid, places, decoded, code)
 
     def mended(self, trial: Trial) -> Trial | None:
         """Return a trial whose vertices of folded edges are where they fold least, and do not go to images."""
@@ -385,15 +397,18 @@ class Gridded:
             places[gaps.ends[wrong, 0]] += away[wrong]
         return places
 
-    def _draft(self, grid: Raster, places: Levels, wanted: Matrix | None = None) -> Draft:
+    def _draft(
+        self, grid: Raster, places: Levels, wanted: Matrix | None = None, decoded: Positions | None = None
+    ) -> Draft:
         """Return the stream of places; vertices go to images as `_wanted` has it."""
         may_be_brief = may_repeat(self._prepared) and not self._prepared.light
         if not self._images:
-            return grid_draft(self._prepared, grid, places, may_be_brief)
+            return grid_draft(self._prepared, grid, places, may_be_brief, decoded=decoded)
         transforms = transforms_of(self._prepared, grid)
         if not len(transforms):
             wanted = None
-        return grid_draft(self._prepared, replace(grid, transforms=transforms), places, may_be_brief, wanted)
+        grid = replace(grid, transforms=transforms)
+        return grid_draft(self._prepared, grid, places, may_be_brief, wanted, decoded)
 
     def _wanted(self, grid: Raster, places: Levels) -> Matrix:
         """Return where each vertex would be, in cells, and the square of how far off it may be, shape (n, 4)."""

@@ -26,7 +26,7 @@ class Shaper:
 
     def __init__(self, original: Original, graph: Graph) -> None:
         positions, faces = original.positions, original.faces
-        around = vertex_faces(faces, len(positions))
+        self.around = around = vertex_faces(faces, len(positions))
         self._original = original
         self._graph = graph
         self._wanted = (
@@ -54,11 +54,11 @@ class Shaper:
     def places(self, wanted: Levels, origin: Matrix, step: float, worth: float, reach: float) -> Levels:
         """Places on a grid."""
         chosen = np.array(wanted, np.int32, order="C")
-        flaps = self._flaps[0]
+        flaps = self._flaps
         bends = chosen[flaps[:, 0]] + chosen[flaps[:, 1]] - chosen[flaps[:, 2]] - chosen[flaps[:, 3]]
         moved = np.ascontiguousarray(chosen * step + origin)
         aim = worth / (3 * len(chosen)), reach, 6
-        _kernels.shape_grid(self._wanted, aim, (moved, chosen, self._open), step, self._flaps, bends, RATES)
+        _kernels.shape_grid(self._wanted, aim, (moved, chosen, self._open), step, self._listed_flaps(), bends, RATES)
         return chosen
 
     def unfold(self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix) -> Levels | None:
@@ -67,13 +67,13 @@ class Shaper:
         chosen, most = np.array(levels, np.int32, order="C"), -(-len(self._original.faces) // 10_000)
         shaped = np.array(positions), chosen, self._open
         moves = _kernels.unfold_levels(
-            self._wanted, reach, shaped, np.ascontiguousarray(directions), self._flaps, most, self._limits
+            self._wanted, reach, shaped, np.ascontiguousarray(directions), self._listed_flaps(), most, self._limits
         )
         return chosen if moves else None
 
     def over(self, positions: Positions) -> Indices:
         """The vertices of edges that are folded farther than they were."""
-        return np.unique(self._flaps[0][self._fold_levels(positions) > self._limits])
+        return np.unique(self._flaps[self._fold_levels(positions) > self._limits])
 
     def more_folds(self, positions: Positions) -> int:
         """Return how many more edges are folded than were: by 100, 120 or 150 degrees, whichever has most."""
@@ -82,7 +82,7 @@ class Shaper:
     @cached_property
     def most_folds(self) -> int:
         """How many more may be, of any of these angles."""
-        return int(FOLDS * len(self._flaps[0]))
+        return int(FOLDS * len(self._flaps))
 
     @cached_property
     def _folds_before(self) -> npt.NDArray[np.int64]:
@@ -100,12 +100,13 @@ class Shaper:
 
     def _fold_levels(self, positions: Positions) -> npt.NDArray[np.uint8]:
         """How far edges between faces are folded, shape (k,): 1 to 4, by more than 90, 100, 120, 150 degrees."""
-        far = np.empty(len(self._flaps[0]), np.uint8)
-        _kernels.count_folds(positions, self._flaps[0], far)
+        far = np.empty(len(self._flaps), np.uint8)
+        _kernels.count_folds(positions, self._flaps, far)
         return far
 
     @cached_property
-    def _flaps(self) -> tuple[Indices, Indices, Indices]:
+    def _flaps(self) -> Indices:
+        """The vertices of each edge and those across from it, shape (k, 4)."""
         faces, graph = self._original.faces, self._graph
         flaps = np.empty((len(graph.neighbors) // 2, 4), np.int32)
         pending = np.empty(len(graph.neighbors), np.int32)
@@ -113,7 +114,12 @@ class Shaper:
         del pending
         if count < len(flaps):
             flaps = flaps[:count].copy()
-        starts, members = np.empty(graph.size + 1, np.int32), np.empty(flaps.size, np.int32)
-        _kernels.list_flaps(flaps, starts, members)
         end_phase(graph.size)
-        return flaps, starts, members
+        return flaps
+
+    def _listed_flaps(self) -> tuple[Indices, Indices, Indices]:
+        """Return the flaps, and which of them each vertex is in."""
+        # Listed for each use: kept lists take as much memory as the faces twice, and listing is quick.
+        starts, members = np.empty(self._graph.size + 1, np.int32), np.empty(self._flaps.size, np.int32)
+        _kernels.list_flaps(self._flaps, starts, members)
+        return self._flaps, starts, members

@@ -8,7 +8,7 @@ import numpy as np
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.arrays import Levels, Matrix, end_phase
 from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.codec.progress import Progress
@@ -107,13 +107,15 @@ class RefinementBase:
         slide(moved, self.frames, levels, known[:, 1])
         return moved
 
-    def refined(self, layer: Layer, levels: Levels, moved: Matrix) -> Draft:
-        """The stream with a layer of levels, shape (n, 3), and where these bring the base."""
-        header = replace(self.draft.header, refinement=(layer.step, layer.ratio))
-        after = self.draft.header.base[0] if self.draft.header.base else 0
-        # After all blocks: a decoder may stop there, and show the base.
-        body = (*self.draft.body, *encode_layer(self.prepared.mesh.faces, levels, after))
-        return Draft(header, body, self.prepared.units.back(moved))
+
+def refine_blocks(prepared: Prepared, blocks: Draft, layer: Layer, levels: Levels, moved: Matrix) -> Draft:
+    """Return the stream of blocks with a layer of levels, shape (n, 3), which bring vertices to where they `moved`."""
+    end_phase(len(moved))  # the choice of levels has taken many arrays
+    header = replace(blocks.header, refinement=(layer.step, layer.ratio))
+    after = blocks.header.base[0] if blocks.header.base else 0
+    # After all blocks: a decoder may stop there, and show the base.
+    body = (*blocks.body, *encode_layer(prepared.mesh.faces, levels, after))
+    return Draft(header, body, prepared.units.back(moved))
 
 
 class InBlocks:
