@@ -5,13 +5,33 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from functools import wraps
 from typing import Any
 
 from bsm.bitstream import errors
-from bsm.bitstream.errors import ArgumentError, BsmError, LimitError, OptionError, public
+from bsm.bitstream.errors import ArgumentError, BsmError, Kind, LimitError, OptionError, public
+
+
+def _with_known_names(kind: Kind) -> Kind:
+    """Let a dataclass refuse the names of fields that it does not have, and suggest one that it has."""
+    make: Callable[..., None] = kind.__init__  # type: ignore[misc]
+    known = [item.name for item in fields(kind)]
+
+    @wraps(make)
+    def check_names(self: Any, *values: Any, **named: Any) -> None:
+        unknown = next((name for name in named if name not in known), None)
+        if unknown is not None:
+            alike = [name for name in known if name in unknown or unknown in name]
+            advice = f"did you mean {alike[0]}?" if alike else f"its limits are {', '.join(known)}"
+            raise ArgumentError(f"{kind.__name__} has no limit {unknown}; {advice}")
+        make(self, *values, **named)
+
+    kind.__init__ = check_names  # type: ignore[misc]
+    return kind
 
 
 @public
+@_with_known_names
 @dataclass(frozen=True)
 class Limits:
     """Upper bounds that a decoder checks before it allocates or computes. `dataclasses.replace` changes them.

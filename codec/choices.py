@@ -20,7 +20,12 @@ def named(kind: str, choices: Mapping[str, Choice], name: str) -> Choice:
     return choices[name]
 
 
-def suggestion(word: str, known: Iterable[str], *, likeness: float = 0.6) -> str:
+LIKENESS = 0.6
+"""How alike two words must be, so that one is suggested for the other."""
+_BEGINNING = 4  # letters that tell a name apart
+
+
+def suggestion(word: str, known: Iterable[str], *, likeness: float = LIKENESS) -> str:
     """Return a question that suggests a similar name, or ""."""
     names = list(known)
     # The beginning of a single name is meant, even if another name is more alike by letters.
@@ -28,6 +33,10 @@ def suggestion(word: str, known: Iterable[str], *, likeness: float = 0.6) -> str
     import difflib  # for errors only
 
     found = begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=likeness)
+    # "coefs" is meant for coefficients, although most of its letters are missing.
+    alike = [name for name in names if name.startswith(word[:_BEGINNING])]
+    if not found and len(alike) == 1 and len(word) >= _BEGINNING and likeness == LIKENESS:
+        found = alike
     return f"; did you mean {found[0]}?" if found else ""
 
 

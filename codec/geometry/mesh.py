@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +15,18 @@ from bsm.codec.arrays import Faces, Matrix, Order, Positions, as_array, sealed
 from bsm.codec.geometry.attributes import Attribute
 
 Metadata = Mapping[str, str | int | float | bytes]  # whatever an author wants to say of a mesh
+
+
+_OTHER_NAMES = {
+    "its vertices are mesh.positions": "vertices points verts vertex coordinates",
+    "its triangles are mesh.faces": "triangles indices cells polygons",
+    "they are in mesh.attributes": "normals vertex_normals colors vertex_colors uv uvs texcoords textures",
+    "its entries are in mesh.metadata": "name unit up materials images info",
+    "write it by bsm.save(mesh, path)": "save export write to_file",
+    "compress it by bsm.encode(mesh)": "encode compress to_bytes",
+    "show it by bsm.show(mesh)": "show plot view",
+}
+"""What other libraries call the parts of a mesh."""
 
 
 class NoFacesError(MeshError):
@@ -99,6 +111,15 @@ class TriangleMesh:
     def __repr__(self) -> str:
         names = "".join(f", {attribute.name}" for attribute in self.attributes)
         return f"TriangleMesh({len(self.positions)} vertices, {len(self.faces)} faces{names})"
+
+    # Type checkers would take any name for an attribute.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Raise an `AttributeError` that has our name for that of another library."""
+            known = next((told for told, names in _OTHER_NAMES.items() if name in names.split()), "")
+            advice = f"; {known}" if known else ""
+            raise AttributeError(f"a TriangleMesh has no {name}{advice}", name=name, obj=self)
 
     def __reduce__(self) -> tuple[Any, ...]:
         # A MappingProxyType cannot be pickled.

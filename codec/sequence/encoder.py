@@ -478,11 +478,25 @@ class _Rounds:
         self._stages.report("finishing", 1.0)
 
 
+def _refuse_changing_sizes(positions: object) -> None:
+    """Raise an error that names the first frame with another number of vertices, if there is one."""
+    if not isinstance(positions, (list, tuple)):
+        return
+    sizes = [len(frame) for frame in positions if hasattr(frame, "__len__")]
+    number = next((place for place, size in enumerate(sizes) if size != sizes[0]), None)
+    if number is not None:
+        raise MeshError(
+            f"frame {number} has {sizes[number]} vertices, and frame 0 has {sizes[0]}; encode_frames takes frames of "
+            "different meshes"
+        )
+
+
 def frames_of(positions: npt.ArrayLike) -> Positions:
     """Positions of frames, shape (T, n, 3), checked."""
     try:
         frames = np.asarray(positions, np.float64)
     except (TypeError, ValueError, OverflowError) as error:
+        _refuse_changing_sizes(positions)
         raise MeshError(f"the positions of a sequence are not an array of numbers: {error}") from error
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
         raise MeshError(f"the positions of a sequence must have shape (T, n, 3), T > 0, not {frames.shape}")

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import InitVar, dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
-from bsm.bitstream.errors import OptionError, public
+from bsm.bitstream.errors import ArgumentError, OptionError, public
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.codec.choices import check_options, named
+from bsm.codec.choices import check_options, named, suggestion
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
 from bsm.codec.static.coding import KEY_SEEDS
 from bsm.codec.static.presets import DEFAULT, PRESET_ROWS
@@ -211,8 +211,10 @@ class EncodeOptions:
             if preset is not None:
                 given = vars(changed(named("preset", PRESETS, preset), **given))
             known = {item.name: item.default for item in fields(self)}
-            if unknown := given.keys() - known:
-                raise TypeError(f"EncodeOptions has no option {' and no option '.join(sorted(unknown))}")
+            unknown = next((name for name in given if name not in known), None)
+            if unknown is not None:
+                advice = suggestion(unknown, known) or f"; its options are {', '.join(known)}"
+                raise ArgumentError(f"EncodeOptions has no option {unknown}{advice}")
             for name, value in (known | given).items():
                 object.__setattr__(self, name, value)
             self._check()

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import wraps
+from inspect import Parameter, signature
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias, Unpack
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias, TypeVar, Unpack, cast
 
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.choices import checked_metadata, checked_whole
+from bsm.codec.choices import checked_metadata, checked_whole, suggestion
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats.metadata import Written
@@ -19,10 +21,11 @@ from bsm.files.inspection import inspect_stream, summarize_stream
 from bsm.files.libraries import as_mesh, read_any, warn
 from bsm.files.mesh import save_written, unknown_suffix, written_mesh
 from bsm.files.partial import decode_blocks, decode_what_is_left
-from bsm.files.pipes import Input, Source, named, read_chunks
-from bsm.files.stream import SequenceStream, decode_whole
+from bsm.files.pipes import Input, Source, as_input, named, read_chunks
+from bsm.files.stream import SequenceStream, decode_whole, refuse_mesh_file
 from bsm.files.table import format_of_name
 from bsm.ground.console import Console, watched
+from bsm.ground.synonyms import advice_on_keyword
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -36,6 +39,30 @@ if TYPE_CHECKING:
     from bsm.keywords import DenoiseKeywords, EncodeKeywords, OptionKeywords, SequenceKeywords
 
 Heard: TypeAlias = Callable[[int, int], None] | None
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def _with_known_keywords(function: _Function) -> _Function:
+    """Let a function refuse keywords that it does not have by an `ArgumentError` with advice."""
+    parameters = signature(function).parameters
+    keywords = [name for name, parameter in parameters.items() if parameter.default is not Parameter.empty]
+
+    @wraps(function)
+    def call(*values: Any, **named_values: Any) -> Any:
+        for name in named_values:
+            if name not in parameters:
+                raise ArgumentError(f"{function.__name__} has no keyword {name}{_advice_on(name, keywords)}")
+        return function(*values, **named_values)
+
+    return cast("_Function", call)
+
+
+def _advice_on(name: str, keywords: Sequence[str]) -> str:
+    """Say which keyword is meant by an unknown one: by its meaning, or else by its letters."""
+    by_meaning = advice_on_keyword(name, keywords)
+    if by_meaning:
+        return f"; instead: {by_meaning}"
+    return suggestion(name, keywords) or f"; its keywords are {', '.join(keywords)}"
 
 
 def encode(
@@ -207,6 +234,7 @@ def encode_many(
     return run_many(run, job, Console(quiet=True, heard=progress), encode_one, planned)
 
 
+@_with_known_keywords
 def decode(
     stream: Source,
     *,
@@ -258,7 +286,9 @@ def decode(
     """
     if blocks is not None and tolerant:
         raise OptionError("a stream is decoded tolerantly to its end; leave out blocks or tolerant")
-    limits, chunks = as_limits(limits), read_chunks(stream)
+    source = as_input(stream)
+    refuse_mesh_file(source)
+    limits, chunks = as_limits(limits), source.chunks()
     with watched("decoding", progress) as reported:
         if blocks is not None:
             return decode_blocks(chunks, checked_whole("blocks", blocks, 1), reported, limits)
@@ -270,6 +300,7 @@ def decode(
         return decode_whole(chunks, limits, threads, progress=reported if progress else None)
 
 
+@_with_known_keywords
 def info(stream: Source, *, limits: Limits | str = DEFAULT_LIMITS) -> dict[str, Any]:
     """List the contents of a stream without decoding it.
 
@@ -437,6 +468,7 @@ def _as_frame(given: Any) -> TriangleMesh:
         return empty_frame()
 
 
+@_with_known_keywords
 def decode_frames(
     stream: Source, *, limits: Limits | str = DEFAULT_LIMITS, threads: int | None = None
 ) -> Iterator[TriangleMesh]:
@@ -468,6 +500,7 @@ def decode_frames(
         yield TriangleMesh(positions, decoded.faces, decoded.attributes, decoded.metadata)
 
 
+@_with_known_keywords
 def decode_sequence(
     stream: Source, *, limits: Limits | str = DEFAULT_LIMITS, threads: int | None = None, progress: Heard = None
 ) -> tuple[Positions, Faces]:
@@ -509,6 +542,7 @@ def decode_sequence(
     return np.array(frames or np.empty((0, 0, 3))), decoded.faces
 
 
+@_with_known_keywords
 def load(source: Source, *, limits: Limits | str = DEFAULT_LIMITS, format: str | None = None) -> TriangleMesh:
     """Read a mesh from a mesh file or a stream.
 
@@ -601,8 +635,10 @@ def save(
             # The message of the command line names its option -f, which Python does not have.
             error.strerror = "the file exists already; overwrite=True replaces it"
             raise
-    if format is None or not hasattr(path, "write"):
+    if not hasattr(path, "write"):
         raise ArgumentError(f"a path is expected, or an open binary file and its format, not {type(path).__name__}")
+    if format is None:
+        raise ArgumentError('an open file has no suffix that tells the format; add one, such as format="ply"')
     written = _as_file(mesh, f"mesh.{format}", keywords)
     path.write(written.data)
     return (*written.left_out, *written.beside)
@@ -683,6 +719,7 @@ def denoise(
     return clean
 
 
+@_with_known_keywords
 def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> MeshComparison:
     """Measure the errors of a mesh against an original with the same faces.
 
@@ -719,6 +756,7 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
     return compare_meshes(first, second, pair(first, second, None if order is None else order_of_used(order, *whole)))
 
 
+@_with_known_keywords
 def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
     """Measure the look distance of two meshes; at 1 they look the same in smooth shading. Their faces may differ.
 

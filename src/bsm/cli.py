@@ -13,10 +13,11 @@ from typing import Any, NoReturn
 from bsm import __version__
 from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.codec.choices import suggestion
-from bsm.commands.synonyms import OPTIONS, advice_on_command, advice_on_option, refuse_misplaced
+from bsm.commands.synonyms import advice_on_command, refuse_misplaced
 from bsm.files.output import refuse_collisions
 from bsm.ground.console import Console
 from bsm.ground.exits import EXITS, USAGE, Terminated, behind, exit_of, is_expected, report_error
+from bsm.ground.synonyms import OPTIONS, advice_on_option
 
 _SUMMARIES = Path(__file__).with_name("commands") / "commands.txt"
 _EXAMPLES = [line.split(": ", 1) for line in (_SUMMARIES.parent / "examples.txt").read_text("utf-8").splitlines()]
@@ -180,6 +181,13 @@ class Parser(argparse.ArgumentParser):
         super().__init__(**{"formatter_class": Formatter, **keywords})
         self._negative_number_matcher = re.compile(r"-[\d.][\d.,e+-]*$")  # points and boxes begin with numbers, too
 
+    @property
+    def settings(self) -> dict[str, str]:
+        """The settings of --set, and how each is given."""
+        from bsm.commands.flags import FLAGS  # which commands have loaded already
+
+        return {setting.field: f"{setting.field}={setting.value}" for setting in FLAGS["settings"]}
+
     def begin_with(self, options: Sequence[str]) -> None:
         """Let the help begin with these options, and the rest follow in its groups."""
         positionals, usual, *groups = self._action_groups
@@ -208,9 +216,12 @@ class Parser(argparse.ArgumentParser):
             # A glob such as *.ply may give a file that begins with a dash.
             if word.startswith("-") and not known and os.path.exists(word):
                 self.error(f"{word} looks like an option; name the file as {shlex.quote(f'./{word}')}")
+            name = word.partition("=")[0]
             if word in OPTIONS and word not in self._option_string_actions:
-                advice = advice_on_option(word, self._offered)
-                self.error(f"unknown option {word}{advice and f'; instead: {advice}'}")
+                self._refuse_option(word)
+            # Said here, since argparse would first ask for arguments that are required.
+            if name.startswith("--") and not any(option.startswith(name) for option in self._option_string_actions):
+                self._refuse_option(name)
         # argparse forgets a "--" between the two passes that mixed words take it.
         parse = self.parse_known_args if "--" in words else self.parse_known_intermixed_args
         args, unknown = parse(words)
@@ -219,8 +230,13 @@ class Parser(argparse.ArgumentParser):
             name = word.partition("=")[0]
             if not name.startswith("-"):
                 self.error(f"{word}: one input too many")
-            self.error(f"unknown option {name}{self._advice(name)}")
+            self._refuse_option(name)
         return args
+
+    def _refuse_option(self, name: str) -> NoReturn:
+        """End with an error that names an option of this command, if there is one for the word."""
+        advice = advice_on_option(name, self._offered)
+        self.error(f"unknown option {name}{f'; instead: {advice}' if advice else self._advice(name)}")
 
     @property
     def _offered(self) -> list[str]:
@@ -230,6 +246,9 @@ class Parser(argparse.ArgumentParser):
     def _advice(self, name: str) -> str:
         """Suggest an option of this command that is spelled alike, or the one for a word that is."""
         options = self._offered
+        setting = name.lstrip("-").replace("-", "_")
+        if "--set" in options and setting in self.settings:
+            return f"; instead: --set {self.settings[setting]}"
         words = [word for word in OPTIONS if advice_on_option(word, options).startswith("-")]
         similar = suggestion(name, [*options, *words], likeness=_LIKENESS)
         if not similar:

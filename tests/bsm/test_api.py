@@ -189,7 +189,7 @@ def test_files_beside_one_in_memory_are_named(tmp_path):
 
 
 def test_an_open_file_needs_a_format(mesh):
-    with pytest.raises(bsm.ArgumentError, match="its format"):
+    with pytest.raises(bsm.ArgumentError, match='format="ply"'):
         bsm.save(mesh, io.BytesIO())
     with pytest.raises(bsm.OptionError, match="nonsense"):
         bsm.save(mesh, io.BytesIO(), format="nonsense")

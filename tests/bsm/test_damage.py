@@ -87,12 +87,20 @@ def test_tolerant_decoding_names_lost_attributes_materials_and_images(stream, tm
 
     # All that follows a damaged attribute is lost with it: the image comes last.
     notes = notes_on(with_damage(stream, where[FrameType.VALUES][0]))
-    assert "left out: the attribute uv\n" in notes and "left out: images\n" in notes
+    assert "left out: the attribute uv\n" in notes and "left out: the image skin.png\n" in notes
     notes = notes_on(with_damage(stream, where[FrameType.ATTRIBUTE][0]))
-    assert "left out: 1 of 1 attributes, whose values are missing\n" in notes and "left out: images\n" in notes
+    assert "left out: 1 of 1 attributes, whose values are missing\n" in notes
+    assert "left out: the image skin.png\n" in notes
     for damaged in (with_damage(stream, where[FrameType.METADATA][0]), stream[: where[FrameType.METADATA][0]]):
         notes = notes_on(damaged)
-        assert "left out: metadata (names, materials or images)\n" in notes and "attribute" not in notes
+        assert "left out: the image skin.png\n" in notes and "attribute" not in notes
+        assert "left out: other entries of the damaged metadata\n" in notes
+        # The materials stay, and name no image that is not there.
+        library = (tmp_path / "a.mtl").read_text() if (tmp_path / "a.mtl").exists() else ""
+        assert "map_Kd" not in library and not list(tmp_path.glob("*.png"))
+        file.write_bytes(damaged)
+        assert main(["decode", str(file), "-o", str(tmp_path / "a.glb"), "-f", "--tolerant"]) == 0
+        assert "map_Kd" not in capsys.readouterr().err, "the image is lost, whatever GLB holds"
     assert "left out" not in notes_on(stream)
     assert "left out" not in notes_on(with_damage(stream, where[FrameType.END][0]))
 

@@ -195,7 +195,7 @@ encode ring.ply --size small | such as 20000 or 20kB
 encode ring.ply --ratio 10 | --size 20kB
 encode ring.ply --target-size 20kB | --size 20kB
 encode ring.ply --look 0 | look must be above 0
-encode ring.ply --theta 5deg | invalid float value
+encode ring.ply --theta 5deg | a number is expected, not '5deg'
 encode ring.ply --theta | expected one argument
 encode ring.ply --theta 3 --size 2kB | not allowed with argument
 encode ring.ply --simplify 0.5 | takes no value
@@ -208,7 +208,7 @@ encode ring.ply --verify | always checks
 encode ring.ply --overwrite | --force
 encode ring.ply -y | --force
 encode ring.ply --silent | --quiet
-encode ring.ply --texture webp | --images webp:85
+encode ring.ply --texture webp | webp:85
 encode ring.ply --images gif | webp:85
 encode ring.ply --unit mm | --meta unit=mm
 encode ring.ply --meta mm | NAME=TEXT

@@ -147,8 +147,13 @@ def _same_name(path: str, args: argparse.Namespace) -> str:
 
 def _compare_one(args: argparse.Namespace, console: Console) -> None:
     # Sequences first: a folder or npz is none of the mesh formats, and an error about those would mislead.
-    if _compare_sequences(args, console):
-        return
+    try:
+        if _compare_sequences(args, console):
+            return
+    except BsmError as error:
+        if Path(args.original).is_dir() and Path(args.decoded).is_dir():
+            error.message += "; to compare the files of two folders by their names, add -r"
+        raise
     with console.progress("reading") as progress:
         whole = [_load(path, args, console) for path in (args.original, args.decoded)]
         # Only a note: the numbers are right as they are, but they may not be what the user takes them for.

@@ -149,11 +149,20 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     if not args.tolerant and header is not None and header.attributes > len(mesh.attributes):
         missing = f"{header.attributes - len(mesh.attributes)} of {header.attributes} attributes"
         console.note(f"{args.input}: left out: {missing}, whose values are missing")
+    if args.blocks is not None and header is not None and not header.grid:
+        console.note(f"{args.input}: {_part_in_words(args.blocks, header.blocks)}")
     counts = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
     with console.progress("writing"):
         file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
         _note_unheard(args, console, mesh.metadata, kind)
         return counts | _saved(args, console, output, kind, file, f"{counted(**counts)}, ", seconds)
+
+
+def _part_in_words(asked: int, blocks: int) -> str:
+    """Say which of the blocks of a stream were decoded."""
+    if asked > blocks:
+        return f"--blocks {asked}: the stream has {blocks}, and all were decoded"
+    return f"the first {asked} of {counted(blocks=blocks)}"
 
 
 def _note_unheard(args: DecodeJob, console: Console, metadata: Metadata, kind: str) -> None:
@@ -225,7 +234,8 @@ def _saved(
 
 def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) -> Facts:
     """Decode one sequence; write each frame as soon as it is decoded."""
-    from bsm.files.motion.folder import frame_range, mesh_files, names_many  # modules that meshes do without
+    from bsm.files.motion.caches import CACHES, mesh_of  # modules that meshes do without
+    from bsm.files.motion.folder import frame_range, mesh_files, names_many
     from bsm.files.motion.frames import Shared, describe_runs
     from bsm.files.sequence import sequence_kind, sequence_writer
 
@@ -266,6 +276,9 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
         because = " with --permutation" if args.permutation else ""
         console.note(f"{args.input}: not written to {kind}{because}: {', '.join(lost)}")
     _note_unheard(args, console, said, kind)
+    if kind in CACHES:
+        faces_file = "an OBJ beside each file" if stream.run_starts else mesh_of(output)
+        console.note(f"{args.input}: {kind.upper()} holds no faces; they are in {faces_file}")
     # Files of an earlier, longer run would be read as further frames of this sequence.
     if names_many(output) and (others := len(mesh_files(output)) - count) > 0:
         console.note(f"{output}: {others} other meshes are there and count as frames; remove them")

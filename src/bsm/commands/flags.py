@@ -92,13 +92,38 @@ def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
     """A type of options that are finite numbers with commas between them."""
 
     def parsed(text: str) -> tuple[float, ...]:
-        found = tuple(map(float, text.split(",")))
+        try:
+            values = tuple(map(float, text.split(",")))
+        except ValueError:
+            values = ()
         # float() reads "nan" and "inf", which no coordinate may be.
-        if len(found) != count or not all(map(math.isfinite, found)):
-            raise ValueError(text)
-        return found
+        if len(values) != count or not all(map(math.isfinite, values)):
+            raise argparse.ArgumentTypeError(f"{count} numbers with commas between them are expected, not {text!r}")
+        return values
 
     return parsed
+
+
+def whole_number(text: str) -> int:
+    return within(-(1 << 63), 1 << 63)(text)
+
+
+def number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"a number is expected, not {text!r}") from None
+
+
+def number_of_blocks(text: str) -> int:
+    if ":" in text:
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is a range; blocks are decoded from the first on: give their number"
+        )
+    number = whole_number(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"at least one block is decoded: give 1 or more, not {number}")
+    return number
 
 
 def frames_or_input(text: str) -> str:
@@ -126,7 +151,7 @@ def named_setting(text: str) -> tuple[str, Any]:
         raise argparse.ArgumentTypeError(wrong)
     try:
         return name, setting.parse(value)
-    except ValueError:
+    except (ValueError, argparse.ArgumentTypeError):
         raise argparse.ArgumentTypeError(f"{name}={setting.value} is expected, not {text!r}") from None
 
 
@@ -163,7 +188,13 @@ def unit(text: str) -> str:
 
 
 _TYPES: dict[str, Callable[[str], Any]] = {str(count): numbers(count) for count in (2, 3, 6)} | {
-    **{"int": int, "float": float, "length": number_or_length, "yes": lambda text: text == "yes"},
+    **{
+        "int": whole_number,
+        "float": number,
+        "blocks": number_of_blocks,
+        "length": number_or_length,
+        "yes": lambda text: text == "yes",
+    },
     **{"unit": unit, "count": within(0), "positive": within(1), "port": within(0, 65535)},
 }
 _ACTIONS: dict[str, dict[str, Any]] = {

@@ -1,11 +1,13 @@
 """bsm info: list the contents of a stream without decoding it."""
 
 import argparse
+import shlex
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-from bsm.bitstream.errors import counted
+from bsm.bitstream.errors import OptionError, counted
 from bsm.bitstream.limits import as_limits
 from bsm.commands.flags import add_flags, add_inputs, asked
 from bsm.files.images import linked_images
@@ -44,17 +46,31 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
         document = by_name("bsm.gltf.document", "read_document")(args.input, limits)
         streams = {n: summarize_stream(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}
         return {"input": args.input, "primitives": len(list(document.primitives())), "streams": streams}
+    if Path(args.input).is_dir():
+        raise OptionError(_worded_folder(args.input))
     refuse_mesh(args.input)
     info = inspect_stream(read_chunks(args.input), limits)
     images = {image.name: image.fault or "is there" for image in linked_images(info.metadata, args.input)}
     return {"input": args.input, **summarize_stream(info), "linked_images": images}
 
 
+def _worded_folder(folder: str) -> str:
+    """Say that a folder is not a stream, and where its streams are."""
+    stream = next(iter(sorted(Path(folder).rglob("*.bsm"))), None)
+    if stream is None:
+        return f"{folder} is a folder without streams"
+    files = f"{shlex.quote(str(stream.parent))}/*.bsm"
+    return f"{folder} is a folder; for the streams in it, run: bsm info {files}; bsm verify -r checks them"
+
+
 def _worded(summary: Facts) -> str:
     if "shards" in summary:
         return "\n".join(_tile_lines(summary))
     if "streams" in summary:
-        head = f"scene of {summary['primitives']} primitives, {len(summary['streams'])} streams"
+        head = f"scene of {counted(primitives=summary['primitives'], streams=len(summary['streams']))}"
+        if not summary["streams"]:
+            head = f"scene of {counted(primitives=summary['primitives'])}, not compressed: "
+            head += f"bsm glb {shlex.quote(summary['input'])} -o OUT.glb compresses it"
         return "\n\n".join([head, *(f"bufferView {n}: {_worded(found)}" for n, found in summary["streams"].items())])
     total = summary["bytes"]["total"]
     shares = list[str]()

@@ -1,28 +1,14 @@
-"""Words of other programs, and the command or option of bsm for each."""
+"""What to type instead of a word that is not a command, or that stands in a wrong place."""
 
 import os
 import re
 import shlex
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
 from bsm.files.table import MESH_FORMATS, MESH_SUFFIXES
-
-_TABLES = (Path(__file__).parent / "synonyms.txt").read_text("utf-8").split("\n\n")
-
-
-def _read_table(text: str) -> dict[str, str]:
-    """Return the advice of a table for each word in front of it."""
-    advice = {}
-    for line in text.splitlines():
-        words, told = line.split(": ", 1)
-        advice.update(dict.fromkeys(words.split(), told))
-    return advice
-
-
-COMMANDS, OPTIONS = map(_read_table, _TABLES)
-"""What to type in place of a command, and of an option. Advice on an option is a list with bars between its entries."""
+from bsm.ground.synonyms import COMMANDS
 
 # A word like 0.1 or mm among the inputs comes from an option that takes no value, or from a space inside of one.
 _NUMBER = re.compile(r"[-+]?[\d.]+(?:e[-+]?\d+)?%?")
@@ -32,22 +18,15 @@ _UNIT = re.compile(r"mm|cm|m|in|inch|%|[kMG]i?B|KB|bytes|dB|deg(?:rees)?|bpv", r
 def advice_on_command(words: Sequence[str]) -> str:
     """Return what to type instead of a command that does not exist; empty if that is not known."""
     word = words[0]
-    if word.lower() in COMMANDS:
-        return f"; it is: bsm {COMMANDS[word.lower()]}"
+    told = COMMANDS.get(word.lower(), "")
+    if told:
+        is_sentence = told[0].isupper()
+        return f". {told}" if is_sentence else f"; it is: bsm {told}"
     named = next((name for name in words if Path(name).suffix.lower() in (*MESH_SUFFIXES, ".bsm")), None)
     if named is None or not (word.startswith("-") or named == word):
         return ""
     stream = Path(named).suffix.lower() == ".bsm"
     return f"; a command comes first: bsm {'decode' if stream else 'encode'} {shlex.quote(named)}"
-
-
-def advice_on_option(word: str, options: Collection[str]) -> str:
-    """Return the option to use in place of an unknown one, among those of a command; empty if there is none."""
-    for entry in OPTIONS.get(word, "").split(" | "):
-        name = entry.partition(" ")[0]
-        if name in options or not name.startswith("-"):
-            return entry
-    return ""
 
 
 def refuse_misplaced(command: str, inputs: Sequence[str], *, recursive: bool) -> None:

@@ -12,6 +12,7 @@ from bsm.codec.static.options import CODING, PRESETS, EncodeOptions, Paper, chan
 from bsm.codec.static.presets import DEFAULT, SEQUENCE_ROWS
 from bsm.codec.static.targets import WIDEST, Contract, Target
 from bsm.ground.lengths import parse_bytes, parse_length
+from bsm.ground.synonyms import advice_on_keyword
 
 _Options = TypeVar("_Options")
 TARGETS = {"nmsve_db": "nmsve_db", "theta": "theta_deg", "bpv": "bpv", "size": "size"}
@@ -113,8 +114,22 @@ def _names(*kinds: Any) -> set[str]:
     return {item.name for kind in kinds for item in fields(kind)}
 
 
+_COUNTERPARTS = {"size": "bpvf", "bpv": "bpvf", "bpvf": "bpv", "kg": "nmsve_db"}
+"""Options that a mesh or a sequence has for an option of the other."""
 _OF_MESHES = {*_names(EncodeOptions, Paper), *TARGETS, *BOUNDS, "preset"}
 _OF_SEQUENCES = {*_names(SequenceOptions), *SEQUENCE_TARGETS, "preset"}
+
+
+def _advice_on(name: str, known: set[str]) -> str:
+    """Say which option is meant by an unknown one: by its meaning, or else by its letters."""
+    if name == "options":
+        return "; EncodeOptions and its kin come without a name, after the mesh"
+    if name in ("unit", "units", "up"):
+        return f"; it is an entry of the metadata: metadata={{{name.rstrip('s')!r}: ...}}"
+    by_meaning = advice_on_keyword(name, known)
+    if by_meaning:
+        return f"; instead: {by_meaning}"
+    return suggestion(name, sorted(known)) or f"; there are {', '.join(sorted(known))}"
 
 
 def _fields(what: str, known: set[str], keywords: Mapping[str, Any], targets: Mapping[str, str]) -> dict[str, Any]:
@@ -124,9 +139,10 @@ def _fields(what: str, known: set[str], keywords: Mapping[str, Any], targets: Ma
         # An option of the other kind is the usual mistake, and "unknown" would be wrong.
         for others, names in (("single meshes", {*_OF_MESHES, "simplify"}), ("sequences", _OF_SEQUENCES)):
             if name in names and what != "denoising":
-                raise ArgumentError(f"{name} is for {others}, not for {what}")
-        advice = suggestion(name, sorted(known)) or f"; there are {', '.join(sorted(known))}"
-        raise ArgumentError(f"unknown option {name} for {what}{advice}")
+                instead = _COUNTERPARTS.get(name, "")
+                advice = f"; instead: {instead}" if instead in known else ""
+                raise ArgumentError(f"{name} is for {others}, not for {what}{advice}")
+        raise ArgumentError(f"unknown option {name} for {what}{_advice_on(name, known)}")
     wanted = [name for name, value in keywords.items() if name in (*targets, "target") and value is not None]
     if len(wanted) > 1:
         raise OptionError(f"give one target only, not {' and '.join(wanted)}")

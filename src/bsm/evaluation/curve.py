@@ -322,12 +322,12 @@ _POINT: Result = {"settings": {}, "bpv_total": 0.0, **dict.fromkeys(("nmsve_db",
 
 def read_points(path: str, meshes: Mapping[str, Result]) -> list[Result]:
     """Read points of other codecs from CSV: label, bpv, theta_deg or nmsve_db, and mesh if there are several."""
-    rows = csv.DictReader(io.StringIO(as_input(path).read_all().decode("utf-8-sig", "replace")))
-    named, measures = rows.fieldnames or [], [name for name in MEASURES if name in (rows.fieldnames or ())]
+    text = as_input(path).read_all().decode("utf-8-sig", "replace")
+    rows = csv.DictReader(io.StringIO(text))
+    named = rows.fieldnames or []
+    measures = [name for name in MEASURES if name in named]
     if not {"label", "bpv"} <= {*named} or not measures:
-        raise FormatError(
-            f"{path}: its first line must name label, bpv, and theta_deg or nmsve_db, not {', '.join(named)}"
-        )
+        raise FormatError(f"{path}: {_fault_of_columns(text)}")
     found: dict[tuple[str, str], Result] = {}
     for row in rows:
         where = f"{path}: line {rows.line_num}"
@@ -342,6 +342,7 @@ def read_points(path: str, meshes: Mapping[str, Result]) -> list[Result]:
             raise FormatError(f"{where}: a number is missing or wrong: {error}") from error
         if not point["bpv_total"] > 0.0 or not all(math.isfinite(point[name] or 0.0) for name in measures):
             raise FormatError(f"{where}: bits per vertex must be above 0, and errors finite")
+        _refuse_impossible_errors(point, where)
         # The name becomes a part of a file name.
         codec = re.sub(r"[^\w-]+", "-", row["label"] or "").strip("-").lower() or "rival"
         if codec in STYLES:
@@ -349,6 +350,32 @@ def read_points(path: str, meshes: Mapping[str, Result]) -> list[Result]:
         begun: Result = {"schema": SCHEMA, "codec": codec, "label": row["label"], "mesh": meshes[mesh], "points": []}
         found.setdefault((mesh, codec), begun)["points"].append(point)
     return list(found.values())
+
+
+def _fault_of_columns(text: str) -> str:
+    """Say why a text does not have the columns of points."""
+    line = text.strip().partition("\n")[0].strip()
+    if not line:
+        return "the file is empty; its first line must name label, bpv, and theta_deg or nmsve_db"
+    if line[0] in "{[<":
+        return f"CSV is expected: a first line label,bpv,theta_deg and a line for each point; this begins {line[:40]!r}"
+    separator = next((sign for sign in (";", "\t", "|") if sign in line and "," not in line), "")
+    if separator:
+        return f"its columns must be separated by commas, not by {separator!r}; and write numbers with a point: 3.5"
+    return f"its first line must name label, bpv, and theta_deg or nmsve_db; it is {line[:80]!r}"
+
+
+def _refuse_impossible_errors(point: Mapping[str, Any], where: str) -> None:
+    """Refuse errors that no decoded mesh has, such as decibels without their sign."""
+    decibels, angle = point["nmsve_db"], point["theta_deg"]
+    # At 0 dB, the error is as large as the mesh itself.
+    if decibels is not None and decibels > 0.0:
+        raise FormatError(
+            f"{where}: nmsve_db is {decibels:g}, an error larger than the mesh; lower is better, and meshes that are "
+            f"alike are below 0: is it {-decibels:g}?"
+        )
+    if angle is not None and not 0.0 <= angle <= 180.0:
+        raise FormatError(f"{where}: theta_deg is {angle:g}; an angle between normals is 0 to 180 degrees")
 
 
 def timed(work: Callable[[], Any], repeats: int, clock: Callable[[], float] = time.perf_counter) -> tuple[float, Any]:

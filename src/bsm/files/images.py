@@ -31,7 +31,9 @@ class ImageRule:
     def parse(cls, text: str) -> Self:
         """The rule that "webp", "webp:85" or "webp:85@1024" says."""
         match = re.fullmatch(r"(webp|jpeg|png)(?::(\d{1,3}))?(?:@(\d{1,5}))?", text)
-        if not match or not 1 <= int(match[2] or 85) <= 100:
+        if match and not 1 <= int(match[2] or 85) <= 100:
+            raise OptionError(f"the quality of images is from 1 to 100, not {match[2]}: {match[1]}:85 is usual")
+        if not match:
             raise OptionError(f"images are written as webp, webp:85 or webp:85@1024 (jpeg, png, too), not as {text!r}")
         return cls(match[1], int(match[2] or 85), int(match[3] or 0))
 

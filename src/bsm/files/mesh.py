@@ -53,6 +53,10 @@ _FOREIGN = {
         "xacro",
         "mjcf",
     ): "it names the meshes of a robot; encode their folder: bsm encode -r FOLDER -o OUT/",
+    ("jpg", "jpeg", "png", "webp", "tif", "tiff", "bmp", "gif"): (
+        "it is a picture; encode the mesh that shows it, and the picture comes along"
+    ),
+    ("bvh",): "it moves a skeleton, and has no mesh; export the moving mesh as GLB or USD",
     ("las", "laz", "e57", "pcd", "pts"): "it holds points; point clouds are not supported",
     ("zip", "gz", "bz2", "xz", "tar", "tgz"): "it contains files: unpack it, and read its contents",
 }

@@ -1,6 +1,8 @@
 """Streams decoded in part: their first blocks, or what damage has left of them."""
 
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 import msgpack
@@ -12,18 +14,24 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Faces
 from bsm.codec.decoding import Decoder
 from bsm.codec.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, RefinementEvent
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.files.formats.appearance import refers_to_image
+from bsm.files.formats.metadata import materials_in
 
 Progress = Callable[[int, int], None]
 _NAME = 1  # the key of a declaration (specification, D 1)
 _KINDS_OF_METADATA = {"image": "images", "material": "materials", "mtllib": "materials"}
 """Kinds of metadata by the first word of the key; all others are other metadata."""
+_IMAGE_DATA = re.compile(r"image\.(\d{1,9})\.data")
+_MOST_NAMED = 3  # images in one note
+_UNKNOWN = "metadata (names, materials or images)"
+"""The contents of a section of metadata that cannot be read."""
 
 
 def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress, limits: Limits) -> TriangleMesh:
     """Decode the first `count` blocks, read no further, and return the faces whose vertices have all arrived."""
     if count < 1:
-        raise OptionError("at least one block must be decoded")
+        raise OptionError(f"at least one block is decoded: give 1 or more, not {count}")
     most_blocks, blocks_done = count, 0
 
     def enough(event: Any) -> bool:
@@ -62,15 +70,20 @@ def decode_what_is_left(chunks: Iterator[bytes], report: Callable[[str], None], 
         return False
 
     mesh = _decode_until(Decoder(limits, tolerant=True), receive(), reported)
-    if losses or len(mesh.attributes) < declared:
-        for text in _lost_contents(bytes(received), mesh, declared):
-            report(f"left out: {text}")
-    return mesh
+    if not losses and len(mesh.attributes) == declared:
+        return mesh
+    sections = list(sections_of(bytes(received)))
+    lost_images = _lost_images(sections, mesh.metadata)
+    for text in _lost_contents(sections, mesh, declared, lost_images):
+        report(f"left out: {text}")
+    # A file that names an image which is not written would look complete, and be drawn without it.
+    return replace(mesh, metadata=_without_images(mesh.metadata, lost_images))
 
 
-def _lost_contents(data: bytes, mesh: TriangleMesh, declared: int) -> Iterator[str]:
+def _lost_contents(
+    sections: Sequence[Section], mesh: TriangleMesh, declared: int, lost_images: Collection[int]
+) -> Iterator[str]:
     """Name the attributes and the metadata that a stream has and the decoded mesh lacks."""
-    sections = list(sections_of(data))
     present = {attribute.name for attribute in mesh.attributes}
     names = [_name_of(section) for section in sections if section.type == FrameType.ATTRIBUTE]
     lost = sorted({name for name in names if name} - present)
@@ -80,10 +93,65 @@ def _lost_contents(data: bytes, mesh: TriangleMesh, declared: int) -> Iterator[s
     unnamed = declared - len(present) - len(lost)
     if unnamed > 0:
         yield f"{unnamed} of {declared} attributes, whose values are missing"
-    metadata = [section for section in sections if section.type == FrameType.METADATA]
-    contents = sorted({kind for section in metadata for kind in _lost_kinds(section, mesh)})
-    if contents:
-        yield " and ".join(contents)
+    kinds: set[str] = set()
+    for section in _metadata_sections(sections):
+        kinds |= _lost_kinds(section, mesh)
+    if lost_images:
+        kinds.discard("images")
+        yield _named_images(lost_images, mesh.metadata)
+        if _UNKNOWN in kinds:
+            kinds = {"other entries of the damaged metadata"}
+    if kinds:
+        yield " and ".join(sorted(kinds))
+
+
+def _metadata_sections(sections: Sequence[Section]) -> list[Section]:
+    return [section for section in sections if section.type == FrameType.METADATA]
+
+
+def _named_images(numbers: Collection[int], metadata: Metadata) -> str:
+    """Return images by their names, or by their numbers where the names are lost."""
+    names = [str(metadata.get(f"image.{number}.name", number)) for number in sorted(numbers)]
+    plural = "s" if len(names) > 1 else ""
+    more = f" and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
+    return f"the image{plural} {', '.join(names[:_MOST_NAMED])}{more}"
+
+
+def _lost_images(sections: Sequence[Section], metadata: Metadata) -> set[int]:
+    """Return the numbers of the images whose bytes were lost."""
+    lost: set[int] = set()
+    for section in _metadata_sections(sections):
+        keys = _keys_of(section) if section.is_sound else []
+        matches = [_IMAGE_DATA.fullmatch(key) for key in keys if key not in metadata]
+        lost |= {int(match[1]) for match in matches if match}
+    is_whole = all(section.is_sound for section in _metadata_sections(sections))
+    if is_whole and any(section.type == FrameType.END for section in sections):
+        return lost
+    # Damaged sections do not tell their contents, but the materials tell which images there were.
+    for number in _images_of_materials(metadata):
+        if f"image.{number}.data" not in metadata and f"image.{number}.link" not in metadata:
+            lost.add(number)
+    return lost
+
+
+def _images_of_materials(metadata: Metadata) -> set[int]:
+    numbers: set[int] = set()
+    for words in materials_in(metadata).values():
+        numbers |= {value for word, value in words.items() if refers_to_image(word) and isinstance(value, int)}
+    return numbers
+
+
+def _without_images(metadata: Metadata, numbers: Collection[int]) -> Metadata:
+    """Return metadata without some images, and without what materials say about them."""
+    if not numbers:
+        return metadata
+    dropped = [f"image.{number}." for number in numbers]
+    for material, words in materials_in(metadata).items():
+        for word, value in words.items():
+            if refers_to_image(word) and value in numbers:
+                dropped.append(f"material.{material}.{word}.")
+    prefixes = tuple(dropped)
+    return {key: value for key, value in metadata.items() if not f"{key}.".startswith(prefixes)}
 
 
 def _name_of(section: Section) -> str:
@@ -112,7 +180,13 @@ def _unpacker(data: memoryview) -> msgpack.Unpacker:
 def _lost_kinds(section: Section, mesh: TriangleMesh) -> set[str]:
     """Return the kinds of metadata, such as images, that a section holds and the mesh lacks."""
     if not section.is_sound:
-        return {"metadata (names, materials or images)"}
+        return {_UNKNOWN}
+    lost = [key for key in _keys_of(section) if key not in mesh.metadata]
+    return {_KINDS_OF_METADATA.get(key.partition(".")[0], "other metadata") for key in lost}
+
+
+def _keys_of(section: Section) -> list[str]:
+    """Return the names of the entries that a section of metadata holds; none if it is not a map."""
     unpacker = _unpacker(section.payload)
     keys = list[str]()
     try:
@@ -120,9 +194,8 @@ def _lost_kinds(section: Section, mesh: TriangleMesh) -> set[str]:
             keys.append(str(unpacker.unpack()))
             unpacker.skip()
     except (ValueError, msgpack.UnpackException):
-        return set()
-    lost = [key for key in keys if key not in mesh.metadata]
-    return {_KINDS_OF_METADATA.get(key.partition(".")[0], "other metadata") for key in lost}
+        return []
+    return keys
 
 
 def _decode_until(decoder: Decoder, chunks: Iterator[bytes], enough: Callable[[Any], bool]) -> TriangleMesh:

@@ -238,6 +238,18 @@ def named(path: str | os.PathLike[str]) -> str:
     return name
 
 
+_TEXTS_OF_STREAMS = {"8942534d": "bytes.fromhex(text)", "iUJTT": "base64.b64decode(text)"}
+"""How streams begin that were made a text, and the call that gives their bytes."""
+
+
+def _refuse_text_of_stream(text: str) -> None:
+    """Refuse a text that has the bytes of a stream instead of a path."""
+    for beginning, call in _TEXTS_OF_STREAMS.items():
+        is_text = text[: len(beginning)].lower() == beginning.lower()
+        if is_text and not os.path.exists(text):
+            raise errors.ArgumentError(f"a text with the bytes of a stream is not a path; give its bytes: {call}")
+
+
 class Input:
     """Bytes to be read once, from the beginning to the end."""
 
@@ -248,6 +260,7 @@ class Input:
         self._held = b""
         if isinstance(source, (str, os.PathLike)):
             self.name = named(source)
+            _refuse_text_of_stream(self.name)
         elif hasattr(source, "read"):
             self._file = cast(BinaryIO, source)
             self.name = str(getattr(source, "name", ""))

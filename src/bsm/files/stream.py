@@ -15,8 +15,8 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.progress import Progress
-from bsm.files.pipes import Source, as_input, is_pipe, is_url
-from bsm.files.table import GLTF, MESH_FORMATS, format_of_bytes, format_of_name
+from bsm.files.pipes import Input, Source, as_input, is_pipe, is_url
+from bsm.files.table import FORMATS, GLTF, MESH_FORMATS, format_of_bytes, format_of_name
 
 
 def is_stream(source: Source) -> bool:
@@ -46,6 +46,13 @@ def refuse_mesh(path: str) -> None:
             raise FormatError(f"this is a mesh file, not a stream; to make one, run: bsm encode {shlex.quote(path)}")
 
 
+def refuse_mesh_file(source: Input) -> None:
+    """Raise an error that names the right function if an input begins like a mesh file, and not like a stream."""
+    kind = None if is_stream(source) else format_of_bytes(source.peek(1 << 12))
+    if kind is not None:
+        raise FormatError(f"this is {FORMATS[kind].called or kind}, not a BSM stream; bsm.load reads it", offset=0)
+
+
 def decode_whole(
     chunks: Iterator[bytes],
     limits: Limits = DEFAULT_LIMITS,
@@ -59,8 +66,12 @@ def decode_whole(
     from bsm.codec.decoding import Decoder
 
     with Decoder(limits, threads, layers=layers) as decoder:
+        is_empty = True
         for chunk in chunks:
+            is_empty = False
             decoder.receive_data(chunk)
+        if is_empty:
+            raise TruncatedError("there are no bytes: the input is empty", offset=0)
         return decoder.decode_rest(progress)
 
 

@@ -729,7 +729,9 @@ def _choose_animation(document: Document, choice: str) -> tuple[int, Tree]:
         number = names.index(choice)
         return number, animations[number]
     if choice and not choice.isdecimal():
-        raise OptionError(f"no animation {choice}; there are {', '.join(filter(None, names)) or len(names)}")
+        quoted = ", ".join(map(repr, filter(None, names)))
+        there_are = f"the names are {quoted}" if quoted else f"there are {len(names)} without names, 0 is the first"
+        raise OptionError(f"no animation {choice!r}; {there_are}")
     number = int(choice or 0)
     if number >= len(animations):
         raise OptionError(f"no animation {number}; there are {len(animations)}, counted from 0")

@@ -113,7 +113,7 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     plain = all(choice is None for choice in asked)
     limits, apart = (Limits.service(), True) if job.untrusted else (DEFAULT_LIMITS, None)
     wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
-    members = _frame_files(job)
+    members = _frame_files(job, console)
     # Several meshes in one stream: the user has said that they are frames.
     if members:
         frames = open_frames(members, job.format, limits, wanted, isolated=apart)
@@ -121,7 +121,11 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     sequence = open_sequence(job.input, job.format, None if plain else wanted, limits, isolated=apart)
     if sequence is not None:
         if job.frames is not None:
-            sequence = sequence.between(*frame_range(job.frames))
+            first, last = frame_range(job.frames)
+            count_all = sequence.count
+            sequence = sequence.between(first, last)
+            if count_all:
+                console.note(f"{job.input}: {_frames_in_words(first, min(last, count_all))}")
         return _encode_sequence(job, wishes, console, sequence)
     for name, given in (("animation", job.animation), ("mesh", job.cache_mesh), ("frames", job.frames)):
         if given is not None:
@@ -129,7 +133,7 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     return _encode_mesh(job, wishes, console)
 
 
-def _frame_files(job: EncodeJob) -> Sequence[str]:
+def _frame_files(job: EncodeJob, console: Console) -> Sequence[str]:
     """Return the files of frames that are named one by one, or those of a range in a folder or pattern."""
     if job.frames is None:
         return job.members
@@ -137,9 +141,18 @@ def _frame_files(job: EncodeJob) -> Sequence[str]:
     files: Sequence[str] = job.members
     if not files and not is_url(job.input) and names_many(job.input):
         files = frame_files(job.input, follow=not job.untrusted)
-    if files and not files[first:last]:
+    chosen = files[first:last]
+    if files and not chosen:
         raise OptionError(f"{job.input} has {counted(frames=len(files))}; --frames {job.frames} names none of them")
-    return files[first:last]
+    if chosen:
+        names = f"{Path(chosen[0]).name} to {Path(chosen[-1]).name}"
+        console.note(f"{job.input}: {_frames_in_words(first, first + len(chosen))}: {names}")
+    return chosen
+
+
+def _frames_in_words(first: int, end: int) -> str:
+    """Say which frames are encoded; `end` is the number after the last one."""
+    return f"frames {first} to {end - 1}, where 0 is the first"
 
 
 def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
@@ -201,7 +214,11 @@ def _result(
     notes = ["left out: images"] if job.images == "none" else []
     notes += [f"{images} bytes are {'' if job.images else 'unchanged '}images{smaller}"] if images else []
     notes += [f"no look is promised; measured: {encoder.seen(found.attempt)}"] if unseen else []
-    vertices, faces = found.attempt.header.vertices, len(encoder.mesh.faces)
+    header = found.attempt.header
+    most, wanted = header.block_size, given.options.coefficients
+    if wanted is not None and header.blocks and wanted > most:
+        notes.append(f"coefficients: {most} at most, the vertices of the largest block; {wanted} were asked for")
+    vertices, faces = header.vertices, len(encoder.mesh.faces)
     errors, numbers = _errors(found, job.simplify, *given.unit)
     (taken, parts), bpv = size_with_parts(job.input, source), 8 * (size - images) / vertices
     beside = {name: len(data) for name, data in linked.items()}

@@ -10,7 +10,7 @@ from pathlib import Path, PurePath
 from bsm.bitstream.errors import OptionError
 from bsm.files import pipes
 from bsm.files.output import default_output, no_link, output_inside, own_name, refuse_collisions
-from bsm.files.table import MESH_SUFFIXES
+from bsm.files.table import MESH_SUFFIXES, SEQUENCE_FORMATS
 from bsm.jobs.task import Job
 
 
@@ -63,6 +63,7 @@ def plan_trees(
     folders: Sequence[str], output: str | None, suffix: str, read: Sequence[str] = MESH_SUFFIXES
 ) -> list[Job]:
     """Return a job for each file that is read in folders and subfolders; `output` gets the same subfolders."""
+    _refuse_name_of_file(output)
     jobs = []
     for folder, path in files_in(folders, read):
         place = path if output is None else Path(output, path.relative_to(folder))
@@ -72,6 +73,19 @@ def plan_trees(
     for parent in {Path(job.output).parent for job in jobs}:
         parent.mkdir(parents=True, exist_ok=True)
     return jobs
+
+
+def _refuse_name_of_file(output: str | None) -> None:
+    """Raise `OptionError` if the folder for many outputs has the name of one file."""
+    if output is None or output.endswith("/") or Path(output).is_dir():
+        return
+    suffix = PurePath(output).suffix.lower()
+    if suffix in (*STREAM_SUFFIXES, *MESH_SUFFIXES, *(f".{kind}" for kind in SEQUENCE_FORMATS)):
+        folder = PurePath(output).with_suffix("")
+        raise OptionError(
+            f"{output}: -r writes a file for each input into a folder, and this is the name of one file; name the "
+            f"folder: -o {folder}/. A folder of this name ends in a slash: -o {output}/"
+        )
 
 
 def apart(jobs: Sequence[Job], suffix: Callable[[str], str]) -> list[Job]:

@@ -12,7 +12,7 @@ from bsm.codec.geometry.attributes import Attribute, at_corners
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of
 from bsm.files.formats import metadata as materials
-from bsm.files.formats.appearance import Material, as_numbers, in_mtl, is_mtl, one_line
+from bsm.files.formats.appearance import Material, as_numbers, fields_of, in_mtl, is_mtl, one_line
 from bsm.files.parsing import Doubles, Ints
 from bsm.ground.lengths import metres, unit_of
 
@@ -20,6 +20,8 @@ COLORS = {"Kd": "diffuse", "Ka": "ambient", "Ks": "specular", "Ke": "emission"}
 NUMBERS = {"Ns": "shininess", "Ni": "index_of_refraction"}
 IMAGES = {"map_Kd": "diffuse", "map_Ka": "ambient", "map_Ks": "specular", "map_Ke": "emission"}
 """Words of materials, and the properties of effects that hold them."""
+OWN_WORDS = {*COLORS, *NUMBERS, *IMAGES} - {*fields_of("MTL")}
+"""Words that effects hold, although no field of an appearance has their meaning."""
 PROVENANCE = "provenance"
 """The entry of metadata that says how a stream was made; in a DAE, the tool that wrote it."""
 _NO_DATE = datetime(1970, 1, 1, tzinfo=UTC)
@@ -68,7 +70,8 @@ def write_dae(mesh: TriangleMesh, stem: str) -> materials.Written:
     document.scene = scene
     data = _as_text(document, geometry)
     attributes_written = [attribute for attribute in (normal, texcoord, color, numbers) if attribute is not None]
-    metadata_held = (metadata_held | library.written) - {*materials.unsaid(mesh.metadata, "MTL")}
+    unsaid = {name for name in materials.unsaid(mesh.metadata, "MTL") if name.split(".", 2)[2] not in OWN_WORDS}
+    metadata_held = (metadata_held | library.written) - unsaid
     lost = materials.left_out(mesh, attributes_written, [name for name in mesh.metadata if name not in metadata_held])
     return materials.Written(data, lost, library.beside)
 
@@ -139,8 +142,11 @@ def _holds(word: str, words: Material, images: dict[int, str]) -> bool:
     if word in IMAGES:
         return words[word] in images
     if word in COLORS:
-        return not any(IMAGES[image] == COLORS[word] for image in IMAGES if image in words)
-    return word in ("name", "d", "doubleSided", *NUMBERS)
+        gives_way = any(IMAGES[image] == COLORS[word] for image in IMAGES if image in words)
+        return len(as_numbers(words[word])) == 3 and not gives_way
+    if word in NUMBERS:
+        return len(as_numbers(words[word])) == 1
+    return word in ("name", "d", "doubleSided")
 
 
 def _add_material(collada: Any, document: Any, number: int, words: Material, images: dict[int, str]) -> Any:
