@@ -70,7 +70,8 @@ export class BSMGeometry extends BufferGeometry {
     /** Geometries of the pieces, by their numbers, which show the same frame. */
     private readonly parts = new Map<number, BufferGeometry>();
     private drawn = 0;
-    private hidden = (_: Piece): boolean => false;
+    /** Whether a piece is drawn no longer. */
+    isHidden = (_: Piece): boolean => false;
 
     constructor(private readonly progress: Progress = {}) {
         super();
@@ -167,14 +168,14 @@ export class BSMGeometry extends BufferGeometry {
 
     /** Draw some pieces no longer, in all frames. */
     hide(hidden: (piece: Piece) => boolean): void {
-        this.hidden = hidden;
+        this.isHidden = hidden;
         const index = this.getIndex();
         if (index && this.worn) [index.array, index.needsUpdate] = [this.cornersOf(this.worn), true];
     }
 
     /** The corners of faces, those of hidden ones in one point. */
     private cornersOf({ index, pieces }: Shape): Uint32Array {
-        const hidden = pieces.filter(this.hidden);
+        const hidden = pieces.filter(this.isHidden);
         const corners = hidden.length > 0 ? index.slice() : index;
         for (const { start, count } of hidden) corners.fill(0, start, start + count);
         return corners;

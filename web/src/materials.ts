@@ -4,8 +4,10 @@ import {
     FrontSide,
     LinearSRGBColorSpace,
     type Material,
+    type Mesh,
     MeshStandardMaterial,
     NoColorSpace,
+    type Object3D,
     RepeatWrapping,
     SRGBColorSpace,
     Texture,
@@ -89,6 +91,15 @@ export function disposeOf(materials: Material[]): void {
         }
         material.dispose();
     }
+}
+
+/** The materials of all meshes in an object. */
+export function materialsIn(object: Object3D): Material[] {
+    const materials = new Set<Material>();
+    object.traverse((each) => {
+        for (const material of [(each as Partial<Mesh>).material ?? []].flat()) materials.add(material);
+    });
+    return [...materials];
 }
 
 /** The materials of a geometry by their numbers; plain ones where it has none. `tell` hears of what is not shown. */

@@ -4,8 +4,7 @@ import {
     DirectionalLight,
     type Group,
     HemisphereLight,
-    type Material,
-    Mesh,
+    type Mesh,
     PerspectiveCamera,
     Scene,
     Sphere,
@@ -14,7 +13,7 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { hang, redraw, takeDown } from "./easel";
 import type { BSMGeometry } from "./geometry";
-import { disposeOf } from "./materials";
+import { disposeOf, materialsIn } from "./materials";
 import page, { style, type Tree } from "./player.html";
 import { sceneOf } from "./scene";
 import { BSMLoader, BSMSequence } from "./three";
@@ -391,11 +390,8 @@ export class BSMPlayer extends Base {
         this.forgo();
         this.content?.removeFromParent();
         this.sequence?.dispose();
-        this.content?.traverse((mesh) => {
-            if (!(mesh instanceof Mesh)) return;
-            mesh.geometry.dispose();
-            disposeOf([mesh.material].flat() as Material[]);
-        });
+        this.content?.traverse((mesh) => (mesh as Partial<Mesh>).geometry?.dispose());
+        if (this.content) disposeOf(materialsIn(this.content));
         [this.content, this.sequence, this.touched] = [undefined, undefined, false];
         this.redraw();
     }

@@ -12,9 +12,11 @@ export async function sceneOf(geometry: BSMGeometry): Promise<Group> {
     group.userData = Object.fromEntries([...metadata].filter(([, value]) => !(value instanceof Uint8Array)));
     const parts = new Set(pieces.map(({ part }) => part));
     const all: Material | Material[] = materials.length > 1 ? materials : materials[0];
-    if (parts.size < 2) group.add(new Mesh(geometry, all));
+    if (parts.size < 2 && !pieces.some((piece) => geometry.isHidden(piece))) group.add(new Mesh(geometry, all));
     else
-        for (const [number, { part, material }] of pieces.entries()) {
+        for (const [number, piece] of pieces.entries()) {
+            if (geometry.isHidden(piece)) continue;
+            const { part, material } = piece;
             const mesh = new Mesh(geometry.partOf(number), materials[material]);
             mesh.name = nameOf(metadata, "part", part);
             group.add(mesh);

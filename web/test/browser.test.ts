@@ -102,15 +102,25 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             assert.equal(page.workers().length, 1, "no thread starts that decodes nothing");
         });
 
+    /** The mesh of the page as a file. */
+    async function savedAs(format: string, from = page): Promise<Buffer> {
+        const saving = from.waitForEvent("download");
+        await from.evaluate((format) => {
+            document.querySelector<HTMLSelectElement>("[name=format]")!.value = format;
+            document.querySelector<HTMLElement>("[name=export]")!.click();
+        }, format);
+        return readFileSync(await (await saving).path());
+    }
+
     test("draws edges sharp from the angle on that Python tells", async () => {
-        const pictureOf = async (told: object): Promise<string> => {
+        const verticesWith = async (told: object): Promise<number> => {
             await page.goto(savedPage(folder, { whole }, {}, told));
             await state("complete");
-            return (await page.locator("canvas").screenshot()).toString("base64");
+            return Number(/element vertex (\d+)/.exec((await savedAs("ply")).toString("latin1"))![1]);
         };
-        const smooth = await pictureOf({ creaseAngle: 180 });
-        assert.equal(await pictureOf({}), smooth, "a mesh without clearly sharp edges is smooth");
-        assert.notEqual(await pictureOf({ creaseAngle: 0 }), smooth);
+        const smooth = await verticesWith({ creaseAngle: 180 });
+        assert.equal(await verticesWith({}), smooth, "a mesh without clearly sharp edges is smooth");
+        assert.ok((await verticesWith({ creaseAngle: 0 })) > 4 * smooth);
     });
 
     test("cuts the stream at any byte, and goes on", async () => {
@@ -285,6 +295,52 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         // The red half is the upper one along z, which this mesh calls up.
         assert.ok(counts.redHeight < counts.greenHeight, JSON.stringify(counts));
         await fresh.close();
+    });
+
+    test("closes images of what it shows no longer, and of what it has saved", async () => {
+        const fresh = await context.newPage();
+        await fresh.addInitScript(() => {
+            const counts = Object.assign(globalThis, { images: 0, gone: 0 });
+            const [make, close] = [createImageBitmap, ImageBitmap.prototype.close];
+            window.createImageBitmap = ((...given: Parameters<typeof make>) => {
+                counts.images++;
+                return make(...given);
+            }) as typeof make;
+            ImageBitmap.prototype.close = function () {
+                counts.gone++;
+                close.call(this);
+            };
+        });
+        type Counts = { images: number; gone: number };
+        const counts = (): Promise<Counts> =>
+            fresh.evaluate(() => {
+                const { images, gone } = globalThis as unknown as Counts;
+                return { images, gone };
+            });
+        const worn = readFileSync(join(VECTORS, "good-attribute-textured.bsm"));
+        await fresh.goto(savedPage(folder, { worn }));
+        await fresh.waitForFunction(() => document.querySelector<HTMLSelectElement>("[name=color]")!.value === "own");
+        assert.deepEqual(await counts(), { images: 1, gone: 0 });
+        await savedAs("glb", fresh);
+        assert.deepEqual(await counts(), { images: 2, gone: 1 });
+        await drop(fresh, { "other.bsm": whole });
+        await fresh.waitForFunction(() => document.querySelector("h1")!.textContent === "other.bsm");
+        await fresh.waitForSelector("body[data-state=complete]");
+        assert.deepEqual(await counts(), { images: 2, gone: 2 });
+        await fresh.close();
+    });
+
+    test("saves the parts that are drawn", async () => {
+        await page.goto(savedPage(folder, { parts: readFileSync(join(VECTORS, "good-labels.bsm")) }));
+        await state("complete");
+        await page.waitForFunction(() => document.body.dataset.layers);
+        const trianglesIn = async (): Promise<number> => (await savedAs("stl")).readUInt32LE(80);
+        const all = await trianglesIn();
+        const part = page.locator("[data-part=parts] li").first();
+        const hidden = Number(/([\d,]+) triangles/.exec((await part.textContent())!)![1].replace(",", ""));
+        await part.locator("input").evaluate((box: HTMLInputElement) => box.click());
+        assert.ok(hidden > 0);
+        assert.equal(await trianglesIn(), all - hidden);
     });
 
     test("shows three meshes behind one camera, and how far each is off", async () => {

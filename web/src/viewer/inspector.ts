@@ -14,7 +14,7 @@ import { OBJExporter } from "three/addons/exporters/OBJExporter.js";
 import { PLYExporter } from "three/addons/exporters/PLYExporter.js";
 import { STLExporter } from "three/addons/exporters/STLExporter.js";
 import { BSMGeometry } from "../geometry";
-import { nameOf } from "../materials";
+import { disposeOf, materialsIn, nameOf } from "../materials";
 import { sceneOf } from "../scene";
 import type { Comparison } from "./comparison";
 import { percent } from "./facts";
@@ -180,7 +180,11 @@ export class Inspector {
         const scene = await sceneOf(geometry);
         if (format !== "glb") scene.rotation.set(0, 0, 0); // the axes stay those of the mesh
         scene.updateMatrixWorld(true);
-        this.save(new Blob([(await exported(scene, format)) as BlobPart]), format);
+        try {
+            this.save(new Blob([(await exported(scene, format)) as BlobPart]), format);
+        } finally {
+            disposeOf(materialsIn(scene)); // those on the stage are others
+        }
     }
 }
 

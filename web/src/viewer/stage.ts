@@ -25,6 +25,7 @@ import {
     WebGLRenderer,
 } from "three";
 import { MeshBVH } from "three-mesh-bvh";
+import { disposeOf } from "../materials";
 import { Camera, frontOf } from "./camera";
 import { GROUND, shadowOf, studio } from "./light";
 import { normalLines, wrongEdges } from "./overlays";
@@ -65,6 +66,7 @@ class Figure {
         for (const mesh of [...this.meshes]) {
             if (fresh.delete(mesh.geometry)) continue;
             this.holder.remove(mesh);
+            strip(mesh);
             mesh.geometry.dispose();
         }
         for (const geometry of fresh) {
@@ -72,8 +74,13 @@ class Figure {
             mesh.frustumCulled = geometries.length > 1; // one alone may grow and move out of its bounds
             this.holder.add(mesh);
         }
-        for (const material of this.own) material.dispose();
-        this.own = [];
+        this.wear([]);
+    }
+
+    /** Have these materials, and give back those that it had. */
+    wear(own: MeshStandardMaterial[]): void {
+        disposeOf(this.own);
+        this.own = own;
     }
 
     get meshes(): AnyMesh[] {
@@ -83,6 +90,12 @@ class Figure {
     get materials(): MeshStandardMaterial[] {
         return [this.clay, ...this.own, ...this.meshes.flatMap(({ geometry }) => geometry.userData.material ?? [])];
     }
+}
+
+/** Take away what is drawn over a mesh. */
+function strip(mesh: AnyMesh): void {
+    for (const child of mesh.children as Mesh[]) if (child.geometry !== mesh.geometry) child.geometry.dispose();
+    mesh.clear();
 }
 
 /** Whether something draws that was made for it, and no program. */
@@ -309,7 +322,7 @@ export class Stage {
     }
 
     setMaterials(index: number, own: MeshStandardMaterial[]): void {
-        this.drawn[index].own = own;
+        this.drawn[index].wear(own);
         this.shade(this.shading);
     }
 
@@ -407,8 +420,7 @@ export class Stage {
     }
 
     private edge(mesh: AnyMesh): void {
-        for (const child of mesh.children as Mesh[]) if (child.geometry !== mesh.geometry) child.geometry.dispose();
-        mesh.clear();
+        strip(mesh);
         if (this.over === "backs") mesh.add(new Mesh(mesh.geometry, this.backs));
         if (this.over === "edges") mesh.add(wrongEdges(mesh.geometry));
         if (this.over === "normals") mesh.add(normalLines(mesh.geometry, NORMAL / this.turned.scale.x));

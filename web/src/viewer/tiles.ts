@@ -2,7 +2,7 @@
 import { Vector3 } from "three";
 import { messageOf } from "../fetched";
 import { BSMGeometry } from "../geometry";
-import { materialsOf } from "../materials";
+import { disposeOf, materialsOf } from "../materials";
 import type { Pool } from "../pool";
 
 const BUDGET = 3_000_000; // faces that are shown at a time
@@ -32,6 +32,12 @@ interface TileEntry {
     high: Triple;
 }
 
+/** Give back a tile that is not shown again: one that others hide for a while keeps its image. */
+function discard(geometry: BSMGeometry): void {
+    geometry.dispose();
+    disposeOf([geometry.userData.material ?? []].flat());
+}
+
 class Tile {
     readonly below: Tile[] = [];
     readonly center: Vector3;
@@ -53,8 +59,10 @@ class Tile {
 
     /** Drop the geometry of this one and of those below, but of some. */
     keep(some: Set<Tile>): void {
-        if (!some.has(this) && this.geometry)
-            [this.geometry, this.asked] = [this.geometry.dispose() as undefined, false];
+        if (!some.has(this) && this.geometry) {
+            discard(this.geometry);
+            [this.geometry, this.asked] = [undefined, false];
+        }
         this.below.forEach((tile) => tile.keep(some));
     }
 
@@ -214,14 +222,12 @@ export class TileSet {
             const bytes = await ranged(tile.url, offset, size, sha256);
             const geometry = await wholeOf(this.pool, bytes);
             if (geometry.metadata.has("image.0.data")) {
-                const [material] = await materialsOf(geometry);
-                geometry.userData.material = material;
-                geometry.addEventListener("dispose", () => (material.map?.dispose(), material.dispose()));
+                [geometry.userData.material] = await materialsOf(geometry);
             }
             this.got += bytes.length;
             this.there++;
             if (this.closed || !this.wanted.includes(tile)) {
-                geometry.dispose();
+                discard(geometry);
                 tile.asked = false;
                 return;
             }
