@@ -39,6 +39,11 @@ _READERS = {
 }  # fmt: skip
 """The reader in each module of VTK, or of a suffix."""
 _ALL_OF = ("PointArrays", "CellArrays", "Bases", "Families", "PatchArrays")
+_BELOW = {
+    "vtkPartitionedDataSetCollection": "PartitionedDataSet", "vtkMultiBlockDataSet": "Block",
+    "vtkPartitionedDataSet": "Partition",
+}  # fmt: skip
+"""The members of sets of data that have others below."""
 _CELL = "vtkCell"
 _HIDDEN_CELL = 32  # a bit of the marks of ghosts
 MOST_CORNERS = 9  # of polygons that are compared, in a table: one of thousands would make it gigabytes
@@ -55,7 +60,8 @@ def read_vtk(
     path: str, kind: str, limits: Limits, step: int | None = None, *, with_sets: bool = True
 ) -> tuple[Polygons, tuple[float, ...]]:
     """The surfaces of a file as the frame of a step, or at rest at the first time; and its times."""
-    vtkOutputWindow.SetInstance(output := vtkStringOutputWindow())
+    output = vtkStringOutputWindow()
+    vtkOutputWindow.SetInstance(output)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     vtkSMPTools.SetBackend("Sequential")  # a process that reads files from strangers may start no thread
     size = Path(path).stat().st_size
@@ -63,7 +69,10 @@ def read_vtk(
         module = FORMATS[kind].modules[1]
         name = _READERS.get(kind) or _READERS[module.partition(".")[2]]
         reader = getattr(imported(module, "", "simulation"), name)()
-        getattr(reader, "SetCaseFileName" if module.endswith("EnSight") else "SetFileName")(path)
+        if module.endswith("EnSight"):
+            reader.SetCaseFileName(path)
+        else:
+            reader.SetFileName(path)
         times = _opened(reader, kind, size, limits)
         is_exodus = name == "vtkExodusIIReader"
         if is_exodus and step is not None:
@@ -74,15 +83,18 @@ def read_vtk(
         reader.Update()
         if with_sets and is_exodus and "ERROR" in output.GetOutput():
             return read_vtk(path, kind, limits, step, with_sets=False)  # VTK fails at some sets
-        data, words = reader.GetOutputDataObject(0), _SAID.split(output.GetOutput())
+        data = reader.GetOutputDataObject(0)
+        words = _SAID.split(output.GetOutput())
         if "ERROR" in words or data is None:
-            why = words[words.index("ERROR") + 1] if "ERROR" in words else "there is nothing in it"
-            raise FormatError(f"VTK cannot read this file, or one that it names: {' '.join(why.split())}")
+            reason = words[words.index("ERROR") + 1] if "ERROR" in words else "there is nothing in it"
+            raise FormatError(f"VTK cannot read this file, or one that it names: {' '.join(reason.split())}")
         losses |= dict.fromkeys(" ".join(text.split()) for text in words[2::2])
         sets = _Sets(data, losses) if is_exodus else None
         leaves = [*_leaves(data, "")]
-        parts = [part for leaf, name in leaves if (part := _part(leaf, name, losses)) is not None]
-        parts = parts if sets is None else sets.mark(parts, losses)
+        surfaces = [_part(leaf, leaf_name, losses) for leaf, leaf_name in leaves]
+        parts = [part for part in surfaces if part is not None]
+        if sets is not None:
+            parts = sets.mark(parts, losses)
     joined = joined_parts(parts, None, limits, size)
     plain, others = plain_fields(_fields([*(leaf for leaf, _ in leaves), data], len(times), losses))
     return replace(joined, dropped=(*losses, *others), metadata={**joined.metadata, **plain}), times
@@ -91,18 +103,19 @@ def read_vtk(
 def _show_sets(reader: Any, *, with_sets: bool) -> dict[str, None]:
     """Let a reader of Exodus read the sets, or name them; return the names of its contents that have no place here."""
     losses = dict[str, None]()
-    for kind in ("Node", "Side", "Elem", "Edge", "Face"):
+    for kind in ("node", "side", "elem", "edge", "face"):
         number = getattr(reader, f"{kind.upper()}_SET")
         for place in range(reader.GetNumberOfObjects(number)):
             reader.SetObjectStatus(number, place, int(with_sets))
-            name = _UNNAMED.sub(rf"{kind.lower()} set \1", _text(reader.GetObjectName(number, place)))
-            losses |= {} if with_sets else {f"the {kind.lower()} set {name}": None}
+            name = _UNNAMED.sub(rf"{kind} set \1", _text(reader.GetObjectName(number, place)))
+            if not with_sets:
+                losses[f"the {kind} set {name}"] = None
         for place in range(reader.GetNumberOfObjectArrays(number)):
-            losses[f"{_text(reader.GetObjectArrayName(number, place))} of {kind.lower()} sets"] = None
-    for kind in ("Edge", "Face"):
+            losses[f"{_text(reader.GetObjectArrayName(number, place))} of {kind} sets"] = None
+    for kind in ("edge", "face"):
         number = getattr(reader, f"{kind.upper()}_BLOCK")
-        names = (_text(reader.GetObjectName(number, place)) for place in range(reader.GetNumberOfObjects(number)))
-        losses |= {f"the {kind.lower()} block {name}": None for name in names}
+        for place in range(reader.GetNumberOfObjects(number)):
+            losses[f"the {kind} block {_text(reader.GetObjectName(number, place))}"] = None
     return losses
 
 
@@ -110,14 +123,18 @@ def _fields(every: Sequence[Any], steps: int, losses: dict[str, None]) -> dict[s
     """The field data of sets of data: the numbers of all steps as a text, and a line for each number that differs."""
     fields = dict[str, Any]()
     lines = dict[str, dict[str, None]]()
-    for name, values in (field for data in every for field in _arrays(data.GetFieldData(), losses)):
-        fields[name] = values
-        if 1 < steps == values.size and values.dtype.kind in "iuf":
-            fields[name] = np.array(" ".join(map(repr, values.ravel().tolist())))
-        elif values.size == 1:
-            lines.setdefault(name, {})[str(values.item())] = None
-    differing = {name: np.array("\n".join(texts)) for name, texts in lines.items() if len(texts) > 1}
-    return fields | differing
+    for data in every:
+        for name, values in _arrays(data.GetFieldData(), losses):
+            fields[name] = values
+            if 1 < steps == values.size and values.dtype.kind in "iuf":
+                numbers = map(repr, values.ravel().tolist())
+                fields[name] = np.array(" ".join(numbers))
+            elif values.size == 1:
+                lines.setdefault(name, {})[str(values.item())] = None
+    for name, texts in lines.items():
+        if len(texts) > 1:
+            fields[name] = np.array("\n".join(texts))
+    return fields
 
 
 class _Sets:
@@ -149,21 +166,28 @@ class _Sets:
         """Return the parts with a column for each set, one where a face or point is in it."""
         tables = [*map(_nodes_of_faces, parts), *self._faces.values()]
         numbers = row_numbers(np.concatenate([np.zeros((0, MOST_CORNERS), np.int64), *tables]))
-        pieces = np.split(numbers, np.cumsum([len(rows) for rows in tables])[:-1])
+        ends = np.cumsum([len(rows) for rows in tables])
+        pieces = np.split(numbers, ends[:-1])
+        pieces_of_parts, pieces_of_sets = pieces[: len(parts)], pieces[len(parts) :]
         columns = [[column for column in part.columns if column.name != _NODE] for part in parts]
-        for name, of_set in zip(self._faces, pieces[len(parts) :], strict=True):
+        for name, of_set in zip(self._faces, pieces_of_sets, strict=True):
             is_in = np.zeros(len(numbers), np.uint8)
             is_in[of_set] = 1
-            marks = [is_in[of_part][:, None] for of_part in pieces[: len(parts)]]
-            inside = len(of_set) - sum(int(mark.sum()) for mark in marks)
-            losses |= {f"faces of the side set {name} inside of volumes ({inside})": None} if inside > 0 else {}
-            for columns_of_part, mark in zip(columns, marks, strict=True):
-                columns_of_part.append(Column(name, mark, "face"))
-        for columns_of_part, part in zip(columns, parts, strict=True):
+            inside = len(of_set)
+            for columns_of_part, of_part in zip(columns, pieces_of_parts, strict=True):
+                marks = is_in[of_part][:, None]
+                inside -= int(marks.sum())
+                columns_of_part.append(Column(name, marks, "face"))
+            if inside > 0:
+                losses[f"faces of the side set {name} inside of volumes ({inside})"] = None
+        marked: list[Part] = []
+        for part, columns_of_part in zip(parts, columns, strict=True):
             points = _nodes_of_points(part)
-            marked = ((name, np.isin(points, nodes)) for name, nodes in self._points.items())
-            columns_of_part += [Column(name, is_in.astype(np.uint8)[:, None]) for name, is_in in marked]
-        return [replace(part, columns=columns_of_part) for part, columns_of_part in zip(parts, columns, strict=True)]
+            for name, nodes in self._points.items():
+                marks = np.isin(points, nodes).astype(np.uint8)
+                columns_of_part.append(Column(name, marks[:, None]))
+            marked.append(replace(part, columns=columns_of_part))
+        return marked
 
 
 def _nodes_of_points(part: Part) -> Ints:
@@ -174,18 +198,24 @@ def _nodes_of_points(part: Part) -> Ints:
 
 def _nodes_of_faces(part: Part) -> Ints:
     """A row for each polygon of a part: the numbers of its corners in their file, sorted."""
-    rows = np.full((len(part.sizes), MOST_CORNERS), -1)
-    short = part.sizes <= MOST_CORNERS
-    places = np.arange(MOST_CORNERS) < np.where(short, part.sizes, 0)[:, None]
-    rows[places] = _nodes_of_points(part)[part.corners[np.repeat(short, part.sizes)]]
+    return _table_of_corners(part.sizes, _nodes_of_points(part)[part.corners])
+
+
+def _table_of_corners(sizes: Ints, corners: Ints) -> Ints:
+    """A row for each polygon: its corners, sorted after as many -1 as are missing; none of polygons of too many."""
+    rows = np.full((len(sizes), MOST_CORNERS), -1)
+    is_short = sizes <= MOST_CORNERS
+    places = np.arange(MOST_CORNERS) < np.where(is_short, sizes, 0)[:, None]
+    rows[places] = corners[np.repeat(is_short, sizes)]
     return np.sort(rows, axis=1)
 
 
 def _opened(reader: Any, kind: str, size: int, limits: Limits) -> tuple[float, ...]:
     """Let a reader read all that is in a file, and return its times; refuse images and grids by their header."""
     for row in _SETTINGS:
-        for setting in row["settings"].split() if row["value"] and reader.IsA(row["reader"]) else ():
-            getattr(reader, f"Set{setting}")(int(row["value"]))
+        if row["value"] and reader.IsA(row["reader"]):
+            for setting in row["settings"].split():
+                getattr(reader, f"Set{setting}")(int(row["value"]))
     reader.UpdateInformation()
     for what in _ALL_OF:
         getattr(reader, f"EnableAll{what}", int)()
@@ -197,29 +227,36 @@ def _opened(reader: Any, kind: str, size: int, limits: Limits) -> tuple[float, .
         for what in ("NODAL", "ELEM_BLOCK", "GLOBAL"):
             reader.SetAllArrayStatus(getattr(reader, what), 1)
     about, data = reader.GetOutputInformation(0), reader.GetOutputDataObject(0)
-    extent = about.Get(Pipeline.WHOLE_EXTENT()) if about.Has(Pipeline.WHOLE_EXTENT()) else ()
-    counts = [high - low + 1 for low, high in zip(extent[::2], extent[1::2])]
+    counts: list[int] = []
+    if about.Has(Pipeline.WHOLE_EXTENT()):
+        extent = about.Get(Pipeline.WHOLE_EXTENT())
+        counts = [high - low + 1 for low, high in zip(extent[::2], extent[1::2])]
+    points = math.prod(counts)
     what = " x ".join(map(str, counts))
     if data is not None and data.IsA("vtkImageData") and min(counts, default=0) > 1:
         raise FormatError(f"this is an image of {what} points; extract a contour, e.g. in ParaView")
-    if math.prod(counts) > max(size, 1):
+    if points > max(size, 1):
         raise FormatError(f"this is a grid of {what} points in {size} bytes; extract a surface, e.g. in ParaView")
-    require_counts(limits, vertices=math.prod(counts) if counts and min(counts) == 1 else 0)
-    return tuple(about.Get(Pipeline.TIME_STEPS())) if about.Has(Pipeline.TIME_STEPS()) else ()
+    if min(counts, default=0) == 1:
+        require_counts(limits, vertices=points)
+    if not about.Has(Pipeline.TIME_STEPS()):
+        return ()
+    return tuple(about.Get(Pipeline.TIME_STEPS()))
 
 
 def _leaves(data: Any, name: str) -> Iterator[tuple[Any, str]]:
     """The sets of data below one, with their names, or those above them."""
-    below = {"vtkPartitionedDataSetCollection": "PartitionedDataSet", "vtkMultiBlockDataSet": "Block"}
-    of_one = "Partition" if data.IsA("vtkPartitionedDataSet") else ""
-    what = next((what for kind, what in below.items() if data.IsA(kind)), of_one)
-    for place in range(getattr(data, f"GetNumberOf{what}s")() if what else 0):
-        about = data.GetMetaData(place) if data.HasMetaData(place) else None
-        block_name = _text(about.Get(data.NAME())) if about is not None and about.Has(data.NAME()) else name
-        if (one := getattr(data, f"Get{what}")(place)) is not None:
-            yield from _leaves(one, block_name)
+    what = next((what for kind, what in _BELOW.items() if data.IsA(kind)), "")
     if not what:
         yield data, name
+        return
+    for place in range(getattr(data, f"GetNumberOf{what}s")()):
+        block_name = name
+        if data.HasMetaData(place) and data.GetMetaData(place).Has(data.NAME()):
+            block_name = _text(data.GetMetaData(place).Get(data.NAME()))
+        block = getattr(data, f"Get{what}")(place)
+        if block is not None:
+            yield from _leaves(block, block_name)
 
 
 def _part(data: Any, name: str, losses: dict[str, None]) -> Part | None:
@@ -231,7 +268,8 @@ def _part(data: Any, name: str, losses: dict[str, None]) -> Part | None:
         losses["images in three dimensions"] = None
         return None
     surface, points = data, data.GetPointData()
-    if (nodes := points.GetArray("GlobalNodeId")) is not None:
+    nodes = points.GetArray("GlobalNodeId")
+    if nodes is not None:
         # As plain numbers: VTK drops those that it calls global where it cuts curved sides.
         plain = numpy_to_vtk(_FINE * vtk_to_numpy(nodes).astype(np.float64), deep=True)
         plain.SetName(_NODE)
@@ -241,22 +279,23 @@ def _part(data: Any, name: str, losses: dict[str, None]) -> Part | None:
         numbers.SetName(_CELL)  # where cells are curved, those that the filter passes count something else
         data.GetCellData().AddArray(numbers)
         surface = _through(vtkDataSetSurfaceFilter(), data)
-    hidden = np.count_nonzero(_marks(data) & _HIDDEN_CELL)
-    losses |= {f"hidden cells ({hidden})": None} if hidden else {}
+    hidden = _count_hidden(data)
+    if hidden:
+        losses[f"hidden cells ({hidden})"] = None
     surface.RemoveGhostCells()  # those of other pieces, which close the skin of this one
-    before = surface.GetNumberOfVerts() + surface.GetNumberOfLines()
-    losses |= {"points and lines": None} if before else {}
+    cells_before = surface.GetNumberOfVerts() + surface.GetNumberOfLines()
+    if cells_before:
+        losses["points and lines"] = None
     if surface.GetNumberOfStrips():
-        surface, before = _through(vtkTriangleFilter(), surface), 0
+        surface = _through(vtkTriangleFilter(), surface)
+        cells_before = 0
     if not surface.GetNumberOfPolys():
         return None
-    return Part(*_polygons(data, surface, before, losses), name)
+    return _surface_part(data, surface, cells_before, losses, name)
 
 
-def _polygons(
-    data: Any, surface: Any, before: int, losses: dict[str, None]
-) -> tuple[Doubles, Ints, Ints, list[Column], Ints]:
-    """The positions, sizes, corners, columns and materials of a surface, whose cells follow so many points and lines.
+def _surface_part(data: Any, surface: Any, cells_before: int, losses: dict[str, None], name: str) -> Part:
+    """The polygons of a surface, whose cells follow so many points and lines, with their columns.
 
     A surface that is meshed along with its volume is the skin there: the sides of the volume go.
     """
@@ -265,35 +304,33 @@ def _polygons(
     sizes = np.diff(vtk_to_numpy(surface.GetPolys().GetOffsetsArray()).astype(np.int64))
     rows_kept: Any = slice(None)
     if not data.IsA("vtkPolyData"):
-        cells = vtk_to_numpy(surface.GetCellData().GetArray(_CELL))[before:]
-        solid = _of_volumes(data, cells)
-        few = sizes <= MOST_CORNERS
-        rows = np.full((few.sum(), MOST_CORNERS), -1)
-        rows[np.arange(MOST_CORNERS) < sizes[few, None]] = corners[np.repeat(few, sizes)]
-        numbers, rows_kept = row_numbers(np.sort(rows, axis=1)), np.ones(len(sizes), np.bool_)
-        rows_kept[few] = ~(solid[few] & np.isin(numbers, numbers[~solid[few]]))
-        corners, sizes, cells, solid = (
-            corners[np.repeat(rows_kept, sizes)],
-            sizes[rows_kept],
-            cells[rows_kept],
-            solid[rows_kept],
-        )
-        losses |= {INSIDE: None} if solid.any() else {}
-        corners = corners[turned_corners(sizes, solid & _inward(data, cells, positions, sizes, corners))]
-    columns: list[Column] = []
-    domains: tuple[tuple[Any, Domain, slice, Any], ...] = (
-        (surface.GetPointData(), "vertex", slice(None), slice(None)),
-        (surface.GetCellData(), "face", slice(before, None), rows_kept),
-    )
-    for attributes, domain, those, rows in domains:
-        meanings: tuple[tuple[Any, Semantic], ...] = (
-            (attributes.GetTCoords(), "texcoord"),
-            (attributes.GetNormals(), "normal"),
-        )
-        active = {array.GetName(): meaning for array, meaning in meanings if array is not None}
-        values = {name: v[those][rows] for name, v in _arrays(attributes, losses)}
-        columns += columns_of(values, domain, losses, active, _components(attributes))
-    return positions, sizes, corners, columns, np.zeros(len(sizes), np.int64)
+        cells = vtk_to_numpy(surface.GetCellData().GetArray(_CELL))[cells_before:]
+        is_solid = _of_volumes(data, cells)
+        is_short = sizes <= MOST_CORNERS
+        numbers = row_numbers(_table_of_corners(sizes, corners))
+        is_doubled = is_solid & np.isin(numbers, numbers[is_short & ~is_solid])
+        rows_kept = ~(is_short & is_doubled)
+        corners = corners[np.repeat(rows_kept, sizes)]
+        sizes, cells, is_solid = sizes[rows_kept], cells[rows_kept], is_solid[rows_kept]
+        if is_solid.any():
+            losses[INSIDE] = None
+        is_turned = is_solid & _inward(data, cells, positions, sizes, corners)
+        corners = corners[turned_corners(sizes, is_turned)]
+    of_points, of_cells = surface.GetPointData(), surface.GetCellData()
+    values = dict(_arrays(of_points, losses))
+    columns = [*_columns(of_points, values, "vertex", losses)]
+    values = {array_name: array[cells_before:][rows_kept] for array_name, array in _arrays(of_cells, losses)}
+    columns += _columns(of_cells, values, "face", losses)
+    return Part(positions, sizes, corners, columns, np.zeros(len(sizes), np.int64), name)
+
+
+def _columns(attributes: Any, values: dict[str, Any], domain: Domain, losses: dict[str, None]) -> Iterator[Column]:
+    active: dict[str, Semantic] = {}
+    if attributes.GetTCoords() is not None:
+        active[attributes.GetTCoords().GetName()] = "texcoord"
+    if attributes.GetNormals() is not None:
+        active[attributes.GetNormals().GetName()] = "normal"
+    return columns_of(values, domain, losses, active, _components(attributes))
 
 
 def _through(step: Any, data: Any) -> Any:
@@ -307,9 +344,13 @@ def _through(step: Any, data: Any) -> Any:
 
 def _of_volumes(data: Any, cells: Ints) -> Any:
     """Return which polygons are sides of volumes."""
-    kinds = np.array([data.GetCellType(cell) for cell in np.unique(cells).tolist()])
-    dims = {kind: vtkGenericCell.InstantiateCell(kind).GetCellDimension() for kind in np.unique(kinds).tolist()}
-    return np.array([dims[kind] == 3 for kind in kinds.tolist()])[np.searchsorted(np.unique(cells), cells)]
+    used, inverse = np.unique(cells, return_inverse=True)
+    kinds = np.array([data.GetCellType(cell) for cell in used.tolist()], np.int64)
+    is_solid = np.zeros(len(kinds), np.bool_)
+    for kind in np.unique(kinds).tolist():
+        dimension = vtkGenericCell.InstantiateCell(kind).GetCellDimension()
+        is_solid[kinds == kind] = dimension == 3
+    return is_solid[inverse]
 
 
 def _inward(data: Any, cells: Ints, positions: Doubles, sizes: Ints, corners: Ints) -> Any:
@@ -317,8 +358,9 @@ def _inward(data: Any, cells: Ints, positions: Doubles, sizes: Ints, corners: In
     for attributes in (data.GetPointData(), data.GetCellData()):
         attributes.RemoveArray("vtkGhostType")  # cells that are hidden have middles, too
     middles = vtk_to_numpy(_through(vtkCellCenters(), data).GetPoints().GetData())[cells]
-    centers = np.add.reduceat(positions[corners], np.cumsum(sizes) - sizes) / sizes[:, None]
-    return (polygon_normals(positions, sizes, corners) * (centers - middles)).sum(axis=1) < 0
+    sums = np.add.reduceat(positions[corners], np.cumsum(sizes) - sizes)
+    outward = sums / sizes[:, None] - middles
+    return (polygon_normals(positions, sizes, corners) * outward).sum(axis=1) < 0
 
 
 def _text(name: str | bytes) -> str:
@@ -326,21 +368,25 @@ def _text(name: str | bytes) -> str:
     return name.decode(errors="replace").split("\0")[0] if isinstance(name, bytes) else name
 
 
-def _marks(data: Any) -> Any:
-    """The marks of ghosts of the cells of a set of data."""
+def _count_hidden(data: Any) -> int:
+    """Count the cells of a set of data whose marks of ghosts hide them."""
     marks = data.GetCellData().GetArray(GHOSTS)
-    return np.zeros(0, np.uint8) if marks is None else vtk_to_numpy(marks)
+    if marks is None:
+        return 0
+    return int(np.count_nonzero(vtk_to_numpy(marks) & _HIDDEN_CELL))
 
 
 def _components(attributes: Any) -> dict[str, list[str]]:
     """The names of the components of arrays, of those that name all."""
-    arrays = (attributes.GetAbstractArray(place) for place in range(attributes.GetNumberOfArrays()))
-    arrays_named = (array for array in arrays if array.GetName() and array.HasAComponentName())
-    components = {
-        _text(a.GetName()): [_text(a.GetComponentName(n) or "") for n in range(a.GetNumberOfComponents())]
-        for a in arrays_named
-    }
-    return {name: words for name, words in components.items() if all(words) and len(words) > 1}
+    components: dict[str, list[str]] = {}
+    for place in range(attributes.GetNumberOfArrays()):
+        array = attributes.GetAbstractArray(place)
+        count = array.GetNumberOfComponents()
+        if array.GetName() and array.HasAComponentName() and count > 1:
+            words = [_text(array.GetComponentName(number) or "") for number in range(count)]
+            if all(words):
+                components[_text(array.GetName())] = words
+    return components
 
 
 def _arrays(attributes: Any, losses: dict[str, None]) -> Iterator[tuple[str, Any]]:

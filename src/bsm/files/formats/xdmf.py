@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from hashlib import blake2b
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -51,11 +52,10 @@ class _Grids:
         self._folder, self._limits = Path(path).resolve().parent, limits
         self._own = set[Path]()  # HDF5 files that lead to no other folder
         self._present, self._read, self._copied = len(data), 0, 0
+        # A file must not make the parser open another one, nor the network.
+        parser = xml.XMLParser(resolve_entities=False, no_network=True, remove_comments=True)
         with as_library_error("lxml"):
-            # A file must not make the parser open another one, nor the network.
-            self.root = xml.fromstring(
-                data, xml.XMLParser(resolve_entities=False, no_network=True, remove_comments=True)
-            )
+            self.root = xml.fromstring(data, parser)
             for tag in ("Grid", "Topology", "Geometry", "Attribute", "DataItem"):
                 for element in [*self.root.iter(tag)]:
                     self._resolve(element)
@@ -67,16 +67,19 @@ class _Grids:
                 raise FormatError(f"this XDMF includes {include.get('href')}; {_WAY}")
             pointer = str(include.get("xpointer", "")).removeprefix("xpointer(").removesuffix(")")
             # A copy, as an element of lxml has one parent only, and others may point to it, too.
-            element.extend(self._copies(self._found(pointer)))
+            element.extend(self._copies(self._find(pointer)))
             element.remove(include)
-        if reference := element.get("Reference"):
-            element_found = self._found((element.text or "").strip() if reference == "XML" else reference)
-            if len(element_found) != 1 or element_found[0].get("Reference"):
-                raise FormatError(f"the reference {reference[:80]} does not lead to one element")
-            element[:], element.text = self._copies(element_found[0]), element_found[0].text
-            element.attrib.update({**element_found[0].attrib, **element.attrib})
+        reference = element.get("Reference")
+        if not reference:
+            return
+        targets = self._find((element.text or "").strip() if reference == "XML" else reference)
+        if len(targets) != 1 or targets[0].get("Reference"):
+            raise FormatError(f"the reference {reference[:80]} does not lead to one element")
+        target = targets[0]
+        element[:], element.text = self._copies(target), target.text
+        element.attrib.update({**target.attrib, **element.attrib})
 
-    def _found(self, pointer: str) -> Any:
+    def _find(self, pointer: str) -> Any:
         """Return the elements that a path leads to; paths in paths may take longer than any file is worth."""
         if len(pointer) > _LONGEST_PATH or not _PATH.fullmatch(pointer):
             raise FormatError(f"this XDMF refers to {pointer[:80]}, which is more than a path; {_WAY}")
@@ -86,24 +89,24 @@ class _Grids:
         """Return copies of elements, which may not take much more memory than the file."""
         copies = []
         for element in elements:
-            for one in element.iter():
-                self._copied += TAG + len(one.text or "")
+            self._copied += sum(TAG + len(one.text or "") for one in element.iter())
             self._limits.check_memory(self._copied, 0, self._present)
             copies.append(element.__deepcopy__({}))
         return copies
 
     def numbers(self, parent: Any) -> Any:
         """The numbers of the data item in an element."""
-        if len(items := parent.findall("DataItem")) != 1:
+        items = parent.findall("DataItem")
+        if len(items) != 1:
             raise FormatError(f"{parent.tag} {parent.get('Name', '')} has {len(items)} data items; {_WAY}")
         return self._item(items[0])
 
     def _item(self, item: Any) -> Any:
         kind, form = item.get("ItemType", "Uniform"), item.get("Format", "XML")
-        words = (item.text or "").strip()
-        shape = [int(word) for word in str(item.get("Dimensions", "")).split()]
         if kind != "Uniform" or form not in ("XML", "HDF"):
             raise FormatError(f"this XDMF has data items of the kind {kind}, {form}; {_WAY}")
+        words = (item.text or "").strip()
+        shape = [int(word) for word in str(item.get("Dimensions", "")).split()]
         if form == "XML":
             values = np.array(words.split(), np.float64)
             self._take(values.nbytes)
@@ -116,15 +119,17 @@ class _Grids:
 
     def _in_hdf(self, path: Path, place: str) -> Any:
         h5py = imported("h5py", "XDMF is read with h5py", "simulation")
+        compressed = path.stat().st_size
         if path not in self._own:
             refuse_outside_hdf(path, self._folder)
             self._own.add(path)
-            self._present += path.stat().st_size
+            self._present += compressed
         with as_library_error("h5py"), h5py.File(path, "r") as file:
             table = file[place]
             # HDF5 knows the size of a table before it reads it; compressed tables may be huge.
-            require_inflated(table.size * table.dtype.itemsize, path.stat().st_size, self._limits)
-            self._take(table.size * table.dtype.itemsize)
+            size = table.size * table.dtype.itemsize
+            require_inflated(size, compressed, self._limits)
+            self._take(size)
             return table[()]
 
     def _take(self, size: int) -> None:
@@ -140,40 +145,55 @@ class _Grids:
         series = [grid for grid in grids if grid.get("CollectionType") == "Temporal"]
         if not series:
             return [(0.0, grids)]
+        steps = [(time, [grid]) for time, grid in zip(self._times(series[0]), series[0].findall("Grid"), strict=True)]
         others = [grid for grid in grids if grid not in series and grid.find("Attribute") is not None]
-        series_steps = [[*zip(self._times(grid), grid.findall("Grid"), strict=True)] for grid in series]
-        times = [[time for time, _ in steps] for steps in series_steps]
-        if others or any(times_of_other != times[0] for times_of_other in times):
-            name = (others or [s for s, t in zip(series, times) if t != times[0]])[0].get("Name", "")
+        for grid in series[1:]:
+            if self._times(grid) == [time for time, _ in steps]:
+                for (_, grids_of_step), step in zip(steps, grid.findall("Grid"), strict=True):
+                    grids_of_step.append(step)
+            else:
+                others.append(grid)
+        if others:
+            name = others[0].get("Name", "")
             raise FormatError(
                 f"the grid {name} does not have the times of the others; {_WAY}, or write one file for each"
             )
-        grid_whole = next((grid for grid in self.root.iter("Grid") if grid.find("Topology") is not None), None)
-        for _, grid in (step for steps in series_steps for step in steps):
+        self._complete([grid for _, grids_of_step in steps for grid in grids_of_step])
+        return sorted(steps, key=lambda step: step[0])
+
+    def _complete(self, grids: Sequence[Any]) -> None:
+        """Give grids without a mesh that of the first grid which has one."""
+        model = next((grid for grid in self.root.iter("Grid") if grid.find("Topology") is not None), None)
+        if model is None:
+            return
+        for grid in grids:
             for tag in ("Topology", "Geometry"):
-                if grid_whole is not None and grid.get("GridType", "Uniform") == "Uniform" and grid.find(tag) is None:
-                    grid.append(grid_whole.find(tag).__deepcopy__({}))
-        together = zip(times[0], *([grid for _, grid in steps] for steps in series_steps), strict=True)
-        return sorted(((time, grids) for time, *grids in together), key=lambda step: step[0])
+                if grid.get("GridType", "Uniform") == "Uniform" and grid.find(tag) is None:
+                    grid.append(model.find(tag).__deepcopy__({}))
 
     def _times(self, series: Any) -> list[float]:
         """When the steps of a series are."""
         steps, time = series.findall("Grid"), series.find("Time")
         if time is None:
-            time_elements = [step.find("Time") for step in steps]
-            return [float(place) if one is None else float(one.get("Value")) for place, one in enumerate(time_elements)]
+            times: list[float] = []
+            for place, step in enumerate(steps):
+                own_time = step.find("Time")
+                value = place if own_time is None else own_time.get("Value")
+                times.append(float(value))
+            return times
         kind = time.get("TimeType", "Single")
         if kind not in _TIMES:
             raise FormatError(f"this XDMF has times of the kind {kind}; {_WAY}")
-        values = (
-            self.numbers(time).ravel() if time.find("DataItem") is not None else np.array([float(time.get("Value"))])
-        )
+        if time.find("DataItem") is None:
+            values = np.array([float(time.get("Value"))])
+        else:
+            values = np.asarray(self.numbers(time).ravel(), np.float64)
         count = int(values[2]) if kind == "HyperSlab" else len(values)
         if count != len(steps):
             raise FormatError(f"there are {count} times for {len(steps)} steps")
         if kind == "HyperSlab":
             values = values[0] + values[1] * np.arange(count)
-        times: list[float] = np.asarray(values, np.float64).tolist()
+        times = values.tolist()
         return times
 
     def surface(self, grids: Sequence[Any], size: int) -> Polygons:
@@ -181,86 +201,114 @@ class _Grids:
         self._read = 0
         every = [leaf for grid in grids for leaf in self._leaves(grid)]
         shapes = [self._shape(leaf) for leaf in every]
-        merged: dict[Any, list[int]] = {}
+        places_by_key: dict[Any, list[int]] = {}
         for place, shape in enumerate(shapes):
-            merged.setdefault(_key_of(shape) if len(grids) > 1 else place, []).append(place)
-        alike = [*merged.values()]
-        parts = [self._part(shapes[places[0]], [every[place] for place in places]) for places in alike]
-        if len(parts) == 1:
-            return parts[0]
-        names = [str(every[places[0]].get("Name", "")) for places in alike]
-        surfaces = [part_of(*one) for one in zip(parts, names, strict=True)]
-        lost = dict.fromkeys(name for part in parts for name in part.dropped)
-        return replace(joined_parts(surfaces, None, self._limits, size), dropped=tuple(lost))
+            key = _key_of(shape) if len(grids) > 1 else place
+            places_by_key.setdefault(key, []).append(place)
+        surfaces: list[Polygons] = []
+        names: list[str] = []
+        for first, *more in places_by_key.values():
+            surfaces.append(self._part(shapes[first], [every[place] for place in (first, *more)]))
+            names.append(str(every[first].get("Name", "")))
+        if len(surfaces) == 1:
+            return surfaces[0]
+        parts = [*map(part_of, surfaces, names)]
+        lost = dict.fromkeys(name for surface in surfaces for name in surface.dropped)
+        return replace(joined_parts(parts, None, self._limits, size), dropped=tuple(lost))
 
     def _leaves(self, grid: Any) -> list[Any]:
-        if unknown := next((str(child.tag) for child in grid if child.tag not in _KNOWN), None):
-            raise FormatError(f"this XDMF has the element {unknown}, which is not known here; {_WAY}")
-        kind, below = grid.get("GridType", "Uniform"), grid.findall("Grid")
+        for child in grid:
+            if child.tag not in _KNOWN:
+                raise FormatError(f"this XDMF has the element {child.tag}, which is not known here; {_WAY}")
+        kind = grid.get("GridType", "Uniform")
         if grid.get("CollectionType") == "Temporal" or kind not in ("Uniform", "Collection", "Tree"):
             raise FormatError(f"this XDMF has grids of the kind {kind} in others; {_WAY}")
-        return [leaf for one in below for leaf in self._leaves(one)] if kind != "Uniform" else [grid]
+        if kind == "Uniform":
+            return [grid]
+        return [leaf for child in grid.findall("Grid") for leaf in self._leaves(child)]
 
     def _shape(self, grid: Any) -> tuple[Any, list[tuple[str, Any]]]:
         """The points of a grid, and its cells."""
         topology, geometry = grid.find("Topology"), grid.find("Geometry")
         if topology is None or geometry is None:
             raise FormatError(f"the grid {grid.get('Name', '')} has no topology or geometry")
-        kind = geometry.get("GeometryType", geometry.get("Type", "XYZ")).upper()
-        if kind not in ("XYZ", "XY", "X_Y_Z", "X_Y"):
-            raise FormatError(f"this XDMF has a geometry {kind}; {_WAY}")
-        tables = [self._item(item) for item in geometry.findall("DataItem")]
-        width = kind.replace("_", "").count("X") + kind.count("Y") + kind.count("Z")
-        points = np.column_stack([axis.ravel() for axis in tables]) if "_" in kind else tables[0].reshape(-1, width)
+        points = self._points(geometry)
         name = topology.get("TopologyType", topology.get("Type", "")).lower().replace("_", "")
         flat = self.numbers(topology).astype(np.int64)
         base = int(topology.get("BaseOffset", 0))
         if name == "mixed":
             return points, [(kind, rows - base) for kind, rows in _mixed(flat.ravel())]
-        layouts = {
-            word.rstrip("0123456789") if number < 10 else word: word
-            for number, words in _CELLS.items()
-            for word in words.split()
-        }
         if topology.get("Order"):
             raise FormatError(f"this XDMF has an order of nodes of its own; {_WAY}")
-        if name not in layouts:
+        if name not in _LAYOUTS:
             raise FormatError(f"this XDMF has cells of the kind {name}; {_WAY}")
-        width = int(re.sub(r"\D", "", layouts[name]) or topology.get("NodesPerElement", flat.shape[-1]))
-        return points, [(_shape_of(layouts[name]), flat.reshape(-1, width) - base)]
+        width = _width_of(_LAYOUTS[name]) or int(topology.get("NodesPerElement", flat.shape[-1]))
+        return points, [(_shape_of(_LAYOUTS[name]), flat.reshape(-1, width) - base)]
+
+    def _points(self, geometry: Any) -> Any:
+        kind = geometry.get("GeometryType", geometry.get("Type", "XYZ")).upper()
+        if kind not in ("XYZ", "XY", "X_Y_Z", "X_Y"):
+            raise FormatError(f"this XDMF has a geometry {kind}; {_WAY}")
+        tables = [self._item(item) for item in geometry.findall("DataItem")]
+        if "_" in kind:
+            return np.column_stack([axis.ravel() for axis in tables])
+        return tables[0].reshape(-1, len(kind))
 
     def _part(self, shape: tuple[Any, list[tuple[str, Any]]], grids: Sequence[Any]) -> Polygons:
         points, blocks = shape
         counts = {"Node": len(points), "Cell": sum(len(rows) for _, rows in blocks)}
         columns: dict[str, dict[str, Any]] = {"Node": {}, "Cell": {}}
         losses = []
-        for attribute in (attribute for grid in grids for attribute in grid.findall("Attribute")):
+        for attribute in chain(*(grid.findall("Attribute") for grid in grids)):
             center, name = attribute.get("Center", "Node"), attribute.get("Name", "")
             if center not in columns:
                 losses.append(f"{name} (Center={center})")
                 continue
-            values = self.numbers(attribute)
-            if values.size % counts[center] or not counts[center]:
-                raise MeshError(f"{name} has {values.size} numbers for {counts[center]} rows")
+            values, count = self.numbers(attribute), counts[center]
+            if not count or values.size % count:
+                raise MeshError(f"{name} has {values.size} numbers for {count} rows")
             if name in columns[center]:
                 raise FormatError(f"two grids have values called {name}; {_WAY}")
-            table = values.reshape(counts[center], -1)
+            table = values.reshape(count, -1)
             # Rows of XDMF are xx xy xz yy yz zz; those of VTK, by which components are named, xx yy zz xy yz xz.
-            is_symmetric = attribute.get("AttributeType", attribute.get("Type", "")) == "Tensor6"
-            columns[center][name] = table[:, [0, 3, 5, 1, 4, 2]] if is_symmetric and table.shape[1] == 6 else table
+            kind = attribute.get("AttributeType", attribute.get("Type", ""))
+            if kind == "Tensor6" and table.shape[1] == 6:
+                table = table[:, [0, 3, 5, 1, 4, 2]]
+            columns[center][name] = table
         return skin(points, blocks, columns["Node"], columns["Cell"], losses)
 
 
-def _shape_of(word: str) -> str:
-    name = word.rstrip("0123456789")
+def _layouts() -> dict[str, str]:
+    """The kinds of cells by their names, which have a number of points but for lines and polygons of any size."""
+    layouts: dict[str, str] = {}
+    for number, words in _CELLS.items():
+        for word in words.split():
+            name = word.rstrip("0123456789") if number < 10 else word
+            layouts[name] = word
+    return layouts
+
+
+_LAYOUTS = _layouts()
+
+
+def _width_of(layout: str) -> int:
+    """The number of points of a layout, which ends with it; 0: it has none."""
+    return int(re.sub(r"\D", "", layout) or 0)
+
+
+def _shape_of(layout: str) -> str:
+    name = layout.rstrip("0123456789")
     return _SHORT.get(name, name)
 
 
 def _key_of(shape: tuple[Any, list[tuple[str, Any]]]) -> Any:
     """Return a key that is the same for the same points and cells."""
     points, blocks = shape
-    tables = [("points", np.asarray(points) + 0), *blocks]  # + 0, since -0 is 0
-    return tuple((kind, table.shape, blake2b(np.ascontiguousarray(table).tobytes()).digest()) for kind, table in tables)
+    key: list[Any] = []
+    for kind, table in (("points", np.asarray(points) + 0), *blocks):  # + 0, since -0 is 0
+        digest = blake2b(np.ascontiguousarray(table).tobytes()).digest()
+        key.append((kind, table.shape, digest))
+    return tuple(key)
 
 
 def _mixed(flat: Ints) -> list[tuple[str, Ints]]:
@@ -270,14 +318,16 @@ def _mixed(flat: Ints) -> list[tuple[str, Ints]]:
         kind = int(row[0])
         if kind not in _CELLS or row[-1] < 0:
             raise FormatError(f"this XDMF has cells of the kind {kind}; {_WAY}")
-        count = row[1] if kind in _COUNTED else re.sub(r"\D", "", _CELLS[kind].split()[0])
-        return 1 + (kind in _COUNTED) + int(count), slice(0, 1 + (kind in _COUNTED))
+        if kind in _COUNTED:
+            return 2 + int(row[1]), slice(0, 2)
+        return 1 + _width_of(_CELLS[kind].split()[0]), slice(0, 1)
 
-    return [
-        (_shape_of(_CELLS[kind].split()[0]), table[:, 1 + (kind in _COUNTED) :])
-        for table in runs(flat, shape)
-        for kind in [int(table[0, 0])]
-    ]
+    blocks: list[tuple[str, Ints]] = []
+    for table in runs(flat, shape):
+        kind = int(table[0, 0])
+        first = 2 if kind in _COUNTED else 1
+        blocks.append((_shape_of(_CELLS[kind].split()[0]), table[:, first:]))
+    return blocks
 
 
 def read_xdmf_mesh(data: bytes, path: str | None, limits: Limits) -> Polygons:
@@ -286,7 +336,9 @@ def read_xdmf_mesh(data: bytes, path: str | None, limits: Limits) -> Polygons:
         document = _Grids(data, path, limits)
         steps = document.steps()
         polygons = document.surface(steps[0][1], len(data))
-    return replace(polygons, dropped=(*polygons.dropped, *([f"later steps ({len(steps) - 1})"] if steps[1:] else [])))
+    if len(steps) == 1:
+        return polygons
+    return replace(polygons, dropped=(*polygons.dropped, f"later steps ({len(steps) - 1})"))
 
 
 def read_xdmf(path: str, request: Wanted, limits: Limits) -> Frames | None:
