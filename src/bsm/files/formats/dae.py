@@ -42,17 +42,21 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
         prepared, unread = _prepared(data)
         document = collada.Collada(io.BytesIO(prepared), ignore=[collada.common.DaeError])
         scene = _Nodes(collada, beside)
-        nodes = document.scene.nodes if document.scene is not None else ()
+        nodes = () if document.scene is None else document.scene.nodes
         surfaces = [*_placed(collada, nodes)]
-        shapes = [scene.shape(primitive) for primitive, _, _ in surfaces]
-        counts = [(len(shape.positions), max(len(shape.corners) - 2 * len(shape.sizes), 0)) for shape in shapes]
+        counts: list[tuple[int, int]] = []
+        for primitive, _, _ in surfaces:
+            shape = scene.shape(primitive)
+            triangles = max(len(shape.corners) - 2 * len(shape.sizes), 0)
+            counts.append((len(shape.positions), triangles))
         joined = joined_parts(starmap(scene.part, surfaces), counts, limits, len(data))
         about = document.assetInfo
         metadata: dict[str, Value] = {"up": str(about.upaxis or "Y_UP")[0].lower()}
         metadata["unit"] = unit_named(float(about.unitmeter or 1.0))
-        tools = [str(contributor.authoring_tool or "") for contributor in about.contributors]
-        own_tool = next((tool for tool in tools if tool.startswith("bsm ")), None)
-        metadata |= {"provenance": own_tool} if own_tool else {}
+        for contributor in reversed(about.contributors):
+            tool = str(contributor.authoring_tool or "")
+            if tool.startswith("bsm "):
+                metadata["provenance"] = tool
         metadata |= described(dict(enumerate(scene.materials.values()))) | scene.images
         errors = [f"unreadable elements ({in_words(error)[:80]})" for error in document.errors[:_MOST_ERRORS]]
         dropped = (*unread, *errors, *scene.absent)
@@ -65,18 +69,31 @@ def _prepared(data: bytes) -> tuple[bytes, list[str]]:
     unread = _TAKEN.unread_names(_TAKEN.in_xml(data))
     for mesh in [element for element in root.iter() if _tag(element) == "mesh"]:
         for drawn in list(mesh):
-            for place, holed in enumerate(drawn):
-                if _tag(holed) == "ph":
-                    rings = [(ring.text or "").split() for ring in holed]
-                    ends = " ".join(map(str, accumulate(map(len, rings))))
-                    drawn[place] = ElementTree.Element(holed.tag[:-1], {"ends": ends} if len(rings) > 1 else {})
-                    drawn[place].text = " ".join(chain.from_iterable(rings))
+            for place, element in enumerate(drawn):
+                if _tag(element) == "ph":
+                    drawn[place] = _with_ends(element)
                     changed = True
-            filled = any(_tag(element) == "p" and (element.text or "").strip() for element in drawn)
-            if _tag(drawn) in ("lines", "linestrips") or (_tag(drawn) in _DRAWN and not filled):
+            if _is_empty(drawn):
                 mesh.remove(drawn)
                 changed = True
-    return (ElementTree.tostring(root) if changed else data), unread
+    return ElementTree.tostring(root) if changed else data, unread
+
+
+def _with_ends(polygon: Any) -> Any:
+    """Return a polygon with holes as one without, whose attribute tells where each ring ends."""
+    rings = [(ring.text or "").split() for ring in polygon]
+    element = ElementTree.Element(polygon.tag[:-1])
+    element.text = " ".join(chain(*rings))
+    if len(rings) > 1:
+        element.set("ends", " ".join(map(str, accumulate(map(len, rings)))))
+    return element
+
+
+def _is_empty(drawn: Any) -> bool:
+    """Whether an element of a mesh draws no polygons."""
+    if _tag(drawn) not in _DRAWN:
+        return _tag(drawn) in ("lines", "linestrips")
+    return not any(_tag(element) == "p" and (element.text or "").strip() for element in drawn)
 
 
 def _tag(element: Any) -> str:
@@ -89,7 +106,9 @@ def _placed(collada: Any, nodes: Any) -> Iterator[tuple[Any, Any, Doubles]]:
     while waiting:
         node, matrix = waiting.pop()
         if isinstance(node, collada.scene.GeometryNode):
-            yield from ((one, node, matrix) for one in node.geometry.primitives if one.vertex is not None)
+            for primitive in node.geometry.primitives:
+                if primitive.vertex is not None:
+                    yield primitive, node, matrix
         elif isinstance(node, collada.scene.Node):
             moved = matrix @ node.matrix
             waiting += [(child, moved) for child in reversed(node.children)]
@@ -109,35 +128,34 @@ class _Nodes:
     def shape(self, primitive: Any) -> Part:
         """The polygons of a primitive, which may stand in several places."""
         if id(primitive) not in self._shapes:
-            sizes = np.asarray(getattr(primitive, "vcounts", np.full(len(primitive.index), 3)), np.int64)
             index = np.asarray(primitive.index, np.int64).reshape(-1, primitive.index.shape[-1])
-            sizes, corner_rows = _without_holes(primitive, sizes, index.shape[1])
-            index = index[corner_rows]
-            rows, corners = np.unique(np.asarray(primitive.vertex_index).reshape(-1)[corner_rows], return_inverse=True)
-            if rows.size and rows[0] < 0:  # numpy would count from the end
-                raise FormatError(f"a corner has the index {rows[0]}, which no vertex has")
-            points = np.asarray(primitive.vertex, np.float64)[rows]
-            part = Part(points, sizes, corners.reshape(-1), _columns(primitive, index), np.zeros_like(sizes), "")
-            self._shapes[id(primitive)] = part
+            sizes = np.asarray(getattr(primitive, "vcounts", np.full(len(primitive.index), 3)), np.int64)
+            sizes, places = _without_holes(primitive, sizes, index.shape[1])
+            vertices = np.asarray(primitive.vertex_index).reshape(-1)[places]
+            used, corners = np.unique(vertices, return_inverse=True)
+            if used.size and used[0] < 0:  # numpy would count from the end
+                raise FormatError(f"a corner has the index {used[0]}, which no vertex has")
+            points = np.asarray(primitive.vertex, np.float64)[used]
+            columns = _columns(primitive, index[places])
+            self._shapes[id(primitive)] = Part(points, sizes, corners.reshape(-1), columns, np.zeros_like(sizes), "")
         return self._shapes[id(primitive)]
 
     def part(self, primitive: Any, node: Any, matrix: Doubles) -> Part:
-        bound = {material.symbol: material.target for material in node.materials}
-        material = bound.get(primitive.material)
+        targets = {material.symbol: material.target for material in node.materials}
+        material = targets.get(primitive.material)
         name = None if material is None else str(material.id)
         if name not in self.materials:
-            first = str(next((source[3] for source in primitive.sources.get("TEXCOORD", ())), 0) or 0)
-            others = {symbol for use in node.materials for symbol, _, number in use.inputs if str(number or 0) != first}
-            self.materials[name] = {} if material is None else self._words(material, others)
+            self.materials[name] = {}
+            if material is not None:
+                self.materials[name] = self._words(material, _other_sets(primitive, node))
         shape, number = self.shape(primitive), list(self.materials).index(name)
-        named_part = replace(
-            shape, materials=shape.materials + number, name=str(node.geometry.name or node.geometry.id)
-        )
-        return named_part.placed(matrix)
+        geometry_name = str(node.geometry.name or node.geometry.id)
+        return replace(shape, materials=shape.materials + number, name=geometry_name).placed(matrix)
 
     def _words(self, material: Any, others: set[str]) -> Material:
         """A material in the words of libraries of OBJ, which are those of COLLADA."""
-        effect, fields = material.effect, dict[str, Any](name=str(material.name or material.id))
+        effect = material.effect
+        fields: Material = {"name": str(material.name or material.id)}
         for attribute, word in _NUMBERS.items():
             value = getattr(effect, attribute)
             if isinstance(value, tuple | list):
@@ -145,23 +163,49 @@ class _Nodes:
             elif isinstance(value, int | float):
                 fields[word] = float(value)
         for attribute, word in _IMAGES.items():
-            if isinstance(value := getattr(effect, attribute), self._collada.material.Map):
-                name = str(value.sampler.surface.image.path)
-                image = self._beside.read(unquote(name))
-                ways = {_tag(one): str(one.text).strip() for one in value.sampler.xmlnode.iter()}
-                self.absent |= {f"{name} {way} of textures": None for name, way in ways.items() if way in _OTHER_WAYS}
-                self.absent |= {"the texcoord set of textures": None} if value.texcoord in others else {}
-                why = image if isinstance(image, str) else "" if kind_of_image(image) else "its format is not known"
-                if why:
-                    self.absent[f"the image {name[:80]} ({why})"] = None
-                    continue
-                number = self._numbers.setdefault(name, len(self._numbers))
-                wrap = tuple(_WAYS.get(ways.get(side, ""), "repeat") for side in ("wrap_s", "wrap_t"))
-                fields |= Texture(number, wrap=wrap).in_words(word)
-                self.images |= {f"image.{number}.name": name, f"image.{number}.data": image}
-        if (opacity := _opacity(effect)) != 1:
+            value = getattr(effect, attribute)
+            if isinstance(value, self._collada.material.Map):
+                texture = self._texture(value, others)
+                if texture is not None:
+                    fields |= texture.in_words(word)
+        opacity = _opacity(effect)
+        if opacity != 1:
             fields["d"] = opacity
-        return fields | ({"doubleSided": 1} if effect.double_sided else {})
+        if effect.double_sided:
+            fields["doubleSided"] = 1
+        return fields
+
+    def _texture(self, value: Any, others: set[str]) -> Texture | None:
+        """The texture of a property; None if there is no image for it."""
+        sampler = value.sampler
+        name = str(sampler.surface.image.path)
+        image = self._beside.read(unquote(name))
+        ways = {_tag(element): str(element.text).strip() for element in sampler.xmlnode.iter()}
+        for side, way in ways.items():
+            if way in _OTHER_WAYS:
+                self.absent[f"{side} {way} of textures"] = None
+        if value.texcoord in others:
+            self.absent["the texcoord set of textures"] = None
+        if isinstance(image, bytes) and not kind_of_image(image):
+            image = "its format is not known"
+        if isinstance(image, str):
+            self.absent[f"the image {name[:80]} ({image})"] = None
+            return None
+        number = self._numbers.setdefault(name, len(self._numbers))
+        self.images |= {f"image.{number}.name": name, f"image.{number}.data": image}
+        wrap = tuple(_WAYS.get(ways.get(side, ""), "repeat") for side in ("wrap_s", "wrap_t"))
+        return Texture(number, wrap=wrap)
+
+
+def _other_sets(primitive: Any, node: Any) -> set[str]:
+    """The symbols of the texture coordinates of a node but for the first set of a primitive."""
+    first = "0"
+    for source in primitive.sources.get("TEXCOORD", ())[:1]:
+        first = str(source[3] or 0)
+    others: set[str] = set()
+    for material in node.materials:
+        others |= {symbol for symbol, _, number in material.inputs if str(number or 0) != first}
+    return others
 
 
 def _without_holes(primitive: Any, sizes: Ints, width: int) -> tuple[Ints, Any]:
@@ -170,13 +214,16 @@ def _without_holes(primitive: Any, sizes: Ints, width: int) -> tuple[Ints, Any]:
     if not any("ends" in element.attrib for element in drawn):
         return sizes, slice(None)
     points = np.asarray(primitive.vertex, np.float64)[np.asarray(primitive.vertex_index).reshape(-1)]
-    counts, places = [], []
+    counts: list[int] = []
+    places: list[Ints] = []
     for element, size, end in zip(drawn, sizes.tolist(), np.cumsum(sizes).tolist(), strict=True):
         corners = np.arange(end - size, end)
         ends = [int(number) // width for number in element.get("ends", "").split()]
         if ends:
             corners = corners[cut_holes(points[corners], ends).reshape(-1)]
-        counts += [3] * (len(corners) // 3) if ends else [size]
+            counts += [3] * (len(corners) // 3)
+        else:
+            counts.append(size)
         places.append(corners)
     return np.array(counts, np.int64), np.concatenate(places)
 
@@ -184,23 +231,28 @@ def _without_holes(primitive: Any, sizes: Ints, width: int) -> tuple[Ints, Any]:
 def _opacity(effect: Any) -> float:
     """Return the opacity by the color of <transparent> and the number of <transparency>, which is 1 by default."""
     marks = {_tag(element): element for element in effect.xmlnode.iter()}
-    mode = marks["transparent"].get("opaque") if "transparent" in marks else None
-    color = effect.transparent if isinstance(effect.transparent, tuple | list) else (1.0,) * 4
-    share = effect.transparency if "transparency" in marks and isinstance(effect.transparency, int | float) else 1.0
-    if str(mode).startswith("RGB"):
+    mode = str(marks["transparent"].get("opaque")) if "transparent" in marks else ""
+    color, share = effect.transparent, 1.0
+    if not isinstance(color, tuple | list):
+        color = (1.0, 1.0, 1.0, 1.0)
+    if "transparency" in marks and isinstance(effect.transparency, int | float):
+        share = effect.transparency
+    if mode.startswith("RGB"):
         share *= sum(weight * number for weight, number in zip(_LUMINANCE, color))
-    else:
-        share *= color[3] if len(color) > 3 else 1.0
-    return float(1 - share if str(mode).endswith("ZERO") else share)
+    elif len(color) > 3:
+        share *= color[3]
+    return float(1 - share if mode.endswith("ZERO") else share)
 
 
 def _columns(primitive: Any, index: Array) -> list[Column]:
     """Normals, texture coordinates and colors of the corners; of most kinds there may be several."""
-    columns = []
+    columns: list[Column] = []
     for kind, semantic in _SEMANTICS.items():
         for number, (offset, _, _, _, source) in enumerate(primitive.sources.get(kind, ())):
             values = np.asarray(source.data, np.float64)
-            column = Column(semantic, compact(values), "corner", semantic)
-            column = color_column(values[:, :4], "corner") if semantic == "color" else column
+            if semantic == "color":
+                column = color_column(values[:, :4], "corner")
+            else:
+                column = Column(semantic, compact(values), "corner", semantic)
             columns.append(replace(column, name=f"{semantic}{number or ''}", indices=index[:, offset]))
     return columns

@@ -34,27 +34,37 @@ _WAY = "write it as .vtu, e.g. with pyNastran or ParaView"
 
 
 def read_nastran(data: bytes, path: str | None, limits: Limits) -> Polygons:
-    keywords, systems = Keywords("nastran", _WAY), dict[int, tuple[str, Card]]()
+    keywords = Keywords("nastran", _WAY)
+    lines = included(data.decode("latin-1"), _INCLUDE, path).splitlines()
     cards = defaultdict[str, list[Card]](list)
-    for name, line, fields in _cards(included(data.decode("latin-1"), _INCLUDE, path).splitlines(), keywords):
+    systems = dict[int, tuple[str, Card]]()
+    for name, line, fields in _cards(lines, keywords):
         if name in ("GRID", *_ELEMENTS):
             cards[name].append((line, fields))
         elif re.fullmatch("CORD[12][RCS]", name):
-            for row in (fields[:4], fields[4:8]) if name[4] == "1" else (fields,):
-                systems |= {_integers([(line, row)], 0)[0]: (name, (line, row))} if any(row) else {}
+            # A card of three nodes may have two systems.
+            rows = [fields[:4], fields[4:8]] if name[4] == "1" else [fields]
+            for row in filter(any, rows):
+                number = int(_integers([(line, row)], 0)[0])
+                systems[number] = name, (line, row)
         else:
             keywords.leave(name, line)
     require_counts(limits, vertices=len(cards["GRID"]))
     grids = _without_repeats(cards["GRID"])
     numbers = Numbering(_integers(grids, 0))
-    grid_points, owners = _reals([(line, row[2:5]) for line, row in grids]), _integers(grids, 1)
-    points = _Systems(systems, numbers, grid_points, owners).points() if owners.any() else grid_points
+    points = _reals([(line, row[2:5]) for line, row in grids])
+    owners = _integers(grids, 1)
+    if owners.any():
+        points = _Systems(systems, numbers, points, owners).points()
     blocks, properties = [], list[Ints]()
     for name, (shape, counts) in _ELEMENTS.items():
-        for count, cards_alike in _by_count(name, cards[name], counts, keywords):
-            nodes = np.column_stack([_integers(cards_alike, 2 + place) for place in range(count)])
-            blocks.append((shape, numbers.rows(nodes)[:, _ORDER.get(count, [*range(count)])]))
-            properties.append(_integers(cards_alike, 1))
+        for count, elements in _by_count(name, cards[name], counts, keywords):
+            nodes = np.column_stack([_integers(elements, 2 + place) for place in range(count)])
+            node_rows = numbers.rows(nodes)
+            if count in _ORDER:
+                node_rows = node_rows[:, _ORDER[count]]
+            blocks.append((shape, node_rows))
+            properties.append(_integers(elements, 1))
     of_cells = {"property": np.concatenate(properties)} if properties else {}
     return skin(points, blocks, {}, of_cells, keywords.notes)
 
@@ -62,29 +72,21 @@ def read_nastran(data: bytes, path: str | None, limits: Limits) -> Polygons:
 def _cards(lines: Sequence[str], keywords: Keywords) -> Iterator[tuple[str, int, list[str]]]:
     """The cards of bulk data: their names, lines and fields."""
     starts = [place for place, line in enumerate(lines) if re.match(r"BEGIN\b", line.lstrip(), re.I)]
-    if len(starts) > 1 or (starts and not re.match(r"BEGIN(\s+BULK)?$", _without_remark(lines[starts[0]]), re.I)):
+    if len(starts) > 1 or (starts and not re.match(r"\s*BEGIN(\s+BULK)?$", _without_remark(lines[starts[0]]), re.I)):
         raise keywords.refusal(lines[starts[-1]].strip()[:40], starts[-1] + 1)
     first = starts[0] + 1 if starts else 0
     name, begun, fields = "", 0, list[str]()
     for number, raw_line in enumerate(lines[first:], first + 1):
-        line = raw_line.partition("$")[0].rstrip()
+        line = _without_remark(raw_line)
         if not line.strip():
             continue
-        if re.fullmatch(r"[\w*+]*", line.partition(",")[0].strip()) and "," in line:
-            words = [word.strip() for word in line.split(",")]
-            head, step = words[0], 4 if words[0].endswith("*") else 8
-            row = words[1 : 1 + step]
-        else:
-            line = line.expandtabs(8)
-            head = line[:8].strip()
-            width, step = (16, 4) if head.endswith("*") else (8, 8)
-            row = [line[at : at + width].strip() for at in range(8, min(len(line), 72), width)]
+        head, row = _fields(line)
         if head[:1] in ("", "+", "*") and (head[:1] or name):
-            fields += row + [""] * (step - len(row))
+            fields += row
             continue
         if name:
             yield name, begun, fields
-        name, begun, fields = head.rstrip("*").upper(), number, row + [""] * (step - len(row))
+        name, begun, fields = head.rstrip("*").upper(), number, row
         if name == "ENDDATA":
             return
         if not re.fullmatch("[A-Z][A-Z0-9]{0,7}", name):
@@ -93,24 +95,48 @@ def _cards(lines: Sequence[str], keywords: Keywords) -> Iterator[tuple[str, int,
         yield name, begun, fields
 
 
+def _fields(line: str) -> tuple[str, list[str]]:
+    """Return the first field of a line, and as many others as such a line has."""
+    first, comma, _ = line.partition(",")
+    if comma and re.fullmatch(r"[\w*+]*", first.strip()):
+        head, *row = (word.strip() for word in line.split(","))
+        count = 4 if head.endswith("*") else 8
+    else:
+        line = line.expandtabs(8)
+        head = line[:8].strip()
+        count, width = (4, 16) if head.endswith("*") else (8, 8)
+        row = [line[begin : begin + width].strip() for begin in range(8, 72, width)]
+    blanks = [""] * (count - len(row))
+    return head, [*row[:count], *blanks]
+
+
 def _without_remark(line: str) -> str:
-    return line.partition("$")[0].strip()
+    return line.partition("$")[0].rstrip()
 
 
 def _integers(cards: Sequence[Card], place: int) -> Ints:
     """One field of cards as whole numbers; a blank one is 0."""
-    words = [row[place] or "0" if place < len(row) else "0" for _, row in cards]
+    words = [_word(row, place) for _, row in cards]
     return whole(words, "a card", cards[0][0] if cards else 0)
+
+
+def _word(row: Sequence[str], place: int) -> str:
+    if place >= len(row):
+        return "0"
+    return row[place] or "0"
 
 
 def _reals(cards: Sequence[Card]) -> Doubles:
     """The fields of cards as numbers, as Nastran writes them: 7.-3 is 7e-3."""
-    text = _EXPONENT.sub(lambda match: f"e{match[1] or ''}", " ".join(word or "0" for _, row in cards for word in row))
+    fields = " ".join(word or "0" for _, row in cards for word in row)
+    words = _EXPONENT.sub(lambda match: f"e{match[1] or ''}", fields).split()
+    width = len(cards[0][1]) if cards else 3
     try:
-        return np.array(text.split(), np.float64).reshape(len(cards), len(cards[0][1]) if cards else 3)
+        return np.array(words, np.float64).reshape(len(cards), width)
     except ValueError:
-        for line, row in cards if len(cards) > 1 else ():
-            _reals([(line, row)])
+        if len(cards) > 1:
+            for card in cards:
+                _reals([card])
         line, row = cards[0]
         raise FormatError(f"line {line}: {' '.join(row)[:60]!r} are not {len(row)} numbers") from None
 
@@ -127,10 +153,10 @@ def _by_count(
     """Elements by how many nodes they have; nodes on edges are all there, or none."""
     cards_by_count = defaultdict[int, list[Card]](list)
     for line, row in cards:
-        there = [word not in ("", "0") for word in row[2 : 2 + counts[0]]]
-        count = next((n for n in counts if all(there[:n]) and len(there) >= n and not any(there[n:])), 0)
-        if not count:
-            raise keywords.refusal(f"{name} with {sum(there)} of {counts[0]} nodes", line)
+        has_node = [word not in ("", "0") for word in row[2 : 2 + counts[0]]]
+        count = sum(has_node)
+        if count not in counts or not all(has_node[:count]):
+            raise keywords.refusal(f"{name} with {count} of {counts[0]} nodes", line)
         cards_by_count[count].append((line, row))
     yield from cards_by_count.items()
 
@@ -141,7 +167,7 @@ class _Systems:
     def __init__(
         self, systems: Mapping[int, tuple[str, Card]], numbers: Numbering, points: Doubles, owners: Ints
     ) -> None:
-        self._given, self._numbers, self._points, self._owners = systems, numbers, points, owners
+        self._systems, self._numbers, self._points, self._owners = systems, numbers, points, owners
         self._axes: dict[int, tuple[Doubles, Doubles]] = {}  # origins, and axes as rows, in basic coordinates
 
     def points(self) -> Doubles:
@@ -163,7 +189,7 @@ class _Systems:
             if current in self._axes:
                 waiting.pop()
                 continue
-            if current not in self._given:
+            if current not in self._systems:
                 raise FormatError(f"the coordinate system {current} is not there; {_WAY}")
             owners, corners = self._corners(current)
             missing = [owner for owner in owners if owner and owner not in self._axes]
@@ -176,19 +202,22 @@ class _Systems:
 
     def _corners(self, number: int) -> tuple[list[int], Doubles]:
         """Return the three points of a system, and the systems that these are in."""
-        name, (line, row) = self._given[number]
+        name, (line, row) = self._systems[number]
         if name[4] == "1":
-            nodes = self._numbers.rows(np.array([_integers([(line, row)], place)[0] for place in (1, 2, 3)]))
+            references = np.array([_integers([(line, row)], place)[0] for place in (1, 2, 3)])
+            nodes = self._numbers.rows(references)
             return self._owners[nodes].tolist(), self._points[nodes]
-        corners = _reals([(line, (row[2:11] + [""] * 9)[:9])]).reshape(3, 3)
-        return [int(_integers([(line, row)], 1)[0])] * 3, corners
+        owner = int(_integers([(line, row)], 1)[0])
+        fields = [*row[2:11], *[""] * 9]
+        corners = _reals([(line, fields[:9])]).reshape(3, 3)
+        return [owner] * 3, corners
 
     def _axes_of(self, number: int, owners: list[int], corners: Doubles) -> tuple[Doubles, Doubles]:
         a, b, c = (self._moved(corner[None], owner)[0] for owner, corner in zip(owners, corners))
         z = unit_rows((b - a)[None])[0]
         y = unit_rows(np.cross(z, c - a)[None])[0]
         if not y.any():
-            line = self._given[number][1][0]
+            _, (line, _) = self._systems[number]
             raise MeshError(f"line {line}: the axes of the coordinate system {number} lie on a line")
         return a, np.array([np.cross(y, z), y, z])
 
@@ -196,7 +225,7 @@ class _Systems:
         """Return points of a system in basic coordinates."""
         if not number:
             return rows
-        name, _ = self._given[number]
+        name, _ = self._systems[number]
         r, s, t = rows.T
         first, second = np.radians(s), np.radians(t)
         if name[5] == "C":

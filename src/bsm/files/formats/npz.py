@@ -45,9 +45,10 @@ Kind = np.dtype[Any]
 # Not numpy's load: from a pipe it would read on and on, and it takes the memory that a header declares.
 def read_header(file: IO[bytes] | Input) -> tuple[tuple[int, ...], bool, Kind]:
     """Shape, whether the order is Fortran's, and type of an array of numbers; nothing is unpickled."""
-    # The header declares its own length, in two bytes in version 1 and in four in those after it.
     begin = file.read(len(NPY) + 2)
-    length = file.read(2 if begin[len(NPY) :][:1] == b"\1" else 4)
+    # The header declares its own length, in two bytes in version 1 and in four in those after it.
+    is_first_version = begin[len(NPY) :][:1] == b"\1"
+    length = file.read(2 if is_first_version else 4)
     declared = int.from_bytes(length, "little")
     text = file.read(min(declared, _MOST_HEADER))
     if begin.startswith(NPY) and (not length or len(text) < declared):
@@ -55,8 +56,10 @@ def read_header(file: IO[bytes] | Input) -> tuple[tuple[int, ...], bool, Kind]:
     header = io.BytesIO(begin + length + text)
     try:
         version = np.lib.format.read_magic(header)
-        read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-        shape, fortran, kind = read(header)
+        if version == (1, 0):
+            shape, fortran, kind = np.lib.format.read_array_header_1_0(header)
+        else:
+            shape, fortran, kind = np.lib.format.read_array_header_2_0(header)
     except _NO_HEADER as error:
         raise CorruptError(f"not a valid npy header: {error}") from error
     # Objects would be unpickled, which runs whatever the file says.
@@ -67,9 +70,14 @@ def read_header(file: IO[bytes] | Input) -> tuple[tuple[int, ...], bool, Kind]:
     return shape, fortran, kind
 
 
+def _shaped(data: bytes, shape: tuple[int, ...], fortran: bool, kind: Kind) -> Array:
+    return np.frombuffer(data, kind).reshape(shape, order="F" if fortran else "C")
+
+
 def read_npy(file: Input, bound: str = "vertices", limits: Limits = DEFAULT_LIMITS) -> Array | None:
     """The next table of three columns of a pipe, or None at its end; the limit called `bound` is that of its rows."""
-    if not (begin := file.peek(len(NPY))):
+    begin = file.peek(len(NPY))
+    if not begin:
         return None
     if begin != NPY:
         raise FormatError("this is not a sequence of npy arrays")
@@ -81,7 +89,7 @@ def read_npy(file: Input, bound: str = "vertices", limits: Limits = DEFAULT_LIMI
     data = file.read(size)
     if len(data) < size:
         raise TruncatedError(f"an npy array has {len(data)} of {size} bytes")
-    return np.frombuffer(data, kind).reshape(shape, order="F" if fortran else "C")
+    return _shaped(data, shape, fortran, kind)
 
 
 def write_npy(file: BinaryIO, array: Array) -> None:
@@ -155,9 +163,10 @@ class NpzArray:
         """The next numbers; memory is allocated only for bytes that are present."""
         size = math.prod(shape) * self._kind.itemsize
         with _reading(self._name):
-            if len(data := self._entry.read(size)) < size:
+            data = self._entry.read(size)
+            if len(data) < size:
                 raise CorruptError(f"the array {self._name} of {self.size} bytes ends early")
-            return np.frombuffer(data, self._kind).reshape(shape, order="F" if self._fortran else "C")
+            return _shaped(data, shape, self._fortran, self._kind)
 
 
 def _frames(archive: str | BinaryIO, *names: str) -> Iterator[tuple[Array, ...]]:
@@ -169,13 +178,16 @@ def _frames(archive: str | BinaryIO, *names: str) -> Iterator[tuple[Array, ...]]
 def _require_shapes(archive: zipfile.ZipFile, compressed: int, limits: Limits) -> tuple[int, int]:
     """Check positions and faces before they are read; the number of frames, 0 for one mesh, and bytes of memory."""
     positions, faces = NpzArray(archive, "positions"), NpzArray(archive, "faces")
-    shape = positions.shape
-    frames, one = (shape[0], shape[1:]) if len(shape) == 3 else (0, shape)
-    if len(shape) == 3 and (0 in shape or shape[2] != 3):
-        raise MeshError(f"this npz file holds {frames} frames of shape {one}; (n, 3) numbers are a frame")
-    require_counts(limits, frames=frames, vertices=math.prod(one) // 3, faces=math.prod(faces.shape) // 3)
-    size = max(positions.size // max(frames, 1), AS_NUMBERS * math.prod(one))
-    size += max(faces.size, AS_NUMBERS * math.prod(faces.shape))
+    shape, frames = positions.shape, 0
+    if len(shape) == 3:
+        frames, *shape_of_frame = shape
+        shape = tuple(shape_of_frame)
+        if 0 in positions.shape or shape[1] != 3:
+            raise MeshError(f"this npz file holds {frames} frames of shape {shape}; (n, 3) numbers are a frame")
+    numbers, corners = math.prod(shape), math.prod(faces.shape)
+    require_counts(limits, frames=frames, vertices=numbers // 3, faces=corners // 3)
+    size = max(positions.size // max(frames, 1), AS_NUMBERS * numbers)
+    size += max(faces.size, AS_NUMBERS * corners)
     require_inflated(size, compressed, limits)
     return frames, size
 
@@ -208,65 +220,78 @@ class _Beside:
     @property
     def dropped(self) -> tuple[str, ...]:
         """The names of those that are none of these, or how many there are."""
-        rest = len(self.unread) - MOST_NAMED
-        return (*self.unread[:MOST_NAMED], *([f"{rest} other arrays"] if rest > 0 else []))
+        others = len(self.unread) - MOST_NAMED
+        if others <= 0:
+            return tuple(self.unread)
+        return (*self.unread[:MOST_NAMED], f"{others} other arrays")
 
 
 def _beside(
     archive: zipfile.ZipFile, mesh: TriangleMesh, compressed: int, limits: Limits, inflated: int, frames: int = 0
 ) -> _Beside:
     """Check shapes before numbers are read; for a sequence, with its number of frames."""
-    extras, frame, vertices = _Beside(), 0, len(mesh.positions)
+    extras, frame_bytes, vertices = _Beside(), 0, len(mesh.positions)
+    most_rows = max(vertices, 3 * len(mesh.faces))
     names = dict.fromkeys(name.removesuffix(".npy") for name in archive.namelist())
     indices = {name for name in names if name.endswith("/indices") and name.removesuffix("/indices") in names}
-    for number, name in enumerate(name for name in names if name not in ("positions", "faces", *indices)):
+    others = [name for name in names if name not in ("positions", "faces", *indices)]
+    for number, name in enumerate(others):
         extras.unread.append(name)  # until it is taken
         with suppress(MeshError, FormatError):  # no numbers
             array = NpzArray(archive, name)
             if frames and array.shape[:2] == (frames, vertices) and math.prod(array.shape[2:]) <= MOST_COMPONENTS:
-                frame += _PER_MOVING_BYTE * array.size // frames
-                require_inflated(frame, compressed, limits, vertices)
+                frame_bytes += _PER_MOVING_BYTE * array.size // frames
+                require_inflated(frame_bytes, compressed, limits, vertices)
                 if len(extras.moving) < limits.attributes:
                     extras.moving[name.removeprefix("vertex/")] = extras.unread.pop()
+                continue
+            is_metadata = name == "metadata"
             # An archive may name a million arrays: only so many are opened.
-            elif number <= 2 * limits.attributes and (
-                name == "metadata" or max(array.shape, default=0) <= max(vertices, 3 * len(mesh.faces))
-            ):
-                of_corners = NpzArray(archive, f"{name}/indices") if f"{name}/indices" in indices else None
-                inflated += array.size * (TREE if name == "metadata" else 1)
-                inflated += AS_NUMBERS * math.prod(of_corners.shape) if of_corners else 0
-                require_inflated(inflated, compressed, limits)
-                values = array.read_array()
-                if name == "metadata" and values.dtype == np.uint8:
-                    extras.metadata.update(_parse_metadata(values.tobytes()))
-                    extras.unread.pop()
-                elif column := column_of(name, values, mesh, of_corners):
-                    extras.columns.append(column)
-                    extras.unread.pop()
+            if number > 2 * limits.attributes or not (is_metadata or max(array.shape, default=0) <= most_rows):
+                continue
+            of_corners = NpzArray(archive, f"{name}/indices") if f"{name}/indices" in indices else None
+            inflated += array.size * TREE if is_metadata else array.size
+            if of_corners is not None:
+                inflated += AS_NUMBERS * math.prod(of_corners.shape)
+            require_inflated(inflated, compressed, limits)
+            values = array.read_array()
+            if is_metadata and values.dtype == np.uint8:
+                extras.metadata.update(_parse_metadata(values.tobytes()))
+                extras.unread.pop()
+                continue
+            column = column_of(name, values, mesh, of_corners)
+            if column is not None:
+                extras.columns.append(column)
+                extras.unread.pop()
     return extras
 
 
 def column_of(name: str, values: Array, mesh: TriangleMesh, of_corners: NpzArray | None) -> Column | None:
     """An array as the column that its name or its shape tells; None: it is of nothing here."""
-    domain, _, rest = name.partition("/")
     vertices, faces = len(mesh.positions), len(mesh.faces)
-    if domain not in get_args(Domain) or not rest:
-        domain = "corner" if values.ndim == 3 else "vertex" if values.shape[:1] == (vertices,) else "face"
-        rest = name
+    domain, _, short_name = name.partition("/")
+    if domain not in get_args(Domain) or not short_name:
+        short_name, domain = name, "face"
+        if values.ndim == 3:
+            domain = "corner"
+        elif values.shape[:1] == (vertices,):
+            domain = "vertex"
+    rows = {"vertex": vertices, "face": faces, "corner": 3 * faces}
     indices = None
     if domain == "corner" and of_corners:
         indices = of_corners.read_array()
         if indices.dtype.kind not in "iu" or indices.size != 3 * faces:
             return None
         indices = indices.reshape(-1).astype(np.int64)
+        rows["corner"] = len(values)
     elif domain == "corner" and values.ndim == 3:
         values = values.reshape(-1, values.shape[2])
-    values = values[:, None] if values.ndim == 1 else values
-    rows = {"vertex": vertices, "face": faces, "corner": 3 * faces if indices is None else len(values)}
-    if values.ndim != 2 or not 1 <= values.shape[1] <= MOST_COMPONENTS or rows.get(domain) != len(values):
+    if values.ndim == 1:
+        values = values[:, None]
+    if values.ndim != 2 or not 1 <= values.shape[1] <= MOST_COMPONENTS or rows[domain] != len(values):
         return None
     native = values.astype(values.dtype.newbyteorder("="))
-    return Column(rest, native, cast(Domain, domain), meaning_of(rest, values.shape[1]), indices)
+    return Column(short_name, native, cast(Domain, domain), meaning_of(short_name, values.shape[1]), indices)
 
 
 def _parse_metadata(data: bytes) -> Metadata:
@@ -274,10 +299,11 @@ def _parse_metadata(data: bytes) -> Metadata:
         entries = json.loads(data)
         metadata: dict[str, str | int | float | bytes] = {}
         for name, value in entries.items():
-            plain = base64.b64decode(value["base64"], validate=True) if isinstance(value, dict) else value
-            if not isinstance(plain, str | int | float | bytes):
+            if isinstance(value, dict):
+                value = base64.b64decode(value["base64"], validate=True)
+            if not isinstance(value, str | int | float | bytes):
                 raise ValueError(f"{name} is neither a text nor a number")
-            metadata[name] = plain
+            metadata[name] = value
     except (ValueError, AttributeError, KeyError, TypeError, RecursionError, binascii.Error) as error:
         raise CorruptError(f"the metadata of the npz file are invalid: {error}") from error
     return metadata
@@ -285,11 +311,13 @@ def _parse_metadata(data: bytes) -> Metadata:
 
 def _metadata_in(metadata: Metadata) -> dict[str, Array]:
     """The array of metadata, if there are any."""
-    entries = {
-        name: {"base64": base64.b64encode(value).decode()} if isinstance(value, bytes) else value
-        for name, value in metadata.items()
-    }
-    return {"metadata": np.frombuffer(json.dumps(entries).encode(), np.uint8)} if entries else {}
+    if not metadata:
+        return {}
+    entries: dict[str, Any] = dict(metadata)
+    for name, value in metadata.items():
+        if isinstance(value, bytes):
+            entries[name] = {"base64": base64.b64encode(value).decode()}
+    return {"metadata": np.frombuffer(json.dumps(entries).encode(), np.uint8)}
 
 
 def _arrays_of(attributes: Iterable[Attribute]) -> dict[str, Array]:
@@ -308,7 +336,8 @@ def _arrays_of(attributes: Iterable[Attribute]) -> dict[str, Array]:
 
 def write_npz(mesh: TriangleMesh, stem: str) -> Written:
     """The npz of a mesh: `positions` as float64, `faces` as int32, and everything else it has."""
-    buffer, others = io.BytesIO(), _arrays_of(mesh.attributes) | _metadata_in(mesh.metadata)
+    buffer = io.BytesIO()
+    others = _arrays_of(mesh.attributes) | _metadata_in(mesh.metadata)
     np.savez_compressed(buffer, positions=mesh.positions, faces=mesh.faces, **others)  # type: ignore[arg-type]
     return Written(buffer.getvalue())
 
@@ -318,38 +347,43 @@ def open_npz_sequence(
     file: BinaryIO, faces: Faces, count: int, shared: Shared
 ) -> Iterator[Callable[[Positions], None]]:
     """Write an npz of frames, shape (T, n, 3); yields what takes them. What changes waits in files for their number."""
-    first, moved, frames_taken = dict[str, Array](), dict[str, IO[bytes]](), 0
+    first, moving = dict[str, Array](), dict[str, IO[bytes]]()
+    frames = 0
     # Deflated, positions are 5 % smaller, and take longer than decoding does; faces would be a hundredth of them.
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive, ExitStack() as waiting:
 
         def take(frame: Positions) -> None:
-            nonlocal frames_taken
-            for name, values in {"positions": np.asarray(frame, "<f8"), **_arrays_of(shared.attributes())}.items():
-                before = first.setdefault(name, values)
-                if name not in moved and (name == "positions" or not np.array_equal(values, before)):
-                    moved[name] = waiting.enter_context(tempfile.TemporaryFile())
+            nonlocal frames
+            arrays = {"positions": np.asarray(frame, "<f8"), **_arrays_of(shared.attributes())}
+            for name, values in arrays.items():
+                of_first = first.setdefault(name, values)
+                if name not in moving and (name == "positions" or not np.array_equal(values, of_first)):
+                    moving[name] = waiting.enter_context(tempfile.TemporaryFile())
                     # Until now the values were those of the first frame, and so they were for all frames before.
-                    moved[name].writelines(before.tobytes() for _ in range(frames_taken))
-                if name in moved:
-                    moved[name].write(values.tobytes())
-            frames_taken += 1
+                    for _ in range(frames):
+                        moving[name].write(of_first.tobytes())
+                if name in moving:
+                    moving[name].write(values.tobytes())
+            frames += 1
 
         yield take
-        if frames_taken != (count or frames_taken):
-            raise CorruptError(f"{frames_taken} of {count} frames came")
+        if count and frames != count:
+            raise CorruptError(f"{frames} of {count} frames came")
         for name, values in {"faces": faces, **first, **_metadata_in(shared.metadata())}.items():
+            target: Any = f"{name}.npy"
             # Positions and faces are stored and the rest is deflated: an entry made with a ZipInfo is not compressed by
             # default.
-            target: Any = zipfile.ZipInfo(f"{name}.npy") if name in ("faces", "positions") else f"{name}.npy"
+            if name in ("faces", "positions"):
+                target = zipfile.ZipInfo(target)
             # The size is not known before, and zipfile cannot change to 64 bits while it writes.
-            with archive.open(target, "w", force_zip64=name in moved) as entry:
-                if name in moved:
-                    header = {"descr": values.dtype.str, "fortran_order": False, "shape": (frames_taken, *values.shape)}
-                    np.lib.format.write_array_header_1_0(entry, header)
-                    moved[name].seek(0)
-                    shutil.copyfileobj(moved[name], entry)
-                else:
+            with archive.open(target, "w", force_zip64=name in moving) as entry:
+                if name not in moving:
                     np.lib.format.write_array(entry, values)
+                    continue
+                header = {"descr": values.dtype.str, "fortran_order": False, "shape": (frames, *values.shape)}
+                np.lib.format.write_array_header_1_0(entry, header)
+                moving[name].seek(0)
+                shutil.copyfileobj(moving[name], entry)
 
 
 # ------------------------------------------------------------------------------------------------------------ sequences
@@ -357,23 +391,27 @@ def open_npz_sequence(
 
 def read_archive(source: Input, limits: Limits) -> Frames | None:
     """The sequence of an npz; None if it holds a mesh. Shapes are looked at before numbers are read."""
-    buffered = b"" if source.is_file else source.peek(1 << 32)
-    archive = source.name if source.is_file else io.BytesIO(buffered)
-    compressed = os.path.getsize(source.name) if source.is_file else len(buffered)
+    archive: str | BinaryIO = source.name
+    if source.is_file:
+        compressed = os.path.getsize(source.name)
+    else:
+        buffered = source.peek(1 << 32)
+        archive, compressed = io.BytesIO(buffered), len(buffered)
     with opened_archive(archive) as opened:
         count, inflated = _require_shapes(opened, compressed, limits)
         if not count:
             return None
         mesh = TriangleMesh(next(_positions(archive)), NpzArray(opened, "faces").read_array())
         extras = _beside(opened, mesh, compressed, limits, inflated, count)
-    corners, every_face = np.arange(3 * len(mesh.faces)).reshape(-1, 3), np.arange(len(mesh.faces))
-    still, _, refused = attributes_of(extras.columns, len(mesh.positions), len(mesh.faces), corners, every_face)
+    faces = np.arange(len(mesh.faces))
+    corners = np.arange(3 * len(faces)).reshape(-1, 3)
+    still, _, refused = attributes_of(extras.columns, len(mesh.positions), len(faces), corners, faces)
     extras.unread.extend(refused)
     notes = (f"left out: {', '.join(extras.dropped)}",) if extras.unread else ()
-    meshes = _with_attributes(archive, mesh.faces, still, extras.moving) if extras.moving else None
-    attributes = (
-        next(_with_attributes(archive, mesh.faces, still, extras.moving)).attributes if extras.moving else still
-    )
+    meshes, attributes = None, still
+    if extras.moving:
+        meshes = _with_attributes(archive, mesh.faces, still, extras.moving)
+        attributes = next(_with_attributes(archive, mesh.faces, still, extras.moving)).attributes
     return Frames(mesh.faces, count, _positions(archive), attributes, notes, metadata=extras.metadata, meshes=meshes)
 
 
@@ -385,11 +423,13 @@ def _with_attributes(
     archive: str | BinaryIO, faces: Faces, still: tuple[Attribute, ...], moving: Mapping[str, str]
 ) -> Iterator[TriangleMesh]:
     """One frame after the other, with the attributes of all frames, and its own."""
-    for number, (positions, *values) in enumerate(_frames(archive, "positions", *moving.values())):
+    for number, (positions, *arrays) in enumerate(_frames(archive, "positions", *moving.values())):
+        attributes = [*still]
         with about(f"frame {number}"):
-            columns = [column.astype(column.dtype.newbyteorder("=")) for column in values]
-            more = (Attribute(name, v, semantic=meaning_of(name, v[0].size)) for name, v in zip(moving, columns))
-            mesh = TriangleMesh(positions, faces, (*still, *more))
+            for name, array in zip(moving, arrays):
+                values = array.astype(array.dtype.newbyteorder("="))
+                attributes.append(Attribute(name, values, semantic=meaning_of(name, values[0].size)))
+            mesh = TriangleMesh(positions, faces, tuple(attributes))
         yield mesh
 
 
@@ -400,8 +440,9 @@ def read_pipe(source: Input, limits: Limits) -> Frames:
         faces = read_npy(source, "faces", limits)
         if faces is None or faces.dtype.kind not in "iu":
             raise FormatError("the first array must be the faces: integers of shape (m, 3)")
-        if faces.size and not 0 <= int(faces.min()) <= int(faces.max()) < 1 << 31:
-            raise MeshError(f"a face refers to vertex {faces.max() if faces.min() >= 0 else faces.min()}")
+        outside = faces[(faces < 0) | (faces >= 1 << 31)]
+        if outside.size:
+            raise MeshError(f"a face refers to vertex {outside[0]}")
         unread.pop_all()
 
     def frames() -> Iterator[Positions]:

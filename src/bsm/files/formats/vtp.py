@@ -71,7 +71,7 @@ class _Document:
 
     def __init__(self, text: bytes, appended: bytes, raw: bool, limits: Limits, size: int) -> None:
         elements = elements_of(text)
-        self.arrays = [(around.tag, element) for around in elements for element in around if element.tag in _ARRAYS]
+        self.arrays = [(parent.tag, child) for parent in elements for child in parent if child.tag in _ARRAYS]
         self.tags = {element.tag: element.attrib for element in reversed(elements) if element.tag in _TAGS}
         if len(self.arrays) > _MOST_ARRAYS:
             raise FormatError(f"this VTP file has more than {_MOST_ARRAYS} arrays")
@@ -85,11 +85,14 @@ class _Document:
         self._head = np.dtype(self._order + head)
         self._compressor = file.get("compressor")
         self._appended, self._raw = appended, raw
-        offsets = (_COUNT.fullmatch(element.get("offset", "0")) for _, element in self.arrays)
-        begins = {int(offset[0]) for offset in offsets if offset}  # others may be of arrays that are not read
+        begins: set[int] = set()
+        for _, array in self.arrays:
+            offset = array.get("offset", "0")
+            if _COUNT.fullmatch(offset):  # others may be of arrays that are not read
+                begins.add(int(offset))
         # The file does not say where an array in base64 ends, but the next one begins there.
         self._ends = dict(pairwise([*sorted(begins), len(appended)]))
-        self._limits, self._size, self._made = limits, size, 0
+        self._limits, self._size, self._memory = limits, size, 0
 
     def numbers(self, array: ElementTree.Element) -> Array:
         """The numbers of an array, shape (k, c)."""
@@ -137,8 +140,9 @@ class _Document:
         try:
             # VTK codes a header and the blocks apart, so that "=" may stand in the middle, where base64.b64decode would
             # stop.
-            for part in _PADDED.finditer(encoded.split(b"<", 1)[0]):
-                decoded += base64.b64decode(part[0][: len(part[0]) // 4 * 4])
+            for part in _PADDED.findall(encoded.split(b"<", 1)[0]):
+                whole_groups = len(part) // 4 * 4
+                decoded += base64.b64decode(part[:whole_groups])
         except binascii.Error as error:
             raise CorruptError(f"what should be base64 is not: {error}") from error
         return bytes(decoded)
@@ -152,24 +156,27 @@ class _Document:
         if count > len(encoded):
             raise TruncatedError("the blocks of an array are not there")
         head = self._head_of(encoded, 3 + count)
-        sizes, size = head[3:].tolist(), int(head[1])
+        _, size, _, *sizes = head.tolist()
         self._require(count * size)
         packed = self._taken(encoded, head.nbytes, sum(sizes))
-        blocks, at = list[bytes](), 0
+        blocks: list[bytes] = []
+        begin = 0
         for length in sizes:
             unpacker = zlib.decompressobj()
             try:
                 # At most the size that the header says: a block of a few bytes may otherwise fill the memory.
-                blocks.append(unpacker.decompress(packed[at : at + length], max(size, 1)))
+                block = unpacker.decompress(packed[begin : begin + length], max(size, 1))
             except zlib.error as error:
                 raise CorruptError(f"a compressed block is damaged: {error}") from error
             if not unpacker.eof:
                 raise CorruptError("a compressed block becomes more than it says")
-            at += length
+            blocks.append(block)
+            begin += length
         return b"".join(blocks)
 
     def _head_of(self, encoded: bytes, count: int) -> Array:
-        return np.frombuffer(self._taken(encoded, 0, count * self._head.itemsize), self._head)
+        data = self._taken(encoded, 0, count * self._head.itemsize)
+        return np.frombuffer(data, self._head)
 
     def _taken(self, encoded: bytes, begin: int, size: int) -> bytes:
         data = encoded[begin : begin + size]
@@ -179,8 +186,8 @@ class _Document:
         return data
 
     def _require(self, size: int) -> None:
-        self._made += _COPIES * size
-        require_inflated(self._made, self._size, self._limits)
+        self._memory += _COPIES * size
+        require_inflated(self._memory, self._size, self._limits)
 
 
 def _count(attrs: dict[str, str], name: str, default: int) -> int:
@@ -192,13 +199,7 @@ def _count(attrs: dict[str, str], name: str, default: int) -> int:
 
 
 def read_vtp(data: bytes, limits: Limits) -> Polygons:
-    at = data.find(b"<AppendedData")
-    end = data.find(b">", at) if at >= 0 else -1
-    match = _UNDERSCORE.match(data, end + 1) if end >= 0 else None
-    # The bytes after the XML are not XML. The parser gets the part before them, closed by hand.
-    text, appended = (data, b"") if match is None else (data[:at] + b"</VTKFile>", data[match.end() :])
-    require_inflated(8 * len(text) + 2 * TAG * text.count(b"<"), len(data), limits)
-    document = _Document(text, appended, b"raw" in data[at : end + 1], limits, len(data))
+    document = _parse(data, limits)
     piece = document.tags.get("Piece")
     if document.tags.get("VTKFile", {}).get("type") != "PolyData" or piece is None:
         raise FormatError(
@@ -207,7 +208,14 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
         )
     points, polygons, strips = (_count(piece, f"NumberOf{what}", 0) for what in ("Points", "Polys", "Strips"))
     require_counts(limits, vertices=points, faces=polygons + strips)
-    arrays = {(around, array.get("Name", "") * (around in _CELLS)): array for around, array in document.arrays}
+    arrays: dict[tuple[str, str], ElementTree.Element] = {}
+    fields: dict[str, ElementTree.Element] = {}
+    for section, array in document.arrays:
+        name = array.get("Name", "")
+        key = name if section in _CELLS else ""
+        arrays[section, key] = array
+        if section == "FieldData":
+            fields[name] = array
     if ("Points", "") not in arrays or not polygons + strips:
         raise NoFacesError("this VTP file has no faces; point clouds are not supported")
     coordinates = document.numbers(arrays["Points", ""])
@@ -217,18 +225,32 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     strip_sizes, strip_corners = _cells(document, arrays, "Strips", strips)
     triangles, owner = cut_strips(strip_sizes, strip_corners)
     # Points and lines come first among cells.
-    before = _count(piece, "NumberOfVerts", 0) + _count(piece, "NumberOfLines", 0)
-    cells = before + np.append(np.arange(polygons), polygons + owner)
-    columns, dropped = _columns(document, cells, before + polygons + strips)
-    fields = {array.get("Name", ""): array for around, array in document.arrays if around == "FieldData"}
+    cells_before = _count(piece, "NumberOfVerts", 0) + _count(piece, "NumberOfLines", 0)
+    cells = cells_before + np.append(np.arange(polygons), polygons + owner)
+    columns, dropped = _columns(document, cells, cells_before + polygons + strips)
     metadata, omitted = plain_fields({name: _field(document.numbers(array), array) for name, array in fields.items()})
     others = [word for name, word in _OTHERS.items() if _count(piece, name, 0)]
-    sizes, flat = np.append(sizes, np.full(len(triangles), 3)), np.append(flat, triangles.ravel())
+    sizes = np.append(sizes, np.full(len(triangles), 3))
+    flat = np.append(flat, triangles.ravel())
     with np.errstate(invalid="ignore"):  # as above
         positions = coordinates.astype(np.float64)
     losses = dict.fromkeys((*dropped, *omitted, *others))
     part = without_hidden(Part(positions, sizes, flat, columns, np.zeros(len(sizes), np.int64), ""), losses)
     return Polygons(positions, part.sizes, part.corners, (), tuple(losses), tuple(part.columns), metadata)
+
+
+def _parse(data: bytes, limits: Limits) -> _Document:
+    """Return the document of a file, and with it the bytes after the XML."""
+    text, appended, is_raw = data, b"", False
+    begin = data.find(b"<AppendedData")
+    end = data.find(b">", begin) if begin >= 0 else -1
+    match = _UNDERSCORE.match(data, end + 1) if end >= 0 else None
+    # The bytes after the XML are not XML. The parser gets the part before them, closed by hand.
+    if match is not None:
+        text, appended = data[:begin] + b"</VTKFile>", data[match.end() :]
+        is_raw = b"raw" in data[begin:end]
+    require_inflated(8 * len(text) + 2 * TAG * text.count(b"<"), len(data), limits)
+    return _Document(text, appended, is_raw, limits, len(data))
 
 
 def _cells(document: _Document, arrays: Mapping[tuple[str, str], Any], around: str, count: int) -> tuple[Ints, Ints]:
@@ -251,26 +273,31 @@ def _columns(document: _Document, cells: Ints, count: int) -> tuple[list[Column]
     """Values of points and of polygons, each of which is one of the cells, and the names of others."""
     domains: dict[str, Domain] = {"PointData": "vertex", "CellData": "face"}
     columns, dropped = [], []
-    for around, array in document.arrays:
-        domain, name = domains.get(around), array.get("Name", "")
-        if domain and array.get("type") not in _TYPES:
+    for section, array in document.arrays:
+        name = array.get("Name", "")
+        if section not in domains:
+            continue
+        if array.get("type") not in _TYPES:
             dropped.append(name)
-        elif domain:
-            values = document.numbers(array)
-            if domain == "face" and len(values) == count:
-                values = values[cells]
-            active = document.tags.get(around, {})
-            meanings: dict[str | None, Semantic] = {active.get("TCoords"): "texcoord", active.get("Normals"): "normal"}
-            names_given = [array.get(f"ComponentName{place}", "") for place in range(values.shape[1])]
-            components = names_given if all(names_given) and len(names_given) > 1 else ()
-            columns.append(named_column(name, values, domain, meanings.get(name), components))
+            continue
+        values = document.numbers(array)
+        if section == "CellData" and len(values) == count:
+            values = values[cells]
+        active = document.tags.get(section, {})
+        meanings: dict[str | None, Semantic] = {active.get("TCoords"): "texcoord", active.get("Normals"): "normal"}
+        components = [array.get(f"ComponentName{place}", "") for place in range(values.shape[1])]
+        if len(components) == 1 or not all(components):
+            components = []
+        columns.append(named_column(name, values, domains[section], meanings.get(name), components))
     return columns, dropped
 
 
 def _field(values: Array, array: ElementTree.Element) -> Array:
     """Numbers, or the text that they are the letters of, and the rest as another, since several are left out."""
-    is_text = array.get("type") == "String"
-    return np.array(values.tobytes().decode(errors="replace").removesuffix("\0").split("\0", 1)) if is_text else values
+    if array.get("type") != "String":
+        return values
+    text = values.tobytes().decode(errors="replace").removesuffix("\0")
+    return np.array(text.split("\0", 1))
 
 
 def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:
@@ -287,69 +314,75 @@ def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:
             yield name, _NAMES[values.dtype.str[1:]], values
 
 
+class _Appended:
+    """The arrays that are written as bytes after the XML."""
+
+    def __init__(self) -> None:
+        self.blocks: list[bytes] = []
+        self._size = 0
+
+    def add(self, name: str, values: Array, kind: str = "", components: Sequence[str] = ()) -> str:
+        """Return the element of an array: of a kind, a field of one value; else a row for each thing, with names."""
+        data = np.ascontiguousarray(values.astype(values.dtype.newbyteorder("<"))).tobytes()
+        tag = "Array" if kind == "String" else "DataArray"
+        count = "Tuples" if kind else "Components"
+        width = values.shape[1] if values.ndim == 2 else 1
+        names = "".join(f"ComponentName{place}={_quoted(word)} " for place, word in enumerate(components))
+        element = (
+            f'<{tag} type="{kind or _NAMES[values.dtype.str[1:]]}" Name={_quoted(name)} {names}'
+            f'NumberOf{count}="{width}" format="appended" offset="{self._size}"/>'
+        )
+        self.blocks += [len(data).to_bytes(8, "little"), data]
+        self._size += 8 + len(data)
+        return element
+
+    def add_section(self, tag: str, mesh: TriangleMesh, domain: Domain) -> str:
+        lines = [self.add(name, values, "", components) for name, values, components in _arrays(mesh, domain)]
+        return f"<{tag}{_active(mesh, domain)}>{''.join(lines)}</{tag}>\n"
+
+
 def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
     """Return the VTP of a mesh, with arrays as bytes after the XML; ParaView colors by the first number of vertices."""
     # VTK has values of points and of cells, and none of corners.
     mesh = split_at_seams(mesh, *mesh.attributes)
     kind = np.float32 if single_suffices(mesh.positions) else np.float64
-    blocks: list[bytes] = []
-    at = 0
-
-    def array(name: str, values: Array, kind: str = "", component_names: Sequence[str] = ()) -> str:
-        nonlocal at
-        data = np.ascontiguousarray(values.astype(values.dtype.newbyteorder("<"))).tobytes()
-        components = values.shape[1] if values.ndim == 2 else 1
-        component_attributes = "".join(
-            f"ComponentName{place}={_quoted(one)} " for place, one in enumerate(component_names)
-        )
-        tag = (
-            f'<{"Array" if kind == "String" else "DataArray"} type="{kind or _NAMES[values.dtype.str[1:]]}" '
-            f"Name={_quoted(name)} {component_attributes}"
-            f'NumberOf{"Tuples" if kind else "Components"}="{components}" format="appended" offset="{at}"/>'
-        )
-        blocks.append(len(data).to_bytes(8, "little") + data)
-        at += len(blocks[-1])
-        return tag
-
-    def section(tag: str, domain: Domain) -> str:
-        lines = [array(*named_values) for named_values in _arrays(mesh, domain)]
-        return f"<{tag}{_active(mesh, domain)}>{''.join(lines)}</{tag}>"
-
-    ends = np.arange(3, 3 * len(mesh.faces) + 1, 3, dtype=np.int64)
-    fields = [array(name, values, kind) for name, kind, values in _fields(mesh.metadata)]
+    vertices, faces = len(mesh.positions), len(mesh.faces)
+    appended = _Appended()
+    fields = [appended.add(name, values, kind_of_field) for name, kind_of_field, values in _fields(mesh.metadata)]
+    point_data = appended.add_section("PointData", mesh, "vertex")
+    cell_data = appended.add_section("CellData", mesh, "face")
+    points = appended.add("Points", mesh.positions.astype(kind))
+    corners = appended.add("connectivity", mesh.faces.reshape(-1).astype(np.int64))
+    ends = appended.add("offsets", np.arange(3, 3 * faces + 1, 3, dtype=np.int64))
     text = (
         '<?xml version="1.0"?>\n'
         '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64"><PolyData>\n'
         f"<FieldData>{''.join(fields)}</FieldData>\n"
-        f'<Piece NumberOfPoints="{len(mesh.positions)}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" '
-        f'NumberOfPolys="{len(mesh.faces)}">\n'
-        f"{section('PointData', 'vertex')}\n{section('CellData', 'face')}\n"
-        f"<Points>{array('Points', mesh.positions.astype(kind))}</Points>\n"
-        f"<Polys>{array('connectivity', mesh.faces.reshape(-1).astype(np.int64))}{array('offsets', ends)}</Polys>\n"
+        f'<Piece NumberOfPoints="{vertices}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" '
+        f'NumberOfPolys="{faces}">\n{point_data}{cell_data}'
+        f"<Points>{points}</Points>\n<Polys>{corners}{ends}</Polys>\n"
         '</Piece></PolyData>\n<AppendedData encoding="raw">_'
     )
     lost = tuple(in_words(unsaid(mesh.metadata, "VTP"), mesh.metadata))
-    return Written(b"".join((text.encode(), *blocks, b"</AppendedData></VTKFile>\n")), lost)
+    return Written(b"".join((text.encode(), *appended.blocks, b"</AppendedData></VTKFile>\n")), lost)
 
 
-def _arrays(mesh: TriangleMesh, domain: Domain) -> Iterator[tuple[str, Array, str, list[str]]]:
+def _arrays(mesh: TriangleMesh, domain: Domain) -> Iterator[tuple[str, Array, list[str]]]:
     """The names, values and components of attributes, those together that were one array of many components."""
     values = with_none(attribute for attribute in mesh.attributes if attribute.domain == domain)
-    attributes_by_name = {attribute.name: attribute for attribute in mesh.attributes if attribute.name in values}
+    attributes = {attribute.name: attribute for attribute in mesh.attributes if attribute.name in values}
     for key, words in mesh.metadata.items():
-        components = str(words).split("\n")
-        name = key.removeprefix(COMPONENTS)
-        members = [attributes_by_name.get(f"{name}.{component}") for component in components]
-        if key.startswith(COMPONENTS) and name not in attributes_by_name and None not in members:
-            yield (
-                name,
-                np.hstack([values[attributes_by_name.pop(one.name).name] for one in members if one is not None]),
-                "",
-                components,
-            )
-    for attribute in attributes_by_name.values():
+        if not key.startswith(COMPONENTS):
+            continue
+        name, components = key.removeprefix(COMPONENTS), str(words).split("\n")
+        members = [f"{name}.{component}" for component in components]
+        if name not in attributes and {*members} <= attributes.keys():
+            for member in members:
+                attributes.pop(member, None)
+            yield name, np.hstack([values[member] for member in members]), components
+    for attribute in attributes.values():
         components = components_in_file(mesh.metadata, attribute)
-        yield name_in_file(mesh.metadata, attribute), values[attribute.name], "", components
+        yield name_in_file(mesh.metadata, attribute), values[attribute.name], components
 
 
 def _quoted(name: str) -> str:
@@ -360,9 +393,12 @@ def _quoted(name: str) -> str:
 
 def _active(mesh: TriangleMesh, domain: Domain) -> str:
     """Return the attributes that viewers show, of all those of a domain."""
-    chosen: dict[str, Attribute | None] = {"Scalars": first(mesh, "generic", (1,), domain)}
+    shown: dict[str, Attribute | None] = {"Scalars": first(mesh, "generic", (1,), domain)}
     if domain == "vertex":
-        chosen["Normals"] = first(mesh, "normal", (3,), domain)
-        chosen["TCoords"] = first(mesh, "texcoord", (2,), domain)
-    active_names = [(tag, name_in_file(mesh.metadata, one)) for tag, one in chosen.items() if one is not None]
-    return "".join(f" {tag}={_quoted(name)}" for tag, name in active_names)
+        shown["Normals"] = first(mesh, "normal", (3,), domain)
+        shown["TCoords"] = first(mesh, "texcoord", (2,), domain)
+    words: list[str] = []
+    for tag, attribute in shown.items():
+        if attribute is not None:
+            words.append(f" {tag}={_quoted(name_in_file(mesh.metadata, attribute))}")
+    return "".join(words)

@@ -4,7 +4,7 @@ import io
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -20,77 +20,90 @@ _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
 """The padding after a PNG or JPEG in GLB files."""
 _OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node", "processed")
 """Metadata that trimesh has added."""
+_Surface: TypeAlias = tuple[Doubles, Any, str]
+"""A place, the mesh there, and its name."""
 
 
 def joined(scene: Any, limits: Limits = DEFAULT_LIMITS, received: int = 1 << 62) -> Polygons:
     """Join the surfaces of a scene, each as often and where the scene places it; `received` is the size of the file."""
     order = {name: place for place, name in enumerate(scene.geometry)}  # that of the file; the graph has none
     places = sorted((scene.graph[node] for node in scene.graph.nodes_geometry), key=lambda place: order[place[1]])
-    every = [(matrix, scene.geometry[name], name) for matrix, name in places]
-    surfaces = [one for one in every if hasattr(one[1], "faces")]
+    surfaces: list[_Surface] = []
+    for matrix, name in places:
+        if hasattr(scene.geometry[name], "faces"):
+            surfaces.append((matrix, scene.geometry[name], name))
     polygons = _polygons(surfaces, scene.metadata, limits, received)
     lost = len(places) - len(surfaces)
-    return replace(polygons, dropped=(*polygons.dropped, *([f"curves and point clouds ({lost})"] if lost else [])))
+    if not lost:
+        return polygons
+    return replace(polygons, dropped=(*polygons.dropped, f"curves and point clouds ({lost})"))
 
 
 def polygons_of(mesh: Any) -> Polygons:
     return _polygons([(np.eye(4), mesh, "")], {}, DEFAULT_LIMITS, 1 << 62)
 
 
-def _columns(mesh: Any) -> list[Column]:
-    visual, columns = mesh.visual, []
+def _columns(mesh: Any) -> Iterator[Column]:
+    visual = mesh.visual
     if "vertex_normals" in mesh._cache:
-        columns.append(Column("normal", np.asarray(mesh.vertex_normals, np.float64), semantic="normal"))
+        yield Column("normal", np.asarray(mesh.vertex_normals, np.float64), semantic="normal")
     if visual.kind == "texture":
         uv = visual.uv
         if uv is not None and np.shape(uv) == (len(mesh.vertices), 2):
-            columns.append(Column("texcoord", compact(np.asarray(uv, np.float64)), semantic="texcoord"))
+            yield Column("texcoord", compact(np.asarray(uv, np.float64)), semantic="texcoord")
         colors = visual.vertex_attributes.get("color")
-        if colors is not None and np.shape(colors)[0] == len(mesh.vertices):
-            columns.append(color_column(np.array(colors), "vertex"))
+        if colors is not None and len(colors) == len(mesh.vertices):
+            yield color_column(np.array(colors), "vertex")
     elif visual.kind == "vertex":
-        columns.append(color_column(np.array(visual.vertex_colors), "vertex"))
+        yield color_column(np.array(visual.vertex_colors), "vertex")
     elif visual.kind == "face":
-        columns.append(color_column(np.array(visual.face_colors), "face"))
-    columns += [_column(name.removeprefix("_"), values, "vertex") for name, values in mesh.vertex_attributes.items()]
-    return [*columns, *(_column(name, values, "face") for name, values in mesh.face_attributes.items())]
+        yield color_column(np.array(visual.face_colors), "face")
+    for name, values in mesh.vertex_attributes.items():
+        yield _column(name.removeprefix("_"), values, "vertex")
+    for name, values in mesh.face_attributes.items():
+        yield _column(name, values, "face")
 
 
 def _materials_of(mesh: Any) -> tuple[list[Any], Array]:
+    """The materials of a mesh, and for each face the place of its own."""
     visual = mesh.visual
-    none = np.zeros(len(mesh.faces), np.int64)
+    first_of_all = np.zeros(len(mesh.faces), np.int64)
     if visual.kind != "texture" or visual.material is None:
-        return [], none
+        return [], first_of_all
     several = getattr(visual.material, "materials", None)
+    if not several:
+        return [visual.material], first_of_all
     numbers = getattr(visual, "face_materials", None)
-    if several and numbers is not None and np.shape(numbers) == none.shape:
-        return list(several), np.clip(np.asarray(numbers, np.int64), 0, len(several) - 1)
-    return [several[0] if several else visual.material], none
+    if numbers is None or np.shape(numbers) != first_of_all.shape:
+        return [several[0]], first_of_all
+    return list(several), np.clip(np.asarray(numbers, np.int64), 0, len(several) - 1)
 
 
 def _column(name: str, values: Any, domain: Domain) -> Column:
     table = np.array(values)
-    table = table[:, None] if table.ndim == 1 else table
-    return Column(name, table, domain, meaning_of(name, table.shape[1] if table.ndim == 2 else 0))
+    if table.ndim == 1:
+        table = table[:, None]
+    width = table.shape[1] if table.ndim == 2 else 0
+    return Column(name, table, domain, meaning_of(name, width))
 
 
-def _polygons(
-    surfaces: list[tuple[Doubles, Any, str]], of_scene: dict[str, Any], limits: Limits, received: int
-) -> Polygons:
+def _polygons(surfaces: list[_Surface], of_scene: dict[str, Any], limits: Limits, received: int) -> Polygons:
     """Meshes of trimesh with their places and names as one."""
     meshes = [mesh for _, mesh, _ in surfaces]
     of_materials, numbers = _materials(meshes)
 
-    def made() -> Iterator[Part]:
+    def parts() -> Iterator[Part]:
         for (matrix, mesh, name), materials in zip(surfaces, numbers, strict=True):
             faces = np.asarray(mesh.faces, np.int64)
             points, sizes = np.asarray(mesh.vertices, np.float64), np.full(len(faces), 3)
-            yield Part(points, sizes, faces.reshape(-1), _columns(mesh), materials, name).placed(matrix)
+            yield Part(points, sizes, faces.reshape(-1), [*_columns(mesh)], materials, name).placed(matrix)
 
     counts = [(len(mesh.vertices), len(mesh.faces)) for mesh in meshes]
-    joined = joined_parts(made(), counts, limits, received)
+    joined = joined_parts(parts(), counts, limits, received)
     metadata, losses = _metadata(meshes, of_scene)
-    names = {} if _NO_NAMES.fullmatch(str(joined.metadata.get("name", ""))) else joined.metadata
+    names = joined.metadata
+    if _NO_NAMES.fullmatch(str(names.get("name", ""))):
+        names = {}
     return replace(joined, metadata={**names, **metadata, **of_materials}, dropped=tuple(losses))
 
 
@@ -100,26 +113,31 @@ def _metadata(meshes: list[Any], of_scene: dict[str, Any]) -> tuple[dict[str, Va
     losses: dict[str, None] = {}
     for source in (of_scene, *(mesh.metadata for mesh in meshes)):
         for name, value in source.items():
-            plain = isinstance(value, str | int | float | bytes)
-            if name and name not in _OF_TRIMESH and plain and not (isinstance(value, str) and not value.strip("\0 ")):
-                entries.setdefault(str(name), int(value) if isinstance(value, bool) else value)
-            elif name and name not in _OF_TRIMESH and not plain and value is not None:
+            is_blank = value is None or (isinstance(value, str) and not value.strip("\0 "))
+            if not name or name in _OF_TRIMESH or is_blank:
+                continue
+            if isinstance(value, bool):
+                value = int(value)
+            if isinstance(value, str | int | float | bytes):
+                entries.setdefault(str(name), value)
+            else:
                 losses[f"metadata {name}"] = None
-    units = dict.fromkeys(mesh.units for mesh in meshes)
-    if len(units) == 1 and isinstance(unit := next(iter(units)), str):
-        entries.setdefault("unit", unit)
+    units = [*dict.fromkeys(mesh.units for mesh in meshes)]
+    if len(units) == 1 and isinstance(units[0], str):
+        entries.setdefault("unit", units[0])
     return entries, losses
 
 
 def _materials(meshes: list[Any]) -> tuple[dict[str, Value], list[Array]]:
+    """The different materials of meshes, with their images, as metadata; and the number of that of each face."""
     numbered: dict[frozenset[tuple[str, Value]], tuple[int, Material]] = {}
     images: list[bytes] = []
     numbers = []
     for mesh in meshes:
-        several, of_faces = _materials_of(mesh)
-        places = np.zeros(max(len(several), 1), np.int32)
-        for place, material in enumerate(several or [None]):
-            words = {} if material is None else _words_of(material, images)
+        materials, of_faces = _materials_of(mesh)
+        all_words = [_words_of(material, images) for material in materials] or [{}]
+        places = np.zeros(len(all_words), np.int32)
+        for place, words in enumerate(all_words):
             places[place], _ = numbered.setdefault(frozenset(words.items()), (len(numbered), words))
         numbers.append(places[of_faces])
     metadata = described(dict(numbered.values()))
@@ -136,29 +154,36 @@ def _words_of(material: Any, images: list[bytes]) -> Material:
             "Ka": material.ambient,
             "Ks": material.specular,
             "Ns": material.glossiness,
+            "map_Kd": material.image,
+            "name": material.name,
+            **getattr(material, "kwargs", {}),
         }
-        properties |= {"map_Kd": material.image, "name": material.name, **getattr(material, "kwargs", {})}
     words: Material = {}
     for name, value in properties.items():
         if hasattr(value, "save"):
             if value.format is None and value.size == (1, 1):
                 continue  # that of the material that trimesh gives to what has none
-            file = getattr(value, "fp", None)  # the one that the image was, if it is still there, or else a PNG of it
-            data = file.getvalue() if isinstance(file, io.BytesIO) and not file.closed else b""
-            if kind_of_image(data):
-                data = re.sub(_PADDING, b"", data)
-            else:
-                value.save(buffer := io.BytesIO(), format="PNG")
-                data = buffer.getvalue()
+            data = _data_of(value)
             if data not in images:
                 images.append(data)
             words[name] = images.index(data)
-        elif isinstance(value, str | int | float | np.bool_):
-            words[name] = int(value) if isinstance(value, bool | np.bool_) else value
+        elif isinstance(value, bool | np.bool_):
+            words[name] = int(value)
+        elif isinstance(value, str | int) or (isinstance(value, float) and np.isfinite(value)):
+            words[name] = value
         elif isinstance(value, np.ndarray | list | tuple) and np.asarray(value).dtype.kind in "iuf":
             numbers = np.asarray(value).reshape(-1)
             if numbers.dtype == np.uint8:
                 numbers = numbers / 255
             words[name] = as_text(numbers[:3] if name.startswith("K") else numbers)
-    finite = {name: value for name, value in words.items() if not isinstance(value, float) or np.isfinite(value)}
-    return {} if finite == {"doubleSided": 0} else finite  # the default
+    return {} if words == {"doubleSided": 0} else words  # the default
+
+
+def _data_of(image: Any) -> bytes:
+    """The file that an image of Pillow was, if it is still there, or else a PNG of it."""
+    file = getattr(image, "fp", None)
+    if isinstance(file, io.BytesIO) and not file.closed and kind_of_image(file.getvalue()):
+        return re.sub(_PADDING, b"", file.getvalue())
+    buffer = io.BytesIO()
+    image.save(buffer, format="PNG")
+    return buffer.getvalue()
