@@ -22,7 +22,20 @@ from bsm.codec.geometry.welding import degenerate, group_rows, weld
 from bsm.encoding.given import given_part
 from bsm.files.conventions import shares_of
 from bsm.gltf import document as gltf
-from bsm.gltf.coding import COMPONENTS, DRACO, FLOAT, PIECE, TRANSFORM, TRIANGLES, TRIANGULAR, Array, Drawn, Tree, drawn
+from bsm.gltf.coding import (
+    COMPONENTS,
+    DRACO,
+    FLOAT,
+    PIECE,
+    TRANSFORM,
+    TRIANGLES,
+    TRIANGULAR,
+    Array,
+    Drawn,
+    Tree,
+    drawn,
+    set_of,
+)
 from bsm.ground.console import Progress
 
 _TEXCOORD: tuple[Semantic, int] = ("texcoord", 2)
@@ -51,44 +64,51 @@ class Carried:
 
 def arrays_of(primitive: Tree) -> dict[str, int]:
     """Accessors of what each vertex of a primitive has; those of morph targets are called "0/POSITION" and so on."""
-    targets = enumerate(primitive.get("targets", []))
-    added = {f"{number}/{name}": index for number, target in targets for name, index in target.items()}
-    return dict(primitive["attributes"]) | added
+    arrays: dict[str, int] = dict(primitive["attributes"])
+    for number, target in enumerate(primitive.get("targets", [])):
+        arrays |= {f"{number}/{name}": index for name, index in target.items()}
+    return arrays
 
 
 # One stream has one type for each attribute, so only primitives with equal types share one.
 def like(document: gltf.Document, primitive: Tree) -> str:
     """A key that is equal for primitives which one stream can hold."""
-    accessors = [(name, document.item("accessors", index)) for name, index in sorted(arrays_of(primitive).items())]
-    return str([(name, a["componentType"], a["type"], a.get("normalized", False)) for name, a in accessors])
+    key: list[tuple[Any, ...]] = []
+    for name, index in sorted(arrays_of(primitive).items()):
+        accessor = document.item("accessors", index)
+        key.append((name, accessor["componentType"], accessor["type"], accessor.get("normalized", False)))
+    return str(key)
 
 
 def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> Carried | str:
     """Primitives that are alike as one mesh, or why they stay as they are."""
     primitives = [same[0] for same in bundle]
-    if isinstance(joined := _joined(document, primitives), str):
+    joined = _joined(document, primitives)
+    if isinstance(joined, str):
         return joined
     arrays, corners, sizes = joined
     # Encoders leave out faces without area. Where a skin or a target opens such a face, it must stay.
     opens = _opens(arrays, corners)
     positions = arrays.pop("POSITION")
+    extent = float(np.ptp(positions, axis=0).max())
     entries = {name: document.item("accessors", index) for name, index in arrays_of(primitives[0]).items()}
+    weights = {name: array for name, array in arrays.items() if name.startswith("WEIGHTS_") and not exact}
     # Weights must sum to 1, or a skinned vertex drifts; rounding each by itself breaks that.
-    if not exact:
-        arrays |= _levels({name: array for name, array in arrays.items() if name.startswith("WEIGHTS_")})
+    arrays |= _levels(weights)
     attributes, accessors, qualities = [], {"POSITION": (FLOAT, False)}, dict[str, str]()
     # Tangents are turned from the normals and texture coordinates that come before them.
     for name, array in sorted(arrays.items(), key=lambda entry: entry[0] == "TANGENT"):
-        normalized = bool(entries[name].get("normalized")) or (name.startswith("WEIGHTS_") and not exact)
+        normalized = bool(entries[name].get("normalized")) or name in weights
         carried = _carried(name, array, normalized)
         if isinstance(carried, str):
             return carried
-        attributes.append(carried[0])
-        accessors[name] = carried[1:]
-        if carried[0].values.dtype.kind == "f" and not exact:
-            extent = float(np.ptp(positions, axis=0).max())
-            of_name = _quality(name, array, extent, lambda name: _texel(document, bundle, name))
-            qualities |= {name: of_name} if of_name else {}
+        attribute, component, is_normalized = carried
+        attributes.append(attribute)
+        accessors[name] = component, is_normalized
+        if attribute.values.dtype.kind == "f" and not exact:
+            quality = _quality(name, array, extent, lambda name: _texel(document, bundle, name))
+            if quality is not None:
+                qualities[name] = quality
     if len(primitives) > 1:
         numbers = np.repeat(np.arange(len(sizes)), sizes)
         # One stream for many primitives: a head costs as much as a small mesh. The label tells where each begins.
@@ -101,41 +121,55 @@ def _joined(
     document: gltf.Document, primitives: list[Tree]
 ) -> tuple[dict[str, Array], npt.NDArray[np.int64], list[int]] | str:
     """The arrays of all vertices, the faces, and how many each primitive has; or why they stay as they are."""
-    combined = {str(sorted(arrays_of(primitive).items())): arrays_of(primitive) for primitive in primitives}
-    indexes = [index for arrays in combined.values() for index in arrays.values()]
-    indexes += [primitive["indices"] for primitive in primitives if "indices" in primitive]
+    arrays_by_key: dict[str, dict[str, int]] = {}
+    keys: list[str] = []
+    indexes: list[int] = []
+    for primitive in primitives:
+        arrays = arrays_of(primitive)
+        keys.append(str(sorted(arrays.items())))
+        arrays_by_key[keys[-1]] = arrays
+        if "indices" in primitive:
+            indexes.append(primitive["indices"])
+    for arrays in arrays_by_key.values():
+        indexes += arrays.values()
     # Accessors may share bytes.
     DEFAULT_LIMITS.check_memory(gltf.PER_NUMBER * sum(map(document.claimed, indexes)), 0, document.received)
-    begins, parts, faces, count = dict[str, int](), list[dict[str, Array]](), list[npt.NDArray[np.int64]](), 0
-    for key, arrays in combined.items():  # each combination of accessors is made once
-        if isinstance(arrays_or_reason := _vertices(document, arrays), str):
-            return arrays_or_reason
-        parts.append(arrays_or_reason)
+    begins, parts, count = dict[str, int](), list[dict[str, Array]](), 0
+    for key, arrays in arrays_by_key.items():  # each combination of accessors is made once
+        part = _vertices(document, arrays)
+        if isinstance(part, str):
+            return part
+        parts.append(part)
         begins[key] = count
-        count += len(arrays_or_reason["POSITION"])
-    for primitive in primitives:
-        triangles = gltf.triangles_of(document, primitive, document.count(primitive["attributes"]["POSITION"]))
+        count += len(part["POSITION"])
+    faces: list[npt.NDArray[np.int64]] = []
+    for key, primitive in zip(keys, primitives, strict=True):
+        vertices = document.count(primitive["attributes"]["POSITION"])
+        triangles = gltf.triangles_of(document, primitive, vertices)
         if not len(triangles):
             return "no triangles"
-        faces.append(triangles + begins[str(sorted(arrays_of(primitive).items()))])
+        faces.append(triangles + begins[key])
     # Vertices that no face uses are not drawn, and not sent.
     used, corners = np.unique(np.concatenate(faces), return_inverse=True)
-    combined_arrays = {name: np.concatenate([part[name] for part in parts])[used] for name in parts[0]}
-    return combined_arrays, corners.reshape(-1, 3), list(map(len, faces))
+    joined = {name: np.concatenate([part[name] for part in parts])[used] for name in parts[0]}
+    return joined, corners.reshape(-1, 3), list(map(len, faces))
 
 
 def _vertices(document: gltf.Document, indexes: Mapping[str, int]) -> dict[str, Array] | str:
     """What each vertex has by these accessors, or why that cannot be coded."""
     arrays: dict[str, Array] = {}
     for name, index in indexes.items():
-        array, normalized = document.array(index), bool(document.item("accessors", index).get("normalized"))
-        geometry = name.rpartition("/")[2].startswith(("POSITION", "NORMAL", "TANGENT", "TEXCOORD_"))
-        narrow = normalized and (name.startswith("_") or array[0].nbytes % 4 > 0)
-        if (geometry or narrow) and array.dtype.itemsize <= 2:
-            values = array.astype(np.float32)
+        array = document.array(index)
+        normalized = bool(document.item("accessors", index).get("normalized"))
+        is_geometry = name.rpartition("/")[2].startswith(("POSITION", "NORMAL", "TANGENT", "TEXCOORD_"))
+        is_narrow = normalized and (name.startswith("_") or array[0].nbytes % 4 > 0)
+        if (is_geometry or is_narrow) and array.dtype.itemsize <= 2:
             # Quantized geometry is coded as the floats that it means, or the grid of the stream would be laid over
             # another grid.
-            array = np.maximum(values / np.iinfo(array.dtype).max, -1, dtype=np.float32) if normalized else values
+            most = np.iinfo(array.dtype).max
+            array = array.astype(np.float32)
+            if normalized:
+                array = np.maximum(array / most, -1, dtype=np.float32)
         arrays[name] = array
     positions = arrays.get("POSITION")
     if positions is None or positions.dtype != np.float32 or not np.isfinite(positions).all():
@@ -147,13 +181,17 @@ def _vertices(document: gltf.Document, indexes: Mapping[str, int]) -> dict[str, 
 
 def _opens(arrays: Mapping[str, Array], faces: npt.NDArray[np.int64]) -> bool:
     """Whether vertices that make a face without area, being at one place, part by targets or joints."""
-    moved = [a for name, a in arrays.items() if name.endswith("/POSITION") or name.startswith(("JOINTS_", "WEIGHTS_"))]
+    motion: list[Array] = []
+    for name, array in arrays.items():
+        if name.endswith("/POSITION") or name.startswith(("JOINTS_", "WEIGHTS_")):
+            motion.append(array)
     positions = arrays["POSITION"].astype(np.float64)
-    triangles = weld(positions, faces.astype(np.int32))[1]
+    _, triangles, _ = weld(positions, faces.astype(np.int32))
     closed = degenerate(triangles) & ~degenerate(faces)
-    if not moved or not closed.any():
+    if not motion or not closed.any():
         return False
-    alike = group_rows(np.ascontiguousarray(np.column_stack([positions, *moved]), np.float64))
+    table = np.ascontiguousarray(np.column_stack([positions, *motion]), np.float64)
+    alike = group_rows(table)
     return bool((closed & ~degenerate(alike[faces])).any())
 
 
@@ -163,14 +201,18 @@ def _levels(weights: Mapping[str, Array]) -> dict[str, Array]:
         return {}
     table = np.hstack([shares_of(array) for array in weights.values()])
     total = table.sum(axis=1, keepdims=True)
-    exact = np.where(total > 0, table / np.maximum(total, 1e-30) * 255, 0)
+    has_weight = total > 0
+    exact = np.where(has_weight, table / np.maximum(total, 1e-30) * 255, 0)
     levels = np.floor(exact)
+    missing = np.where(has_weight, 255, 0) - levels.sum(axis=1, keepdims=True)
     # The method of largest remainders, as parliaments are seated: the sum is exact, and no weight is off by a whole
     # level.
-    ranks = np.argsort(np.argsort(levels - exact, axis=1, kind="stable"), axis=1)
-    levels += ranks < np.where(total > 0, 255, 0) - levels.sum(axis=1, keepdims=True)  # the largest remainders go up
-    ends = np.cumsum([array.shape[1] for array in weights.values()])[:-1]
-    return dict(zip(weights, np.split(levels.astype(np.uint8), ends, axis=1), strict=True))
+    order = np.argsort(levels - exact, axis=1, kind="stable")
+    ranks = np.argsort(order, axis=1)
+    levels[ranks < missing] += 1
+    ends = np.cumsum([array.shape[1] for array in weights.values()])
+    tables = np.split(levels.astype(np.uint8), ends[:-1], axis=1)
+    return dict(zip(weights, tables, strict=True))
 
 
 def _quality(name: str, array: Array, extent: float, texel: Callable[[str], float]) -> str | None:
@@ -178,7 +220,8 @@ def _quality(name: str, array: Array, extent: float, texel: Callable[[str], floa
     target, _, base = name.rpartition("/")
     if base.startswith("TEXCOORD_"):
         # As many bits as a quarter of a texel of the largest image needs.
-        bits = math.ceil(math.log2(max(float(np.ptp(array, axis=0).max()) / (2 * _TEXELS * texel(base)), 1.0)))
+        steps = float(np.ptp(array, axis=0).max()) / (2 * _TEXELS * texel(base))
+        bits = math.ceil(math.log2(max(steps, 1.0)))
         return f"{max(bits, _COARSEST)}bits" if bits <= _FINEST else "exact"
     if name in _QUALITIES:
         return _QUALITIES[name]
@@ -189,16 +232,18 @@ def _quality(name: str, array: Array, extent: float, texel: Callable[[str], floa
 
 def _texel(document: gltf.Document, bundle: Bundle, name: str) -> float:
     """The side of the smallest texel of the images that a set of texture coordinates places."""
-    sides = [1.0 * _SIDE]
-    for index in {primitive.get("material") for same in bundle for primitive in same} - {None}:
+    sides: list[float] = []
+    materials = {primitive["material"] for same in bundle for primitive in same if "material" in primitive}
+    for index in materials:
         material = document.item("materials", index)
         groups = [material, material.get("pbrMetallicRoughness", {}), *material.get("extensions", {}).values()]
-        textures = [value for group in groups for key, value in group.items() if key.endswith("Texture")]
-        for info in textures:
-            moved = info.get("extensions", {}).get(TRANSFORM, {})
-            if f"TEXCOORD_{moved.get('texCoord', info.get('texCoord', 0))}" == name:
-                sides.append(document.side_of_texture(info["index"], _SIDE) * max(map(abs, moved.get("scale", [1.0]))))
-    return 1.0 / max(sides[1:] or sides, default=_SIDE)
+        for group in groups:
+            for key, info in group.items():
+                if key.endswith("Texture") and f"TEXCOORD_{set_of(info)}" == name:
+                    transform = info.get("extensions", {}).get(TRANSFORM, {})
+                    scale = max(map(abs, transform.get("scale", [1.0])))
+                    sides.append(document.side_of_texture(info["index"], _SIDE) * scale)
+    return 1.0 / max(sides, default=_SIDE)
 
 
 def _carried(name: str, array: Array, normalized: bool) -> tuple[Attribute, int, bool] | str:
@@ -208,14 +253,12 @@ def _carried(name: str, array: Array, normalized: bool) -> tuple[Attribute, int,
         return f"{name} has numbers that are not finite"
     if name in _SEMANTICS and is_float:
         semantic, width = _SEMANTICS[name]
-        attribute = Attribute(name, array, "vertex", semantic) if array.shape[1] == width else None
-        return (
-            (attribute, FLOAT, False)
-            if attribute
-            else f"{name} has {array.shape[1]} numbers for each vertex, not {width}"
-        )
+        if array.shape[1] != width:
+            return f"{name} has {array.shape[1]} numbers for each vertex, not {width}"
+        return Attribute(name, array, "vertex", semantic), FLOAT, False
     if name == "COLOR_0":
-        if (is_float and (array.min() < 0 or array.max() > 1)) or not (is_float or array.dtype.kind == "u"):
+        in_range = array.min() >= 0 and array.max() <= 1 if is_float else array.dtype.kind == "u"
+        if not in_range:
             return "COLOR_0 has numbers that are not between 0 and 1"
         return Attribute(name, array, "vertex", "color"), FLOAT, False
     # Integers are coded without loss, and identifiers are wrong if they are off at all.
@@ -241,16 +284,17 @@ class BundleStream:
     notes: tuple[str, ...]
 
 
-def code_bundle(mesh_or_reason: Carried | str, pieces: int, options: Mapping[str, Any]) -> BundleStream | str:
-    if isinstance(mesh_or_reason, str):
-        return mesh_or_reason
-    names = {"*", *(attribute.name for attribute in mesh_or_reason.mesh.attributes)}
-    qualities_asked = {name: quality for name, quality in options.get("attributes", {}).items() if name in names}
-    qualities = {} if "*" in qualities_asked else mesh_or_reason.qualities
-    order = {"keep_order": True} if mesh_or_reason.opens else {}
+def code_bundle(carried: Carried | str, pieces: int, options: Mapping[str, Any]) -> BundleStream | str:
+    if isinstance(carried, str):
+        return carried
+    names = {"*", *(attribute.name for attribute in carried.mesh.attributes)}
+    requests = {name: quality for name, quality in options.get("attributes", {}).items() if name in names}
+    qualities = requests if "*" in requests else {**carried.qualities, **requests}
+    part_options = {"threads": 1, **options, "attributes": qualities}
+    if carried.opens:
+        part_options["keep_order"] = True
     try:
-        part_options = {"threads": 1, **options, **order, "attributes": {**qualities, **qualities_asked}}
-        coded = given_part(mesh_or_reason.mesh, **part_options).encode(Progress(""))
+        coded = given_part(carried.mesh, **part_options).encode(Progress(""))
         encoder, stream = coded.encoder, b"".join(coded.attempt.frames)
         decoded = decode(stream)
     # One primitive that cannot be coded stays as it is; the scene does not fail for it.
@@ -260,26 +304,30 @@ def code_bundle(mesh_or_reason: Carried | str, pieces: int, options: Mapping[str
     if len(shape.pieces) != pieces:
         return "no face has an area"
     # Measured on what decoders give, so that the figure of the command is that of `bsm compare`.
-    off = error_of(mesh_or_reason.mesh.positions[encoder.vertex_order], decoded)
-    accessors = {name: mesh_or_reason.accessors[name] for name in shape.arrays}
+    error_of_positions = error_of(carried.mesh.positions[encoder.vertex_order], decoded)
+    accessors = {name: carried.accessors[name] for name in shape.arrays}
     if len(shape.index) >= _SHORT and shape.index.max() < 65535:
         accessors["indices"] = (COMPONENTS["uint16"], False)
-    return BundleStream(stream, shape, accessors, off, encoder.losses)
+    return BundleStream(stream, shape, accessors, error_of_positions, encoder.losses)
 
 
 def accessors_of(primitive: Tree) -> dict[str, int]:
-    return arrays_of(primitive) | ({"": primitive["indices"]} if "indices" in primitive else {})
+    accessors = arrays_of(primitive)
+    if "indices" in primitive:
+        accessors[""] = primitive["indices"]
+    return accessors
 
 
 def bundles_of(document: gltf.Document, tree: Tree, reasons: Counter[str]) -> list[Bundle]:
-    """The primitives of a tree that can be coded, each in one bundle; `left` counts why others are not."""
+    """The primitives of a tree that can be coded, each in one bundle; `reasons` counts why others are not."""
     primitives_by_key: dict[str, list[Tree]] = {}
     bundles: list[Bundle] = []
     for mesh in tree.get("meshes", []):
         alike: dict[str, Bundle] = {}
         for primitive in mesh["primitives"]:
-            if why := _why_left(document, mesh, primitive):
-                reasons[why] += 1
+            reason = _why_left(document, mesh, primitive)
+            if reason is not None:
+                reasons[reason] += 1
                 continue
             key = str((sorted(accessors_of(primitive).items()), primitive.get("mode")))
             # Two primitives of the same accessors are one set of triangles with two materials, and are coded once.
@@ -304,17 +352,23 @@ def _why_left(document: gltf.Document, mesh: Tree, primitive: Tree) -> str | Non
     if primitive.get("mode", TRIANGLES) not in TRIANGULAR:
         return "points or lines"
     accessors = [document.item("accessors", index) for index in accessors_of(primitive).values()]
+    extensions = primitive.get("extensions", {})
     unknown_names = [name for name in mesh.get("extensions", {}) if not OF_LOOKS.fullmatch(name)]
-    unknown_names += [name for entry in accessors for name in entry.get("extensions", {})]
-    unknown_names += [name for name in primitive.get("extensions", {}) if name not in _KNOWN]
-    features = primitive.get("extensions", {}).get("EXT_mesh_features", {}).get("featureIds", [])
-    unknown_names += ["EXT_mesh_features" for entry in features if not {"attribute", "texture"} & entry.keys()]
+    for accessor in accessors:
+        unknown_names += accessor.get("extensions", {})
+    unknown_names += [name for name in extensions if name not in _KNOWN]
+    for feature in extensions.get("EXT_mesh_features", {}).get("featureIds", []):
+        if feature.keys().isdisjoint(("attribute", "texture")):
+            unknown_names.append("EXT_mesh_features")
     if unknown_names:
         # A stream orders vertices anew. An extension that counts on their old numbers would point to others.
         return f"{unknown_names[0]} may name vertices"
-    views = (document.item("bufferViews", entry["bufferView"]) for entry in accessors if "bufferView" in entry)
-    packed = [name for view in views for name in sorted(document.unread_in(view))]
-    return f"{packed[0]} may hold other bytes" if packed else None
+    for accessor in accessors:
+        if "bufferView" in accessor:
+            packings = document.unread_in(document.item("bufferViews", accessor["bufferView"]))
+            if packings:
+                return f"{min(packings)} may hold other bytes"
+    return None
 
 
 def error_of(positions: Array, decoded: TriangleMesh) -> tuple[float, float]:
@@ -323,6 +377,9 @@ def error_of(positions: Array, decoded: TriangleMesh) -> tuple[float, float]:
     labels = components(graph_of_faces(decoded.faces, len(errors)))
     order = np.argsort(labels, kind="stable")
     starts = np.searchsorted(labels[order], np.arange(labels.max() + 1))
-    low, high = (way.reduceat(positions[order], starts, axis=0) for way in (np.minimum, np.maximum))
-    farthest, diagonals = np.maximum.reduceat(errors[order], starts), np.linalg.norm(high - low, axis=1)
-    return float(errors.max()), float((farthest / np.where(diagonals > 0, diagonals, np.inf)).max())
+    farthest = np.maximum.reduceat(errors[order], starts)
+    low = np.minimum.reduceat(positions[order], starts, axis=0)
+    high = np.maximum.reduceat(positions[order], starts, axis=0)
+    diagonals = np.linalg.norm(high - low, axis=1)
+    shares = farthest / np.where(diagonals > 0, diagonals, np.inf)
+    return float(errors.max()), float(shares.max())

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import DependencyError, FormatError, UnsupportedError, imported
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of, to_linear
 from bsm.files.formats.appearance import Texture
@@ -48,41 +49,47 @@ class Drawn:
 
 def drawn(mesh: TriangleMesh) -> Drawn:
     """Draw as the extension defines: a vertex for each vertex and values of attributes that meet at a corner."""
-    labels_by_name = {a.name: a.values[:, 0] for a in mesh.attributes if a.name == PIECE and a.domain == "face"}
-    labels = labels_by_name.get(PIECE, np.zeros(len(mesh.faces), np.int64))
+    labels = np.zeros(len(mesh.faces), np.int64)
+    attributes: list[Attribute] = []
+    for attribute in mesh.attributes:
+        if attribute.name == PIECE and attribute.domain == "face":
+            labels = attribute.values[:, 0]
+        else:
+            attributes.append(attribute)
     # Primitives are parts of the index list, so faces of one material must follow each other.
     order = np.argsort(labels, kind="stable")
     corners = mesh.faces[order].ravel()
-    attributes = [a for a in mesh.attributes if a.name not in labels_by_name]
-    parting = {a.name: a.indices[order].ravel() for a in attributes if a.indices is not None}
+    seams = {a.name: a.indices[order].ravel() for a in attributes if a.indices is not None}
     vertices: npt.NDArray[np.integer[Any]] = np.arange(len(mesh.positions))
     rows: npt.NDArray[np.integer[Any]] = corners
-    values = {a.name: a.values for a in attributes}
-    if parting:
+    if seams:
         # glTF has one index for all attributes: a vertex is split wherever any of them differs.
-        different, rows = np.unique(np.stack([corners, *parting.values()], axis=1), axis=0, return_inverse=True)
-        vertices = different[:, 0]
-        values |= {name: values[name][different[:, column]] for column, name in enumerate(parting, 1)}
-    for name in values.keys() - parting.keys():
-        values[name] = values[name][vertices]
-    arrays = {"POSITION": mesh.positions.astype(np.float32)[vertices], **values}
+        different, rows = np.unique(np.stack([corners, *seams.values()], axis=1), axis=0, return_inverse=True)
+        vertices, *value_rows = different.T
+        seams = dict(zip(seams, value_rows))
+    arrays = {"POSITION": mesh.positions.astype(np.float32)[vertices]}
+    for attribute in attributes:
+        arrays[attribute.name] = attribute.values[seams.get(attribute.name, vertices)]
     return Drawn(rows.ravel().astype(np.uint32), arrays, np.repeat(labels[order], 3))
 
 
 def stored(name: str, values: Array, component: int) -> Array:
     """The numbers of an array of a stream in a component type of accessors; integers of colors are shares."""
-    of_color = name == "COLOR_0" and component == FLOAT and values.dtype.kind == "u"
-    return (shares_of(values) if of_color else values).astype(KINDS[component])
+    if name == "COLOR_0" and component == FLOAT and values.dtype.kind == "u":
+        values = shares_of(values)
+    return values.astype(KINDS[component])
 
 
 def array_of(decoded: tuple[TriangleMesh, Drawn], name: str, component: int | None) -> Array:
     """The array of a stream that the extension calls so."""
     mesh, shape = decoded
-    semantic, place = _SEMANTICS.get(name, ("", 0))
-    alike = [a.name for a in mesh.attributes if a.semantic == semantic]
-    array_name = name if name in shape.arrays or place >= len(alike) else alike[place]
     if name == "indices":
         return stored(name, shape.index, component or UINT)
+    array_name = name
+    semantic, place = _SEMANTICS.get(name, ("", 0))
+    alike = [attribute.name for attribute in mesh.attributes if attribute.semantic == semantic]
+    if name not in shape.arrays and place < len(alike):
+        array_name = alike[place]
     if array_name not in shape.arrays:
         raise FormatError(f"a stream of this glTF has no {name[:80]}")
     values = shape.arrays[array_name]
@@ -92,28 +99,33 @@ def array_of(decoded: tuple[TriangleMesh, Drawn], name: str, component: int | No
     return stored(name, values, component or FLOAT)
 
 
-def unpack_meshopt(data: bytes, how: Tree) -> bytes:
+def unpack_meshopt(data: bytes, extension: Tree) -> bytes:
     """The bytes of a bufferView that meshoptimizer has compressed."""
-    count, stride, mode, filtered = how["count"], how["byteStride"], how["mode"], how.get("filter", "NONE")
+    count, stride, mode = extension["count"], extension["byteStride"], extension["mode"]
+    filter_name = extension.get("filter", "NONE")
     try:
         # Not an extra of the package: few files need it, and the message names it.
         library = imported("meshoptimizer", "", "")
     except DependencyError:
         raise DependencyError("the meshes are compressed with meshopt; run: pip install meshoptimizer") from None
-    reader = {
-        "ATTRIBUTES": lambda: library.decode_vertex_buffer(count, stride, data, np.dtype(("V", stride))),
-        "TRIANGLES": lambda: library.decode_index_buffer(count, 4, data),
-        "INDICES": lambda: library.decode_index_sequence(count, 4, data),
-    }.get(mode)
     filters = {"OCTAHEDRAL": "oct", "QUATERNION": "quat", "EXPONENTIAL": "exp"}
-    if reader is None or filtered not in ("NONE", *filters):
-        raise UnsupportedError(f"meshopt of mode {str(mode)[:20]} with filter {str(filtered)[:20]} is not read here")
+    if mode not in ("ATTRIBUTES", "TRIANGLES", "INDICES") or filter_name not in ("NONE", *filters):
+        raise UnsupportedError(f"meshopt of mode {str(mode)[:20]} with filter {str(filter_name)[:20]} is not read here")
+    unpacked: Array
     with as_library_error("meshoptimizer", "a bufferView of this glTF"):
-        unpacked: Array = reader()
-    if filtered != "NONE":
-        unpacked = getattr(library, f"decode_filter_{filters[filtered]}")(unpacked, count, stride)
+        if mode == "ATTRIBUTES":
+            unpacked = library.decode_vertex_buffer(count, stride, data, np.dtype(("V", stride)))
+        elif mode == "TRIANGLES":
+            unpacked = library.decode_index_buffer(count, 4, data)
+        else:
+            unpacked = library.decode_index_sequence(count, 4, data)
+    if filter_name != "NONE":
+        decode_filter = getattr(library, f"decode_filter_{filters[filter_name]}")
+        unpacked = decode_filter(unpacked, count, stride)
     # The library gives four bytes for each index, and the bufferView may want two.
-    return unpacked.astype(f"<u{stride}").tobytes() if mode != "ATTRIBUTES" else unpacked.tobytes()
+    if mode != "ATTRIBUTES":
+        unpacked = unpacked.astype(f"<u{stride}")
+    return unpacked.tobytes()
 
 
 def unpack_draco(data: bytes) -> dict[int, Array]:
@@ -128,22 +140,36 @@ def unpack_draco(data: bytes) -> dict[int, Array]:
 
 def texture_of(info: Tree, sampler: Tree, image: int) -> Texture:
     """A texture as a material refers to it; glTF counts coordinates from above."""
-    moved = info.get("extensions", {}).get(TRANSFORM, {})
-    (across, up), (right, down) = moved.get("scale", (1.0, 1.0)), moved.get("offset", (0.0, 0.0))
-    turn, which = moved.get("rotation", 0.0), moved.get("texCoord", info.get("texCoord", 0))
+    transform = info.get("extensions", {}).get(TRANSFORM, {})
+    across, up = transform.get("scale", (1.0, 1.0))
+    right, down = transform.get("offset", (0.0, 0.0))
+    turn = transform.get("rotation", 0.0)
     # glTF turns about the upper left corner, with coordinates that count downwards; ours count upwards.
     offset = right + up * math.sin(turn), 1 - up * math.cos(turn) - down
     wrap = tuple(_WRAPS.get(sampler.get(name, 0), "repeat") for name in ("wrapS", "wrapT"))
-    return Texture(image, (across, up), offset, turn, wrap, which)
+    return Texture(image, (across, up), offset, turn, wrap, set_of(info))
+
+
+def set_of(info: Tree) -> int:
+    """The number of the texture coordinates of a texture."""
+    transform = info.get("extensions", {}).get(TRANSFORM, {})
+    number: int = transform.get("texCoord", info.get("texCoord", 0))
+    return number
 
 
 def words_of(texture: Texture) -> tuple[Tree, Tree]:
     """Return the words of a material for a texture, without its number, and the sampler."""
     (across, up), (right, above), turn = texture.scale, texture.offset, texture.rotation
-    info: Tree = {"texCoord": texture.set} if texture.set else {}
+    info: Tree = {}
+    if texture.set:
+        info["texCoord"] = texture.set
     if (across, up, right, above, turn) != (1, 1, 0, 0, 0):
         offset = [right - up * math.sin(turn), 1 - up * math.cos(turn) - above]
-        moved = {"scale": [across, up], "offset": offset, **({"rotation": turn} if turn else {})}
-        info["extensions"] = {TRANSFORM: moved}
-    codes = [next(code for code, way in _WRAPS.items() if way == side) for side in texture.wrap]
-    return info, dict(zip(("wrapS", "wrapT"), codes)) if {*texture.wrap} != {"repeat"} else {}
+        transform: Tree = {"scale": [across, up], "offset": offset}
+        if turn:
+            transform["rotation"] = turn
+        info["extensions"] = {TRANSFORM: transform}
+    if {*texture.wrap} == {"repeat"}:
+        return info, {}
+    codes = {way: code for code, way in _WRAPS.items()}
+    return info, {name: codes[side] for name, side in zip(("wrapS", "wrapT"), texture.wrap)}

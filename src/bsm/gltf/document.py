@@ -33,6 +33,7 @@ _MIMES = {kind: f"image/{kind}" for kind in ("png", "webp", "avif")}
 _MIMES |= {"jpg": "image/jpeg", "ktx": "image/ktx2", "dds": "image/vnd-ms.dds"}
 _WIDTHS = {"MAT2": 4, "MAT3": 9, "MAT4": 16, "SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 _TYPES = {width: name for name, width in _WIDTHS.items()}  # vectors rather than matrices
+_PADDED = {"MAT2": 2, "MAT3": 3}  # rows of matrices whose columns are padded, if their numbers are small
 _MOST_BYTES = (1 << 32) - 1
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
 WEBP = "EXT_texture_webp"
@@ -45,8 +46,8 @@ _ROWS = rows_of("gltf")
 """In these a name may also have a kind: # a number, $ a text, [] a list, {} an object, with the kind or the number of
 its items."""
 _KINDS: Mapping[str, tuple[Any, str]] = {
-    **{"{": (dict, "an object"), "[": (list, "a list"), "$": (str, "a text"), "#": (int | float, "a number")}
-}
+    "{": (dict, "an object"), "[": (list, "a list"), "$": (str, "a text"), "#": (int | float, "a number"),
+}  # fmt: skip
 _SHAPE = {owner: dict(re.findall(r"(\w+)([#$\[{]\S*)", f"{words} {_ROWS['']}")) for owner, words in _ROWS.items()}
 _TAKEN = Taken({owner: re.sub(r"[#$\[{]\S*", "", words) for owner, words in _ROWS.items()})
 
@@ -56,8 +57,10 @@ class Document:
 
     def __init__(self, data: bytes, folder: Path | None = None, limits: Limits = DEFAULT_LIMITS) -> None:
         self._folder, self._own, self.limits = folder, len(data), limits
+        text, self._binary = data, b""
         # By the first bytes and not by the name: files are often called .gltf and are binary, or the other way round.
-        text, self._binary = _chunks(data) if data.startswith(_MAGIC) else (data, b"")
+        if data.startswith(_MAGIC):
+            text, self._binary = _chunks(data)
         try:
             tree = json.loads(text)
         # Python's parser ends with a RecursionError at brackets that are nested a thousand deep.
@@ -65,8 +68,9 @@ class Document:
             raise FormatError(f"not a glTF: {in_words(error)}") from error
         if not isinstance(tree, dict) or not isinstance(tree.get("asset"), dict):
             raise FormatError("not a glTF: it has no asset")
-        if not str(version := tree["asset"].get("version", "2.0")).startswith("2"):
-            raise FormatError(f"this is glTF {str(version)[:20]}, and only glTF 2.0 is read; convert it first")
+        version = str(tree["asset"].get("version", "2.0"))
+        if not version.startswith("2"):
+            raise FormatError(f"this is glTF {version[:20]}, and only glTF 2.0 is read; convert it first")
         # Types are checked here, once and by a table, so that no reader below meets a list where it expects a number.
         self.unread = _TAKEN.unread_names(_said(tree, "{}", "", "glTF"))
         self.tree: Tree = tree
@@ -75,7 +79,7 @@ class Document:
         # A stream holds many accessors and is decoded once. Its arrays are charged when they are made, not when they
         # are named.
         self._unpacked: dict[object, Any] = {}  # contents of compressed bufferViews, streams and primitives of Draco
-        self._taken = self._vertices = 0  # bytes of these, and vertices of streams and primitives
+        self._charged = self._vertices = 0  # bytes of these, and vertices of streams and primitives
 
     # Memory may grow with the bytes that were really sent, files beside the document included.
     @property
@@ -91,15 +95,21 @@ class Document:
     @property
     def streams(self) -> list[int]:
         """The bufferViews that are streams."""
-        holders = (*self.items("bufferViews"), *self.items("meshes"))
-        extensions = (holder.get("extensions", {}).get(EXTENSION) for holder in holders)
-        return sorted({int(how["stream"]) for how in extensions if how})
+        return sorted({*self._streams_in("bufferViews"), *self._streams_in("meshes")})
 
     @property
     def moving(self) -> bytes | None:
         """The stream whose frames a mesh of the scene shows, None if there is none."""
-        extensions = (mesh.get("extensions", {}).get(EXTENSION) for mesh in self.items("meshes"))
-        return next((self.view(int(how["stream"])) for how in extensions if how), None)
+        for stream in self._streams_in("meshes"):
+            return self.view(stream)
+        return None
+
+    def _streams_in(self, name: str) -> Iterator[int]:
+        """The streams that entries of the tree name."""
+        for entry in self.items(name):
+            extension = entry.get("extensions", {}).get(EXTENSION)
+            if extension:
+                yield int(extension["stream"])
 
     def items(self, name: str) -> list[Tree]:
         entries: list[Tree] = self.tree.get(name, [])
@@ -118,10 +128,13 @@ class Document:
 
     def buffer(self, index: object) -> bytes:
         buffer = self.item("buffers", index)
-        # Only the first buffer of a GLB is its binary chunk. Another one without a uri has no bytes.
-        data = self._behind(str(buffer["uri"])) if "uri" in buffer else self._binary if index == 0 else b""
-        if len(data) < _count(buffer, "byteLength"):
-            claimed = buffer["byteLength"]
+        data = b""
+        if "uri" in buffer:
+            data = self._resource(str(buffer["uri"]))
+        elif index == 0:  # only the first buffer of a GLB is its binary chunk
+            data = self._binary
+        claimed = _count(buffer, "byteLength")
+        if len(data) < claimed:
             raise TruncatedError(f"buffer {index} of this glTF should have {claimed} bytes, not {len(data)}")
         return data
 
@@ -132,63 +145,76 @@ class Document:
         view = self.item("bufferViews", index)
         # An unknown extension that is not required may be passed over, as glTF says; a required one may have packed the
         # bytes.
-        if unread := self.unread_in(view) & {*self.tree.get("extensionsRequired", [])}:
+        unread = self.unread_in(view) & {*self.tree.get("extensionsRequired", [])}
+        if unread:
             raise UnsupportedError(f"bufferView {index} of this glTF is packed by {min(unread)}, which is not read")
-        if any(name in view.get("extensions", {}) for name in (EXTENSION, *MESHOPT)):
-            return memoryview(self._unpack(view["extensions"]))
+        extensions = view.get("extensions", {})
+        if EXTENSION in extensions:
+            return memoryview(self._array_of_stream(extensions[EXTENSION]))
+        # The two names are one format: Khronos adopted it from the other.
+        for name in MESHOPT:
+            if name in extensions:
+                return memoryview(self._from_meshopt(extensions[name]))
         return self._plain(view, index)
 
     def unread_in(self, entry: Tree) -> set[str]:
         """The extensions of a buffer or bufferView that are not known here."""
         return set(entry.get("extensions", {})) - {EXTENSION, *MESHOPT}
 
-    def _unpack(self, extensions: Tree) -> bytes:
-        """The bytes of a bufferView that is compressed."""
-        if EXTENSION in extensions:
-            how = extensions[EXTENSION]
-            source = self.item("bufferViews", how["stream"])
-            stream = source.get("buffer"), source.get("byteOffset", 0), source.get("byteLength")
-            # By place and not by number: two bufferViews may name the same stream.
-            key: object = (*stream, name := str(how["attribute"]), component := how.get("componentType"))
-            if stream not in self._unpacked:
-                mesh = decode(bytes(self._plain(source, how["stream"])), limits=self.limits)
-                self._charge(0, len(mesh.positions))
-                self._unpacked[stream] = mesh, coding.drawn(mesh)
-            if key not in self._unpacked:
-                self._unpacked[key] = array = coding.array_of(self._unpacked[stream], name, component).tobytes()
-                self._charge(len(array))
-            return bytes(self._unpacked[key])
-        # The two names are one format: Khronos adopted it from the other.
-        how = next(extensions[name] for name in MESHOPT if name in extensions)
-        data = self._plain(how, "of meshopt")
-        if (key := str(sorted(how.items()))) not in self._unpacked:
+    def _array_of_stream(self, extension: Tree) -> bytes:
+        """The bytes of a bufferView that is an array of a stream."""
+        source = self.item("bufferViews", extension["stream"])
+        name, component = str(extension["attribute"]), extension.get("componentType")
+        # By place and not by number: two bufferViews may name the same stream.
+        stream = source.get("buffer"), source.get("byteOffset", 0), source.get("byteLength")
+        key = (*stream, name, component)
+        if stream not in self._unpacked:
+            mesh = decode(bytes(self._plain(source, extension["stream"])), limits=self.limits)
+            self._charge(0, len(mesh.positions))
+            self._unpacked[stream] = mesh, coding.drawn(mesh)
+        if key not in self._unpacked:
+            array: bytes = coding.array_of(self._unpacked[stream], name, component).tobytes()
+            self._unpacked[key] = array
+            self._charge(len(array))
+        return bytes(self._unpacked[key])
+
+    def _from_meshopt(self, extension: Tree) -> bytes:
+        """The bytes of a bufferView that meshoptimizer has compressed."""
+        data = self._plain(extension, "of meshopt")
+        key = str(sorted(extension.items()))
+        if key not in self._unpacked:
             # Before it is unpacked, and for three copies, which the library makes.
-            self._charge(3 * _count(how, "count") * _count(how, "byteStride"))
-            self._unpacked[key] = coding.unpack_meshopt(bytes(data), how)
+            self._charge(3 * _count(extension, "count") * _count(extension, "byteStride"))
+            self._unpacked[key] = coding.unpack_meshopt(bytes(data), extension)
         return bytes(self._unpacked[key])
 
     def _charge(self, size: int, vertices: int = 0) -> None:
         """Raise `LimitError` if everything unpacked so far and this takes too much."""
-        self._taken, self._vertices = self._taken + size, self._vertices + vertices
+        self._charged += size
+        self._vertices += vertices
         require_counts(self.limits, vertices=self._vertices)
-        self.limits.check_memory(self._taken, self._vertices, self.received)
+        self.limits.check_memory(self._charged, self._vertices, self.received)
 
     @cached_property
     def of_draco(self) -> dict[int, tuple[Tree, int]]:
         """Accessors that Draco holds: the extension of their primitive, and their number there; -1: the indices."""
         accessors: dict[int, tuple[Tree, int]] = {}
         for primitive in self.primitives():
-            if how := primitive.get("extensions", {}).get(DRACO):
-                attributes = primitive["attributes"]
-                accessors |= {attributes[name]: (how, int(number)) for name, number in how["attributes"].items()}
-                accessors |= {primitive["indices"]: (how, -1)} if "indices" in primitive else {}
+            extension = primitive.get("extensions", {}).get(DRACO)
+            if not extension:
+                continue
+            for name, number in extension["attributes"].items():
+                accessors[primitive["attributes"][name]] = extension, int(number)
+            if "indices" in primitive:
+                accessors[primitive["indices"]] = extension, -1
         return accessors
 
     def _from_draco(self, index: int, kind: str, count: int, width: int) -> Array:
-        how, number = self.of_draco[index]
-        key = (DRACO, how["bufferView"])
+        extension, number = self.of_draco[index]
+        key = (DRACO, extension["bufferView"])
         if key not in self._unpacked:
-            self._unpacked[key] = unpacked = coding.unpack_draco(self.view(how["bufferView"]))
+            unpacked = coding.unpack_draco(self.view(extension["bufferView"]))
+            self._unpacked[key] = unpacked
             self._charge(sum(table.nbytes for table in unpacked.values()), max(map(len, unpacked.values())))
         values: Array = self._unpacked[key].get(number, np.zeros((0, 0)))
         # Accessors repeat what Draco holds. Where they disagree, one of them is damaged.
@@ -205,18 +231,16 @@ class Document:
 
     def numbers(self, index: object, *, unscaled: bool = False) -> Array:
         accessor = self.item("accessors", index)
-        kind, width = KINDS.get(accessor.get("componentType", 0)), _WIDTHS.get(accessor.get("type", ""))
+        form = accessor.get("type", "")
+        kind, width = KINDS.get(accessor.get("componentType", 0)), _WIDTHS.get(form)
         if kind is None or width is None:
             raise FormatError(f"accessor {index} of this glTF is of no type that is known")
         count = _count(accessor, "count")
         if count * width > MOST_NUMBERS:
             raise LimitError(f"accessor {index} of this glTF has {count} values; the limit is {MOST_NUMBERS} numbers")
-        size = np.dtype(kind).itemsize
-        # Columns of matrices begin at multiples of four bytes.
-        # Such matrices have gaps between their columns. No mesh needs them, so they are refused rather than read
-        # wrongly.
-        rows = {"MAT2": 2, "MAT3": 3}.get(accessor["type"], 0) if size < 4 else 0
-        if rows and rows * size % 4:
+        # Columns of matrices begin at multiples of four bytes. No mesh needs matrices with gaps between their columns,
+        # so they are refused rather than read wrongly.
+        if form in _PADDED and _PADDED[form] * np.dtype(kind).itemsize % 4:
             raise UnsupportedError(f"accessor {index} of this glTF holds small matrices of small numbers")
         if "bufferView" in accessor:
             values = self._strided(accessor, kind, count, width)
@@ -224,7 +248,8 @@ class Document:
             values = self._from_draco(index, kind, count, width)
         else:
             values = np.zeros((count, width), kind)
-        if sparse := accessor.get("sparse"):
+        sparse = accessor.get("sparse")
+        if sparse:
             self._replace(values, sparse, kind, width)
         if accessor.get("normalized") and not unscaled and values.dtype.kind in "iu":
             # Signed integers have one more value below zero, which glTF clamps.
@@ -243,11 +268,13 @@ class Document:
 
     def claimed(self, index: object) -> int:
         """How many numbers an accessor claims; those without a buffer are zeros, for which no byte pays."""
-        return self.count(index) * _WIDTHS.get(str(self.item("accessors", index).get("type")), 16)
+        form = str(self.item("accessors", index).get("type"))
+        return self.count(index) * _WIDTHS.get(form, 16)
 
     def why_absent(self, image: Tree) -> str:
         """Why the file of an image cannot be read: it lies at an address, or nowhere."""
-        if "bufferView" not in image and not (uri := str(image.get("uri", ""))).startswith("data:"):
+        uri = str(image.get("uri", ""))
+        if "bufferView" not in image and not uri.startswith("data:"):
             try:
                 self.file(uri)
             except FormatError as error:
@@ -258,34 +285,45 @@ class Document:
         """The name of an image, and its bytes where they are there."""
         image = self.item("images", index)
         uri = str(image.get("uri", ""))
-        name = image.get("name") or ("" if uri.startswith("data:") else Path(unquote(uri)).name)
+        name = str(image.get("name") or "")
+        if not name and not uri.startswith("data:"):
+            name = Path(unquote(uri)).name
         if self.why_absent(image):
-            return str(name), None
-        return str(name), self.view(image["bufferView"]) if "bufferView" in image else self._behind(uri)
+            return name, None
+        if "bufferView" in image:
+            return name, self.view(image["bufferView"])
+        return name, self._resource(uri)
 
     def source_of(self, texture: object) -> int | None:
         """The image of a texture."""
         entry = self.item("textures", texture)
-        sources = (entry, *entry.get("extensions", {}).values())
-        return next((source["source"] for source in sources if "source" in source), None)
+        for holder in (entry, *entry.get("extensions", {}).values()):
+            if "source" in holder:
+                source: int = holder["source"]
+                return source
+        return None
 
     def side_of_texture(self, index: object, usual: int) -> int:
         """The longer side of the image of a texture, in pixels."""
         if index not in self._sides:
             source = self.source_of(index)
-            data = None if source is None else self.image(source)[1]
+            data = None
+            if source is not None:
+                _, data = self.image(source)
             self._sides[index] = side_of_image(data or b"") or usual
         return self._sides[index]
 
     def _strided(self, where: Tree, kind: str, count: int, width: int) -> Array:
         data = self._viewed(where["bufferView"])
-        offset, item = _count(where, "byteOffset"), np.dtype(kind).itemsize * width
+        offset, size = _count(where, "byteOffset"), np.dtype(kind).itemsize
+        item = size * width
         stride = _count(self.item("bufferViews", where["bufferView"]), "byteStride") or item
         # Checked as numbers before numpy sees them: ndarray with strides reads wherever it is told to.
         if stride < item or (count and offset + stride * (count - 1) + item > len(data)):
             raise TruncatedError(f"{count} values of {item} bytes do not fit into {len(data)} bytes of their view")
+        values: Array = np.ndarray((count, width), kind, data, offset, (stride, size))
         # Copied, so that a few rows of a large buffer do not keep all of it.
-        return np.array(np.ndarray((count, width), kind, data, offset, (stride, np.dtype(kind).itemsize)))
+        return values.copy()
 
     def _replace(self, values: Array, sparse: Tree, kind: str, width: int) -> None:
         count, where = _count(sparse, "count"), sparse["indices"]
@@ -295,33 +333,27 @@ class Document:
             raise FormatError(f"a sparse accessor replaces value {places.max()} of {len(values)}")
         values[places] = self._strided(sparse["values"], kind, count, width)
 
-    def _behind(self, uri: str) -> bytes:
+    def _resource(self, uri: str) -> bytes:
         """The bytes of a data URI, or of a file beside the document."""
-        if uri in self._resources:
-            return self._resources[uri]
-        if uri.startswith("data:"):
-            head, _, body = uri.partition(",")
-            data = unquote_to_bytes(body)
-            try:
-                # Without validation Python skips what is not base64, and damage would go unnoticed.
-                data = base64.b64decode(data, validate=True) if head.endswith(";base64") else data
-            except ValueError as error:
-                raise FormatError(f"a data URI of this glTF makes no sense: {error}") from error
-        else:
-            try:
-                data = Input(str(self.file(uri))).read_all()
-            except FormatError as error:
-                raise FormatError(f"this glTF refers to {uri[:80]}, but {error}") from error
-        return self._resources.setdefault(uri, data)
+        if uri not in self._resources:
+            self._resources[uri] = _data_of(uri) if uri.startswith("data:") else self._read(uri)
+        return self._resources[uri]
+
+    def _read(self, uri: str) -> bytes:
+        try:
+            return Input(str(self.file(uri))).read_all()
+        except FormatError as error:
+            raise FormatError(f"this glTF refers to {uri[:80]}, but {error}") from error
 
     @property
     def files(self) -> list[str]:
         """The files that the document refers to."""
-        uris = [str(part.get("uri", "data:")) for kind in ("buffers", "images") for part in self.items(kind)]
-        paths = []
-        for uri in (uri for uri in uris if not uri.startswith("data:")):
-            with suppress(FormatError):
-                paths.append(str(self.file(uri)))
+        paths: list[str] = []
+        for entry in (*self.items("buffers"), *self.items("images")):
+            uri = str(entry.get("uri", "data:"))
+            if not uri.startswith("data:"):
+                with suppress(FormatError):
+                    paths.append(str(self.file(uri)))
         return paths
 
     def file(self, uri: str) -> Path:
@@ -332,21 +364,37 @@ class Document:
         return file_beside(self._folder, unquote(uri))
 
 
-def _said(value: Any, kind: str, at: str, owner: str) -> Iterator[Said]:
+def _data_of(uri: str) -> bytes:
+    """The bytes in a data URI."""
+    head, _, body = uri.partition(",")
+    data = unquote_to_bytes(body)
+    if not head.endswith(";base64"):
+        return data
+    try:
+        # Without validation Python skips what is not base64, and damage would go unnoticed.
+        return base64.b64decode(data, validate=True)
+    except ValueError as error:
+        raise FormatError(f"a data URI of this glTF makes no sense: {error}") from error
+
+
+def _said(value: Any, kind: str, path: str, owner: str) -> Iterator[Said]:
     """The names in a value that must be of a kind, and in those of its objects that readers take."""
-    (python, kind_name), inside = _KINDS[kind[0]], kind[1:-1]
-    if not isinstance(value, python) or isinstance(value, bool):
-        raise FormatError(f"in this glTF, {at[1:]} must be {kind_name}, not {json.dumps(value)[:40]}")
+    (python_type, kind_name), inside = _KINDS[kind[0]], kind[1:-1]
+    if not isinstance(value, python_type) or isinstance(value, bool):
+        raise FormatError(f"in this glTF, {path[1:]} must be {kind_name}, not {json.dumps(value)[:40]}")
     if inside.isdecimal() and len(value) != int(inside):
-        raise FormatError(f"in this glTF, {at[1:]} must have {inside} values, not {len(value)}")
+        raise FormatError(f"in this glTF, {path[1:]} must have {inside} values, not {len(value)}")
     if kind[0] == "[":
+        kind_of_items = "#" if inside.isdecimal() else inside or "{}"
         for place, item in enumerate(value):
-            yield from _said(item, "#" if inside.isdecimal() else inside or "{}", f"{at}[{place}]", owner)
+            yield from _said(item, kind_of_items, f"{path}[{place}]", owner)
     elif kind[0] == "{":
+        kind_of_others = "{}" if owner == "extensions" else ""
         for name, item in value.items():
             yield owner, name, "" if isinstance(item, dict | list) else item
-            if how := _SHAPE.get(owner, {}).get(name, inside or "{}" * (owner == "extensions")):
-                yield from _said(item, how, f"{at}.{name}", name)
+            kind_of_item = _SHAPE.get(owner, {}).get(name, inside or kind_of_others)
+            if kind_of_item:
+                yield from _said(item, kind_of_item, f"{path}.{name}", name)
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes]:
@@ -355,15 +403,17 @@ def _chunks(data: bytes) -> tuple[bytes, bytes]:
     _, version, length, size, kind = struct.unpack_from("<4sIIII", data)
     if version != 2 or kind != _JSON:
         raise FormatError(f"not a GLB of version 2 (version {version})")
+    start = 20 + size
     # Some writers give a length that is too small, and it does no harm. One that is too large means that bytes are
     # missing.
-    if len(data) < max(length, 20 + size):
-        raise TruncatedError(f"this GLB should have {max(length, 20 + size)} bytes, not {len(data)}")
-    start = 20 + size
-    if len(data) < start + 8:
-        return data[20:start], b""
-    size, kind = struct.unpack_from("<II", data, start)
-    return data[20:start], data[start + 8 : start + 8 + size] if kind == _BINARY else b""
+    if len(data) < max(length, start):
+        raise TruncatedError(f"this GLB should have {max(length, start)} bytes, not {len(data)}")
+    text, binary = data[20:start], b""
+    if len(data) >= start + 8:
+        size, kind = struct.unpack_from("<II", data, start)
+        if kind == _BINARY:
+            binary = data[start + 8 : start + 8 + size]
+    return text, binary
 
 
 class Growing:
@@ -389,10 +439,11 @@ class Growing:
         """Append bytes to the buffer; return their offset."""
         start = self.size
         # Accessors must begin at multiples of four bytes.
-        self.size += len(data) + -len(data) % 4
+        padded = data + bytes(-len(data) % 4)
+        self.size += len(padded)
         if self.size > _MOST_BYTES:
             raise LimitError("this takes more than the 4 GiB of a GLB; take fewer frames (--frames A:B), or write USD")
-        self._file.write(data + b"\0" * (-len(data) % 4))
+        self._file.write(padded)
         return start
 
     def view(self, data: bytes, **more: Any) -> int:
@@ -400,7 +451,8 @@ class Growing:
         return self.add("bufferViews", place | more)
 
     def use(self, extension: str, *, required: bool) -> None:
-        for key in ("extensionsUsed", "extensionsRequired") if required else ("extensionsUsed",):
+        keys = ["extensionsUsed", "extensionsRequired"] if required else ["extensionsUsed"]
+        for key in keys:
             names = self.tree.setdefault(key, [])
             if extension not in names:
                 names.append(extension)
@@ -408,18 +460,21 @@ class Growing:
     def table(self, values: Array, *, packed: bool = False) -> int:
         """A bufferView of values, which begin at multiples of four bytes, unless they shall be packed."""
         size = values.itemsize * values.shape[1]
-        if packed or size % 4 == 0:
+        padding = -size % 4
+        if packed or not padding:
             return self.view(values.tobytes())
-        rows = np.ascontiguousarray(values).view(np.uint8).reshape(-1, size)
         # Rows of three bytes, as colors have them, are padded: glTF wants each vertex at a multiple of four.
-        return self.view(np.pad(rows, ((0, 0), (0, -size % 4))).tobytes(), byteStride=size + -size % 4)
+        rows = np.ascontiguousarray(values).view(np.uint8).reshape(-1, size)
+        padded = np.pad(rows, ((0, 0), (0, padding)))
+        return self.view(padded.tobytes(), byteStride=size + padding)
 
     def write(self, file: IO[bytes]) -> None:
         tree = json.dumps(self.tree, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
         # Lone surrogates of file names cannot be written as UTF-8, and a question mark is better than no file.
         text = tree.encode(errors="replace")
         text += b" " * (-len(text) % 4)
-        file.write(struct.pack("<4sIIII", _MAGIC, 2, 28 + len(text) + self.size, len(text), _JSON) + text)
+        length = 28 + len(text) + self.size
+        file.write(struct.pack("<4sIIII", _MAGIC, 2, length, len(text), _JSON) + text)
         file.write(struct.pack("<II", self.size, _BINARY))
         self._file.seek(0)
         shutil.copyfileobj(self._file, file)
@@ -432,12 +487,14 @@ class Growing:
 
 def mime_of(data: bytes) -> str | None:
     """The type that the first bytes of an image tell."""
-    kind = kind_of_image(data) or ("avif" if data[4:12] in (b"ftypavif", b"ftypavis") else None)
-    return _MIMES.get(kind or "")
+    if data[4:12] in (b"ftypavif", b"ftypavis"):
+        return _MIMES["avif"]
+    return _MIMES.get(kind_of_image(data) or "")
 
 
 def bounds_of(values: Array) -> Tree:
-    return {"min": values.min(axis=0).astype(float).tolist(), "max": values.max(axis=0).astype(float).tolist()}
+    low, high = values.min(axis=0), values.max(axis=0)
+    return {"min": low.astype(float).tolist(), "max": high.astype(float).tolist()}
 
 
 def _count(where: Tree, name: str) -> int:
@@ -453,17 +510,19 @@ def read_document(path: str, limits: Limits = DEFAULT_LIMITS) -> Document:
 
 def triangles_of(document: Document, primitive: Tree, count: int) -> npt.NDArray[np.int64]:
     """The triangles of a primitive over `count` vertices, shape (m, 3), those of strips and fans, too."""
-    listed = document.numbers(primitive["indices"])[:, 0] if "indices" in primitive else np.arange(count)
-    corners: Any = listed.astype(np.int64)
+    indices: npt.NDArray[np.int64] = np.arange(count)
+    if "indices" in primitive:
+        indices = document.numbers(primitive["indices"])[:, 0].astype(np.int64)
     mode = TRIANGLES if DRACO in primitive.get("extensions", {}) else primitive.get("mode", TRIANGLES)
     if mode == TRIANGLES:
-        corners = corners[: len(corners) // 3 * 3].reshape(-1, 3)
+        triangles = indices[: len(indices) // 3 * 3].reshape(-1, 3)
     else:
-        step = np.arange(max(len(corners) - 2, 0))
-        fan = np.column_stack([step + 1, step + 2, 0 * step])
-        corners = cut_strips(np.array([len(corners)]), corners)[0] if mode == STRIP else corners[fan]
-        corners = corners[~degenerate(corners)]  # not those that only lead to the next piece of a strip
-    if corners.size and not (corners.min() >= 0 and corners.max() < count):
-        raise FormatError(f"a face of this glTF refers to vertex {corners.max()} of {count}")
-    triangles: npt.NDArray[np.int64] = corners
+        if mode == STRIP:
+            triangles, _ = cut_strips(np.array([len(indices)]), indices)
+        else:
+            step = np.arange(max(len(indices) - 2, 0))
+            triangles = indices[np.column_stack([step + 1, step + 2, 0 * step])]
+        triangles = triangles[~degenerate(triangles)]  # not those that only lead to the next piece of a strip
+    if triangles.size and not (triangles.min() >= 0 and triangles.max() < count):
+        raise FormatError(f"a face of this glTF refers to vertex {triangles.max()} of {count}")
     return triangles
