@@ -176,7 +176,7 @@ class _Nodes:
         return fields
 
     def _texture(self, value: Any, others: set[str]) -> Texture | None:
-        """The texture of a property; None if there is no image for it."""
+        """The texture of a property; None if its image is missing."""
         sampler = value.sampler
         name = str(sampler.surface.image.path)
         image = self._beside.read(unquote(name))
