@@ -2,12 +2,14 @@
 
 import importlib
 import sys
+from itertools import permutations
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import bsm
 from bsm._core import turned_tangents
 from bsm.bitstream.container.header import MOST_GRID, TANGENTS
 from spec import reference_integers
@@ -93,6 +95,22 @@ def test_tangents(mesh, reach, most, seed, data):
     other[:, :3] /= np.linalg.norm(other[:, :3], axis=1, keepdims=True)
     near = turned_tangents(faces, *bases, at, coordinates, vertices, own, normals, other, size)
     assert near is None or near[1].tolist() == tangents(near[0])
+
+
+@pytest.mark.parametrize("effort", ["quick", "normal"])
+def test_split_rows(effort):
+    """Edges of more than two faces: corners of rows are partners by the rows, whatever those of the mesh are."""
+    random = np.random.default_rng(6)
+    faces = np.array(list(permutations(range(6), 3)))
+    values, indices = random.random((2, 2)).astype(np.float32), random.integers(0, 2, faces.shape).astype(np.int32)
+    coordinates = bsm.Attribute("uv", values, "corner", "texcoord", indices)
+    mesh = bsm.TriangleMesh(random.random((6, 3)), faces, (coordinates,))
+    stream = bsm.encode(mesh, grid=9, effort=effort, attributes={"uv": "9bits"})
+    rows = rows_of(stream)[0]
+    declared = rows.declaration
+    words = np.array(rows.read(reference))
+    numbers = np.array(declared.offset) + np.array(declared.step) * words
+    assert rows.attribute.values.tolist() == numbers.astype(np.float32).tolist()
 
 
 STREAMS = [v for v in read_manifest() if v.error is None and "good-swift" in v.name and "order" not in v.name]
