@@ -34,7 +34,7 @@ def folder(tmp_path, monkeypatch):
 ANSWERS = """
 encode ring.ply --coefficients 50 | instead: --set coefficients=
 encode ring.ply --block-size 50 | instead: --set block_size=
-encode ring.ply --scale 0.001 | instead: --meta unit=mm | bsm decode scales
+encode ring.ply --scale 0.001 | instead: --meta unit=mm | bsm decode --unit-out m scales
 encode ring.ply --textures keep | instead: --images keep
 glb ring.glb -o out.glb -cc | instead: --preset small
 glb ring.glb -o out.glb --max-error 0.1% | instead: --preset fine
