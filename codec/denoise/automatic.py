@@ -67,7 +67,7 @@ STAGES = 4  # that progress tells of: noise is found, filters are rehearsed twic
 MOST_TAUGHT = 40_000
 """Vertices up to which white noise is removed with learnt normals, which leave 3 % less of it, and any noise by total
 generalized variation, whose linear systems take two kilobytes of memory a vertex."""
-SOME_FLAT, MOST_FLAT = 0.2, 0.8  # shares of the faces on planes from which on these count, and networks do not
+SOME_FLAT, MOST_FLAT = 0.33, 0.8  # shares of the faces on planes from which on these count, and networks do not
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
 AS_LARGE = 1.05
 """Rehearsed error over the change, from which on nothing tells noise from shape; and over the error before, as
@@ -106,7 +106,7 @@ class AutomaticChoice:
     @property
     def reliable(self) -> bool:
         """Whether the expected errors can be relied on."""
-        return self.forecast is None or (self.forecast.known and self.expected < self.untreated)
+        return self.forecast is None or (self.forecast.reliable and self.expected < self.untreated)
 
     @property
     def at_most(self) -> float:
@@ -114,13 +114,31 @@ class AutomaticChoice:
         most = DETAIL if self.forecast else 1.0
         return max(min(most * self.expected, self.untreated), self.expected)
 
-    def seen(self, share: float, full: Positions, result: Positions, noisy: Mask, topology: Topology) -> Self:
+    def doubted(self, changed: float) -> Self:
+        """The choice, or none if its expected error is too large beside that of doing nothing, or beside the change."""
+        least_forecast = np.inf
+        if self.forecast is not None:
+            least_forecast = self.forecast.untreated
+        doubts = {
+            "any filter would cost more than it gains": WORTH * self.untreated,
+            # Noise reads 0.15 to 1.01 of it, clean meshes that were taken for noisy 1.1, 1.2 and 2.1.
+            "the expected error is as large as the change": AS_LARGE * changed,
+            "the triangles are so uneven that any filter would turn their normals farther": AS_LARGE * least_forecast,
+        }
+        for doubt, most in doubts.items():
+            if self.steps and self.expected > most:
+                return replace(self, steps=(), expected=self.untreated, reason=f"{self.reason}, but {doubt}")
+        return self
+
+    def carried_out(self, share: float, full: Positions, result: Positions, noisy: Mask, topology: Topology) -> Self:
         """Return the choice with the angles of the whole mesh, whose errors count by the share that is applied."""
         assert self.forecast is not None
-        ends = (face_normals(positions, topology.faces) for positions in (full, result))
-        undone = np.degrees(2.0 * np.arcsin(np.minimum(0.5 * np.linalg.norm(np.subtract(*ends), axis=1), 1.0)))
+        full_normals, normals = face_normals(full, topology.faces), face_normals(result, topology.faces)
+        half_chord = 0.5 * np.linalg.norm(full_normals - normals, axis=1)
+        undone = np.degrees(2.0 * np.arcsin(np.minimum(half_chord, 1.0)))
         touched = noisy[topology.faces].any(axis=1)
-        expected = float((touched * np.hypot(undone, share * self.forecast.expected)).mean())
+        errors = np.hypot(undone, share * self.forecast.expected)
+        expected = float((touched * errors).mean())
         return replace(self, untreated=self.forecast.untreated * float(touched.mean()), expected=expected)
 
     def after(self, outliers: int) -> Self:
@@ -137,56 +155,57 @@ def choose(positions: Positions, finding: Finding, surface: Filters, goal: str, 
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0)
     if finding.kind == "cells" or finding.uneven > EVEN or finding.stepped:
         return _by_cause(finding)
-    filters = SPECIAL.get(finding.kind, CANDIDATES)
-    general, large = finding.kind not in SPECIAL, len(positions) > MOST_TAUGHT
-    learnt = not large or finding.kind not in ("white", "unsteady")
+    special = SPECIAL.get(finding.kind)
     members, part = sample(surface.topology.faces, finding.levels)
     chosen = positions
     if len(members) < len(positions):
         surface, chosen = Filters(part, len(members)), positions[members]
-    level = estimate_noise(chosen, surface.smooth(chosen, filters[0]), surface.probe)
-    if general and level.slides:
-        filters = SLIDING
-    if finding.kind == "grid":
-        filters = (PATCHES, *filters)
-    if general and large:
-        filters = filters[:-1]
-    known = finding.on(members).reaching(surface.topology, level.slides)
-    mesh = surface.filtered(chosen, known)
-    rehearsal = Rehearsal(mesh, surface, known, level, filters[0], named("goal", GOALS, goal))
-    flat = mesh.planes(rehearsal.truth.positions).share if finding.kind == "white" else 0.0
-    finishes = ["none", "learnt"] if general and learnt and not level.slides and flat < MOST_FLAT else ["none"]
-    winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, (1.0 + done) / STAGES))
+    first = (special or CANDIDATES)[0]
+    level = estimate_noise(chosen, surface.smooth(chosen, first), surface.probe)
+    small = len(positions) <= MOST_TAUGHT
+    filters = special or _general_filters(finding, level, small)
+    part_finding = finding.on(members).reaching(surface.topology, level.slides)
+    mesh = surface.filtered(chosen, part_finding)
+    rehearsal = Rehearsal(mesh, surface, part_finding, level, filters[0], named("goal", GOALS, goal))
+    flat = 0.0
+    if finding.kind == "white":
+        flat = mesh.planes(rehearsal.truth.positions).share
+    finishes = ["none"]
+    learnable = small or finding.kind not in ("white", "unsteady")
+    if special is None and learnable and not level.slides and flat < MOST_FLAT:
+        finishes.append("learnt")
+    winner = rehearsal.compete(filters, finishes, lambda name, share: progress(name, (1.0 + share) / STAGES))
     steadied = finding.kind == "unsteady"
     if not steadied:
         # The result of some filters is a better guess. A third round would repeat its own mistakes.
         rehearsal.again(winner)
-        winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, (2.0 + done) / STAGES))
+        winner = rehearsal.compete(filters, finishes, lambda name, share: progress(name, (2.0 + share) / STAGES))
     if flat > SOME_FLAT:
         winner = rehearsal.flattened(winner, finishes)
-    expected, untreated, reason = winner.error, rehearsal.untreated, finding.reason
-    forecast = rehearsal.forecast(winner) if goal == "shading" or not finding.clear else None
-    changed, steps = np.inf if steadied else rehearsal.changed(winner), winner.steps
-    doubt = _doubt(winner.error, untreated, changed, forecast.untreated if forecast else np.inf)
-    if steps and doubt:
-        steps, expected, reason = (), untreated, f"{reason}, but {doubt}"
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
-    detailed = finding.kind == "white" and rehearsal.lost(winner) > DETAIL_LOST[goal]
     why = f"these of {len(filters)} filters left the least error on the result with new noise"
-    return AutomaticChoice(
-        steps, finding.kind, reason, noise, untreated, expected, winner.finish, detailed, forecast=forecast, why=why
+    choice = AutomaticChoice(
+        winner.steps, finding.kind, finding.reason, noise, rehearsal.untreated, winner.error, winner.finish, why=why
     )
+    detailed = finding.kind == "white" and rehearsal.lost(winner) > DETAIL_LOST[goal]
+    changed, forecast = np.inf, None
+    if not steadied:
+        changed = rehearsal.changed(winner)
+    if goal == "shading" or not finding.clear:
+        forecast = rehearsal.forecast(winner)
+    return replace(choice, detailed=detailed, forecast=forecast).doubted(changed)
 
 
-def _doubt(error: float, untreated: float, changed: float, forecast: float) -> str:
-    """Return why a rehearsed error speaks against a filter, or "" if it does not."""
-    doubts = {
-        "any filter would cost more than it gains": WORTH * untreated,
-        # Noise reads 0.15 to 1.01 of it, clean meshes that were taken for noisy 1.1, 1.2 and 2.1.
-        "the expected error is as large as the change": AS_LARGE * changed,
-        "the triangles are so uneven that any filter would turn their normals farther": AS_LARGE * forecast,
-    }
-    return next((doubt for doubt, most in doubts.items() if error > most), "")
+def _general_filters(finding: Finding, level: NoiseLevel, small: bool) -> tuple[Filter, ...]:
+    """Return the filters that may be best for noise without a cause of its own."""
+    filters: tuple[Filter, ...] = CANDIDATES
+    if level.slides:
+        filters = SLIDING
+    if not small:
+        filters = tuple(each for each in filters if each.hand_over != TGV)
+    if finding.kind == "grid":
+        filters = (PATCHES, *filters)
+    return filters
 
 
 def _by_cause(finding: Finding) -> AutomaticChoice:
@@ -201,7 +220,8 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
     else:
         assert isinstance(finding.bound, Cells)
         flat, stored = finding.bound.flatness, finding.bound.thick > 1
-        more = BENDS_ITERATIONS[: 1 if stored else int(flat // THICK)]
+        versions = 1 if stored else int(flat // THICK)
+        more = BENDS_ITERATIONS[:versions]
         steps = tuple(Step(Filter(BENDS, 0.0, BENDS_WIDTH), count) for count in more)
         if more and not stored and finding.bound.thin > WALLS:
             steps = (*steps, Step(Filter("none", 0.0, 0.4), BENDS_ITERATIONS[0]))
@@ -210,7 +230,7 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
             width = min(CANDIDATES[0].sigma_r * flat ** (2.0 / 3.0), 1.0)
             steps = (*steps, Step(Filter("positions", CANDIDATES[0].keep, width), CELL_ITERATIONS))
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
-    unknown = Forecast(0.0, 0.0, known=False)
+    unknown = Forecast(0.0, 0.0, reliable=False)
     return AutomaticChoice(steps, finding.kind, finding.reason, noise, 0.0, 0.0, forecast=unknown)
 
 
@@ -227,15 +247,20 @@ def treat(
         full = mend_folds(full, surface.topology, surface.probe.average)
     full = np.where(touched[:, None], full, noisy)
     # Filters part vertices that rounding has merged, and hold them to their cells from there.
-    full = finding.bound.within(noisy, full) if finding.exact and finding.bound is not None else full
+    if finding.exact and finding.bound is not None:
+        full = finding.bound.within(noisy, full)
     good, reason = judge(noisy, full, finding, surface.probe)
     if reason:
         return noisy, replace(choice, steps=(), reason=reason)
-    share = restraint(finding, choice.noise.normal * finding.edge) if choice.detailed else 1.0
-    result = np.where(good[:, None], noisy + share * (full - noisy) if share < 1.0 else full, noisy)
+    share, result = 1.0, full
+    if choice.detailed:
+        share = restraint(finding, choice.noise.normal * finding.edge)
+    if share < 1.0:
+        result = noisy + share * (full - noisy)
+    result = np.where(good[:, None], result, noisy)
     if choice.forecast:
         part = noisy + strength * (result - noisy)
-        choice = choice.seen(share * strength, full, part, touched, surface.topology)
+        choice = choice.carried_out(share * strength, full, part, touched, surface.topology)
     return result, choice
 
 
@@ -253,23 +278,33 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
         return ~everywhere, f"{finding.reason}, and the result moves vertices nevertheless"
     normals = probe.smooth_normals(result, passes=0)
     removed = probe.levels(np.einsum("ij,ij->i", noisy - result, normals))
-    found = probe.levels(np.einsum("ij,ij->i", probe.fine(noisy), normals))
-    known = found if unsure else windows.means(finding.levels)
-    # Rounding is known from its grid, and may hide from the finest frequencies where it has merged vertices.
-    present = np.where(known > 0.0, np.maximum(found, (1.0 if finding.kind == "grid" else 0.5) * known), 0.0)
+    measured = probe.levels(np.einsum("ij,ij->i", probe.fine(noisy), normals))
+    expected, trust = windows.means(finding.levels), 0.5
+    if unsure:
+        expected = measured
+    if finding.kind == "grid":
+        # Rounding is known from its grid, and may hide from the finest frequencies where it has merged vertices.
+        trust = 1.0
+    present = np.where(expected > 0.0, np.maximum(measured, trust * expected), 0.0)
     ratio = removed / np.maximum(present, FAINTEST * finding.edge)
     # Where an axis hardly reaches, windows are put back one by one but do not count against the whole.
-    judged = windows.valid & (known > max(0.0, REACHED * finding.level))
+    judged = windows.valid & (expected > max(0.0, REACHED * finding.level))
     movement = float(np.median(ratio[judged])) if judged.any() else 0.0
-    shared = MOST_CORRELATED if finding.kind in ("correlated", "view", "fused") else 1.0
-    most = MOST_UNKNOWN if unsure else MOST * min(max(movement, 1.0), shared)
+    most = MOST
+    if unsure:
+        most = MOST_UNKNOWN
+    elif finding.kind in ("correlated", "view", "fused"):
+        most *= min(max(movement, 1.0), MOST_CORRELATED)
     bad = windows.valid & ~(ratio <= most)
-    failed = float(bad[judged].mean()) if judged.any() else 0.0
+    if not judged.any() or bad[judged].mean() <= FAILED_SHARE:
+        return ~bad[windows.labels], ""
     reason = f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"
-    return ~bad[windows.labels], reason if failed > FAILED_SHARE else ""
+    return ~bad[windows.labels], reason
 
 
 def restraint(finding: Finding, finest: float) -> float:
     """How much of a movement to make where white noise, of this level in the finest frequencies, may hold detail."""
-    excess = finding.level / finest - NOISE_ALONE if finest > 0.0 else 0.0
+    if finest <= 0.0:
+        return 1.0
+    excess = finding.level / finest - NOISE_ALONE
     return 1.0 - min(max(DETAIL_SLOPE * excess, 0.0), DETAIL_MOST)

@@ -152,15 +152,15 @@ class Filters:
         """The coarse mesh, shape (n, 3), that a filter needs; `positions` if it needs none."""
         if not filter_.needs_coarse:
             return positions
-        kept = max(filter_.keep, USUAL_KEPT)
-        if kept not in self._coarse:
-            self._coarse[kept] = CoarseFilter(self.topology.faces, self.topology.n, kept, BLOCK_SIZE)
-        return self._coarse[kept](positions, filter_.keep)
+        most = max(filter_.keep, USUAL_KEPT)
+        if most not in self._coarse:
+            self._coarse[most] = CoarseFilter(self.topology.faces, self.topology.n, most, BLOCK_SIZE)
+        return self._coarse[most](positions, filter_.keep)
 
     def filtered(self, positions: Positions, finding: Finding) -> "Filtered":
         """Return the filtered `positions`, shape (n, 3), and keep them until others are asked for; thread-safe."""
         last = self._last
-        if last is None or last.given is not positions:
+        if last is None or last.positions is not positions:
             self._last = last = Filtered(positions, self, finding)
         return last
 
@@ -168,34 +168,38 @@ class Filters:
 class Filtered:
     """Results of filters on one mesh; those with the same hand-over share their start."""
 
-    def __init__(self, given: Positions, surface: Filters, finding: Finding | None = None) -> None:
-        self.given, self._surface, self._topology, self._finding = given, surface, surface.topology, finding
-        bound = finding.bound if finding else None
-        self._noisy = noisy = bound.parted(given, surface.probe) if isinstance(bound, Spacing) else given
-        self._within = np.asarray if bound is None else partial(bound.within, noisy)
-        self._guided = GuidedFilter(surface.probe.average @ noisy, self._topology, self._within)
+    def __init__(self, positions: Positions, surface: Filters, finding: Finding | None = None) -> None:
+        self.positions, self._surface, self._topology, self._finding = positions, surface, surface.topology, finding
+        self._noisy = positions
+        self._within: Callable[[Positions], Positions] = np.asarray
+        if finding is not None and isinstance(finding.bound, Spacing):
+            self._noisy = finding.bound.parted(positions, surface.probe)
+        if finding is not None and finding.bound is not None:
+            self._within = partial(finding.bound.within, self._noisy)
+        self._smoothed = surface.probe.average @ self._noisy
+        self._guided = GuidedFilter(self._smoothed, self._topology, self._within)
         self._starts: dict[tuple[str, float], Positions] = {}
         self._results: dict[Step, Positions] = {}
 
     def iterates(self, filter_: Filter) -> Iterator[Positions]:
         """The positions, shape (n, 3), after the hand-over and 0, 1, 2, ... iterations, without end."""
-        where = (filter_.hand_over, 0.0 if filter_.hand_over == "none" else filter_.keep)
-        start = self._starts.get(where)
-        if start is None:
-            start = self._starts[where] = self._within(self._begun(filter_))
-        return self._guided.iterates(start, GUIDES[filter_.guide], filter_.sigma_r)
+        where = (filter_.hand_over, filter_.keep)
+        if where not in self._starts:
+            self._starts[where] = self._within(self._hand_over(filter_))
+        return self._guided.iterates(self._starts[where], GUIDES[filter_.guide], filter_.sigma_r)
 
-    def _begun(self, filter_: Filter) -> Positions:
-        noisy, topology = self._noisy, self._topology
+    def _hand_over(self, filter_: Filter) -> Positions:
+        """Return the positions, shape (n, 3), from which the fine step starts."""
+        noisy, topology, finding = self._noisy, self._topology, self._finding
         if filter_.hand_over == RAYS:
-            assert self._finding is not None and self._finding.view is not None
-            return self._finding.view.flattened(noisy, topology, filter_.keep)
+            assert finding is not None and finding.view is not None
+            return finding.view.flattened(noisy, topology, filter_.keep)
         if filter_.hand_over == TGV:
-            return varied_little(noisy, self._surface.probe.average @ noisy, topology, filter_.keep)
+            return varied_little(noisy, self._smoothed, topology, filter_.keep)
+        if filter_.hand_over == BENDS and finding is not None and isinstance(finding.bound, Cells):
+            return finding.bound.flattened(noisy, topology)
         if filter_.hand_over == BENDS:
-            if self._finding is not None and isinstance(self._finding.bound, Cells):
-                return self._finding.bound.flattened(noisy, topology)
-            return flattened(noisy, self._surface.probe.average @ noisy, topology, filter_.keep)
+            return flattened(noisy, self._smoothed, topology, filter_.keep)
         return HAND_OVERS[filter_.hand_over](noisy, self._surface.smooth(noisy, filter_), self._guided)
 
     def mean(self, steps: tuple[Step, ...]) -> Positions:
@@ -225,5 +229,6 @@ class Filtered:
     @cached_property
     def learnt(self) -> Learnt:
         """The networks' result."""
-        noisy = None if self._finding is None else self._finding.levels > 0.0
-        return learnt(self._noisy, self._topology, noisy)
+        if self._finding is None:
+            return learnt(self._noisy, self._topology)
+        return learnt(self._noisy, self._topology, self._finding.levels > 0.0)

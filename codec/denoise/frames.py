@@ -67,48 +67,48 @@ class FrameDenoiser:
         """Denoise frame after frame, with a few of them in memory at any time."""
         checked = map(self._checked, frames)
         results = self._automatic(checked) if self._options is None else self._by_options(checked, self._options)
-        for given, result in results:
-            own = given[self._members]
-            moved = (result != own).any(axis=1)[self._index]
+        for measured, result in results:
+            originals = measured[self._members]
+            moved = (result != originals).any(axis=1)[self._index]
             # In this order, copies at one place stay together to the last bit.
-            displaced = result[self._index] + (given - own[self._index])
+            displaced = result[self._index] + (measured - originals[self._index])
             if self._strength < 1.0:
-                displaced = given + self._strength * (displaced - given)
-            yield np.where(moved[:, None], displaced, given)
+                displaced = measured + self._strength * (displaced - measured)
+            yield np.where(moved[:, None], displaced, measured)
 
     def _automatic(self, frames: Iterator[Positions]) -> Iterator[Pair]:
-        found: Finding | None = None
+        finding: Finding | None = None
         choice: AutomaticChoice | None = None
         begun: Positions | None = None
 
         def finish(pair: Pair) -> tuple[Pair, AutomaticChoice]:
-            given, welded = pair
-            assert choice is not None and found is not None
+            measured, welded = pair
+            assert choice is not None and finding is not None
             # The first frame was calmed when the choice was made.
             if choice.outliers and welded is not begun:
                 welded = calm(welded, self._surface.probe)[1]
-            result, done = treat(choice, welded, found, self._surface, self._strength)
-            return (given, result), done
+            result, outcome = treat(choice, welded, finding, self._surface, self._strength)
+            return (measured, result), outcome
 
         for group, remaining in self._steadied(frames):
-            if found is None:
+            if finding is None:
                 begun = group[0][1]
                 self._progress("finding noise", 0.0)
                 if remaining is None:
-                    outliers, begun, found = calm(begun, self._surface.probe)
+                    outliers, begun, finding = calm(begun, self._surface.probe)
                     group[0] = group[0][0], begun
-                    choice = choose(begun, found, self._surface, self._goal, self._progress).after(outliers)
+                    choice = choose(begun, finding, self._surface, self._goal, self._progress).after(outliers)
                 else:
-                    found = find_noise(begun, self._surface.probe)
+                    finding = find_noise(begun, self._surface.probe)
                     # What the temporal filter leaves is known in strength, even where the mesh does not show it.
-                    if remaining >= FAINTEST * found.edge:
-                        found = Finding("unsteady", remaining, np.full(len(begun), remaining), found.edge, CHANGING)
+                    if remaining >= FAINTEST * finding.edge:
+                        finding = Finding("unsteady", remaining, np.full(len(begun), remaining), finding.edge, CHANGING)
                     goal = "both" if self._goal == "shading" else self._goal
-                    choice = choose(begun, found, self._surface, goal, self._progress)
+                    choice = choose(begun, finding, self._surface, goal, self._progress)
                     choice = choice if choice.steps else replace(choice, kind="unsteady", reason=CHANGING)
                 self._progress("filtering", (STAGES - 1) / STAGES)
-            for pair, done in ordered_map(finish, group, None):
-                self.choice = self.choice or done  # of the first frame
+            for pair, outcome in ordered_map(finish, group, None):
+                self.choice = self.choice or outcome  # of the first frame
                 yield pair
 
     def _steadied(self, frames: Iterator[Positions]) -> Iterator[tuple[list[Pair], float | None]]:
@@ -117,18 +117,18 @@ class FrameDenoiser:
         # Large meshes get shorter windows, so that memory stays the same.
         size = int(np.clip(WINDOW_BYTES // (24 * max(1, n)), 2 * FEWEST_FRAMES, WINDOW))
         filter_: TemporalFilter | None = None
-        seen: list[Positions] = []
+        window: list[Positions] = []
         tail: Positions | None = None
         fresh = 0
         while True:
             new = list(islice(frames, size - fresh))
-            seen, fresh = [*seen, *new][-size:], fresh + len(new)
+            window, fresh = [*window, *new][-size:], fresh + len(new)
             if fresh == 0 or (not new and tail is None):
                 return
             last = len(new) == 0 or fresh < size
-            welded = np.stack([frame[self._members] for frame in seen])
+            welded = np.stack([frame[self._members] for frame in window])
             level: float | None = None
-            if len(seen) >= FEWEST_FRAMES:
+            if len(window) >= FEWEST_FRAMES:
                 filter_ = filter_ or TemporalFilter(self._surface.topology.faces, n)
                 steadied, deviation, remaining = filter_(welded)
                 edge = mean_edge_length(welded[0], self._surface.topology.faces)
@@ -144,7 +144,7 @@ class FrameDenoiser:
             # The last frames of a window wait, since the next window sees what follows them.
             ready = len(results) if last else len(results) - FEWEST_FRAMES
             if ready:
-                yield list(zip(seen[-fresh:][:ready], results[:ready], strict=True)), level
+                yield list(zip(window[-fresh:][:ready], results[:ready], strict=True)), level
             if last:
                 return
             tail, fresh = results[ready:], FEWEST_FRAMES
@@ -166,8 +166,8 @@ class FrameDenoiser:
             coarse = CoarseFilter(topology.faces, topology.n, options.keep, options.block_size, rules)
 
         def finish(task: tuple[int | None, Positions]) -> Pair:
-            number, given = task
-            noisy = given[self._members]
+            number, measured = task
+            noisy = measured[self._members]
             if options.method == "tgv":
                 result = varied_little(noisy, self._surface.probe.average @ noisy, topology)
             elif options.method == "learnt":
@@ -178,13 +178,13 @@ class FrameDenoiser:
                 begun = start(noisy, coarse(noisy, options.keep), GuidedFilter(noisy, topology))
                 result = step(begun, topology.faces, **iterations)
             if self._force:
-                return given, result
+                return measured, result
             # The user chose the options, and they may be wrong for this mesh, so measure first what they destroy.
             good, reason = judge(noisy, result, find_noise(noisy, self._surface.probe), self._surface.probe)
             if reason:
                 place = "" if number is None else f"frame {number}: "
                 raise HarmError(f"{place}{reason}; nothing is written unless it is forced")
-            return given, np.where(good[:, None], result, noisy)
+            return measured, np.where(good[:, None], result, noisy)
 
         numbers: Iterable[int | None] = count() if len(first) == 2 else [None]  # a mesh has no frames
         yield from ordered_map(finish, zip(numbers, chain(first, frames)), None)

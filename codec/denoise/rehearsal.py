@@ -62,33 +62,38 @@ class Forecast:
 
     untreated: float
     expected: float
-    known: bool
+    reliable: bool
 
 
 class Rehearsal:
     """A mesh, a guess at it without noise, and the guess with noise again."""
 
     def __init__(
-        self, given: Filtered, surface: Filters, finding: Finding, level: NoiseLevel, base: Filter, goal: Goal
+        self, mesh: Filtered, surface: Filters, finding: Finding, level: NoiseLevel, base: Filter, goal: Goal
     ) -> None:
-        self._mesh, self._surface, self._topology, self._goal = given, surface, surface.topology, goal
+        self._mesh, self._surface, self._topology, self._goal = mesh, surface, surface.topology, goal
         self._finding, self._level, self._touched = finding, level, finding.levels > 0.0
         self._synthesis = Synthesis(finding, surface.probe, level.tangential)
         if finding.kind == "unsteady":
-            # Little noise is left. A guess without any has lost detail, and one with all of it asks for no filter.
-            once = self._within(next(islice(given.iterates(base), 1, None)), given.given)
-            share = 0.0 if level.normal > FINE_SHAPE * finding.level else FILTERED
-            self._rehearse(given.given + share * (once - given.given))
+            self._rehearse(self._guess_steadied(base))
             return
         iterations = 1
-        for done, guess in enumerate(given.iterates(base)):
-            if done < iterations:
+        for count, guess in enumerate(mesh.iterates(base)):
+            if count < iterations:
                 continue
-            self._rehearse(self._within(guess, given.given))
-            wanted = self.attempt(base).steps[0].iterations
-            if wanted <= 1.5 * iterations + 0.5:
+            self._rehearse(self._within(guess, mesh.positions))
+            best_count = self.attempt(base).steps[0].iterations
+            if best_count <= 1.5 * iterations + 0.5:
                 break
-            iterations = wanted
+            iterations = best_count
+
+    def _guess_steadied(self, base: Filter) -> Positions:
+        """Guess at a mesh, shape (n, 3), with little noise: one without any has lost detail, and all asks for none."""
+        positions = self._mesh.positions
+        if self._level.normal > FINE_SHAPE * self._finding.level:
+            return positions
+        filtered = self._within(next(islice(self._mesh.iterates(base), 1, None)), positions)
+        return np.asarray(positions + FILTERED * (filtered - positions))
 
     def _rehearse(self, guess: Positions, seed: int = 1) -> None:
         """Make a guess, shape (n, 3), noisy."""
@@ -102,26 +107,32 @@ class Rehearsal:
 
     def _performed(self, outcome: Rehearsed) -> Positions:
         result = self._mesh.finished(self._mesh.mean(outcome.steps), outcome.finish)
-        return self._within(result, self._mesh.given)
+        return self._within(result, self._mesh.positions)
 
     def changed(self, outcome: Rehearsed) -> float:
         """How far the mesh that is rehearsed for is from its result, in the unit of the errors."""
-        return self._goal(Reference(self._performed(outcome), self._topology.faces), self._mesh.given)
+        return self._goal(Reference(self._performed(outcome), self._topology.faces), self._mesh.positions)
 
     def lost(self, winner: Rehearsed) -> float:
         """Return the roughness that the filter takes from the guess, a logarithm; 0 where there is none."""
-        guess, left = self._roughness(self.truth.positions), self._roughness(winner.result)
-        return float(np.log(guess / left)) if guess > 0.0 and left > 0.0 else 0.0
+        before = self._roughness(self.truth.positions)
+        after = self._roughness(winner.result)
+        if not (before > 0.0 and after > 0.0):
+            return 0.0
+        return float(np.log(before / after))
 
     def forecast(self, winner: Rehearsed) -> Forecast:
         """Return the angles to expect on the rehearsed mesh."""
-        noisy = float(self._touched[self._topology.faces].any(axis=1).mean()) or 1.0
-        known = self._finding.clear and self._drowned < MOST_DROWNED
-        guess = self._roughness(self.truth.positions) ** 2
-        drawn, present = (self._roughness(places) ** 2 - guess for places in (self.noisy, self._mesh.given))
-        # Rehearsals draw more noise than there is where triangles are thin.
-        strength = float(np.sqrt(np.clip(present / drawn, *NOISE_OVER))) if drawn > 0.0 else 1.0
-        return Forecast(strength * self.untreated / noisy, winner.error / noisy, known)
+        noisy_share = float(self._touched[self._topology.faces].any(axis=1).mean()) or 1.0
+        reliable = self._finding.clear and self._drowned < MOST_DROWNED
+        shape_energy = self._roughness(self.truth.positions) ** 2
+        drawn = self._roughness(self.noisy) ** 2 - shape_energy
+        present = self._roughness(self._mesh.positions) ** 2 - shape_energy
+        strength = 1.0
+        if drawn > 0.0:
+            # Rehearsals draw more noise than there is where triangles are thin.
+            strength = float(np.sqrt(np.clip(present / drawn, *NOISE_OVER)))
+        return Forecast(strength * self.untreated / noisy_share, winner.error / noisy_share, reliable)
 
     @property
     def _drowned(self) -> float:
@@ -163,29 +174,35 @@ class Rehearsal:
         alone.sort(key=lambda outcome: outcome.error)
         chosen, best = [alone[0]], alone[0]
         while len(chosen) < MOST_MEMBERS:
-            means = [np.mean([member.result for member in (*chosen, other)], axis=0) for other in alone]
+            members = [member.result for member in chosen]
+            means = [np.mean([*members, candidate.result], axis=0) for candidate in alone]
             errors = [self._goal(self.truth, mean) for mean in means]
-            found = int(np.argmin(errors))
-            if errors[found] > GAIN * best.error:
+            number = int(np.argmin(errors))
+            if errors[number] > GAIN * best.error:
                 break
-            chosen.append(alone[found])
-            best = Rehearsed(tuple(member.steps[0] for member in chosen), errors[found], means[found])
+            chosen.append(alone[number])
+            steps = tuple(member.steps[0] for member in chosen)
+            best = Rehearsed(steps, errors[number], means[number])
         return self._finished(best, finishes)
 
     def _finished(self, best: Rehearsed, finishes: list[str]) -> Rehearsed:
         """The result of some steps with the best finish."""
-        finished = []
+        outcomes, handicapped = [], []
         for finish in finishes:
             result = self._within(self._trial.finished(best.result, finish), self.noisy)
-            finished.append(replace(best, error=self._goal(self.truth, result), result=result, finish=finish))
-        return min(finished, key=lambda outcome: outcome.error * (EASIER if "learnt" in outcome.finish else 1.0))
+            error = self._goal(self.truth, result)
+            outcomes.append(replace(best, error=error, result=result, finish=finish))
+            if "learnt" in finish:
+                error *= EASIER
+            handicapped.append(error)
+        return outcomes[int(np.argmin(handicapped))]
 
     def flattened(self, winner: Rehearsed, finishes: list[str]) -> Rehearsed:
         """The winner, put on planes, with the finish that is best then, with its own result as the guess."""
         on_planes = {"none": "flat", "learnt": "flat, learnt"}
         self.again(replace(winner, finish=on_planes[winner.finish]))
-        again = replace(winner, result=self._trial.mean(winner.steps))
-        return self._finished(again, [on_planes[finish] for finish in finishes])
+        result = self._trial.mean(winner.steps)
+        return self._finished(replace(winner, result=result), [on_planes[finish] for finish in finishes])
 
     def _within(self, positions: Positions, otherwise: Positions) -> Positions:
         if self._finding.exact and self._finding.bound is not None:

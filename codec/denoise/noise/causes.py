@@ -45,10 +45,10 @@ class Spacing:
         """Standard deviation along normals, shape (n, 3), of what rounding takes away or adds, shape (n,)."""
         return np.asarray(np.sqrt(np.square(normals * self.steps).sum(axis=1) / 12.0))
 
-    def within(self, given: Positions, moved: Positions) -> Positions:
+    def within(self, noisy: Positions, moved: Positions) -> Positions:
         # Rounded values are within half a step of the true ones: the one thing that is certain.
         half = np.where(self.steps > 0.0, 0.5 * self.steps, np.inf)
-        return np.clip(moved, given - half, given + half)
+        return np.clip(moved, noisy - half, noisy + half)
 
     def parted(self, rounded: Positions, probe: Probe) -> Positions:
         """Rounded positions, shape (n, 3); neighbors at one position are drawn to their other neighbors."""
@@ -65,8 +65,10 @@ def find_grid(positions: Positions) -> Spacing | None:
     """The grid that the positions, shape (n, 3), were rounded to, in all coordinates."""
     steps = [rounding_step(positions[:, axis]) for axis in range(3)]
     # A flat part may have one coordinate that tells nothing. Two that do are evidence enough.
-    known = [step for step in steps if step is not None]
-    return Spacing(np.array(known)) if len(known) == 3 and sum(step > 0.0 for step in known) >= 2 else None
+    sizes = np.array([step for step in steps if step is not None])
+    if len(sizes) < 3 or np.count_nonzero(sizes > 0.0) < 2:
+        return None
+    return Spacing(sizes)
 
 
 def weld_seams(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:
@@ -98,7 +100,8 @@ def rounding_step(coordinate: Floats, fewest: int = FEWEST_VALUES) -> float | No
         step = float(numbers @ (values - values[0]) / (numbers @ numbers))
     off = np.abs((values - values[0]) / step - np.round((values - values[0]) / step))
     # Any few numbers are multiples of a tiny step. Enough places of the grid must be taken.
-    return step if off.max() < NEAR and len(values) * 8 > count else None
+    rounded = off.max() < NEAR and len(values) * 8 > count
+    return step if rounded else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,8 +111,9 @@ class Box:
     frame: Floats
     half: Floats
 
-    def within(self, given: Positions, moved: Positions) -> Positions:
-        return np.asarray(given + np.clip((moved - given) @ self.frame.T, -self.half, self.half) @ self.frame)
+    def within(self, noisy: Positions, moved: Positions) -> Positions:
+        way = np.clip((moved - noisy) @ self.frame.T, -self.half, self.half)
+        return np.asarray(noisy + way @ self.frame)
 
 
 FARTHEST, ASIDE = 5.0, 1.5
@@ -125,8 +129,9 @@ class Reach:
     levels: Floats
     slides: bool
 
-    def within(self, given: Positions, moved: Positions) -> Positions:
-        way, level = moved - given, np.maximum(self.levels, 1e-300)[:, None]
+    def within(self, noisy: Positions, moved: Positions) -> Positions:
+        way = moved - noisy
+        level = np.maximum(self.levels, 1e-300)[:, None]
         if not self.slides:
             normals = surface_normals(moved, self.topology)
             along = np.einsum("ij,ij->i", way, normals)[:, None] * normals
@@ -134,11 +139,11 @@ class Reach:
             # Motion along the surface is damped and not cut, so that no vertex sticks at a bound.
             way = along + across / (1.0 + np.linalg.norm(across, axis=1, keepdims=True) / (ASIDE * level))
         far = np.linalg.norm(way, axis=1, keepdims=True) / (FARTHEST * level)
-        return np.asarray(given + way / np.maximum(far, 1.0))
+        return np.asarray(noisy + way / np.maximum(far, 1.0))
 
 
 Confines = Spacing | Box | Reach
-"""Where a vertex may be: `within` brings moved positions, shape (n, 3), back to where those that were given may be."""
+"""Where a vertex may be: `within` brings moved positions, shape (n, 3), back to where the noisy ones may be."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,34 +163,42 @@ class Cells(Box):
         """The surface of fewest bends within the bounds, shape (n, 3)."""
         bends = (sparse.identity(topology.n, format="csr") - Probe(topology).average).tocsr()
         back = bends.T.tocsr()
-        given = found = positions @ self.frame.T
+        middles = places = positions @ self.frame.T
+        lowest, highest = middles - self.half, middles + self.half
         weights = np.ones((topology.n, 1))
         for turn in range(ROUNDS + 1):
             if turn:
-                bent = np.linalg.norm(bends @ found, axis=1, keepdims=True)
+                bent = np.linalg.norm(bends @ places, axis=1, keepdims=True)
                 weights = 1.0 / np.maximum(np.hypot(bent, np.median(bent)), 1e-300)
                 weights /= weights.max()
             # A step above the inverse of the curvature diverges. The start is fixed, so that results are.
             start = np.random.default_rng(0).normal(size=topology.n)
             curve = linalg.svds(bends.multiply(np.sqrt(weights)), 1, v0=start, return_singular_vectors=False)
-            step, ahead, pace = 1.0 / max(float(curve[0]) ** 2, 1e-300), found, 1.0
+            step = 1.0 / max(float(curve[0]) ** 2, 1e-300)
+            ahead, pace = places, 1.0
             for _ in range(STEPS):
                 slope = back @ (weights * (bends @ ahead))
-                last, found = found, np.clip(ahead - step * slope, given - self.half, given + self.half)
-                # Acceleration would swing about the solution. Uphill it is given up (O'Donoghue and Candes 2015).
-                uphill = ((ahead - found) * (found - last)).sum() > 0.0
-                before, pace = (1.0, 1.0) if uphill else (pace, 0.5 + np.sqrt(0.25 + pace * pace))
-                ahead = found + (before - 1.0) / pace * (found - last)
-        return np.asarray(found @ self.frame)
+                last_places, places = places, np.clip(ahead - step * slope, lowest, highest)
+                moves = places - last_places
+                last_pace, pace = pace, 0.5 + np.sqrt(0.25 + pace * pace)
+                uphill = ((ahead - places) * moves).sum() > 0.0
+                if uphill:
+                    # Acceleration would swing about the solution, and starts again (O'Donoghue and Candes 2015).
+                    last_pace, pace = 1.0, 1.0
+                ahead = places + (last_pace - 1.0) / pace * moves
+        return np.asarray(places @ self.frame)
 
 
 def find_cells(positions: Positions, topology: Topology) -> Cells | None:
     """The cells of a binary volume whose surface by marching cubes positions, shape (n, 3), are, in any direction."""
-    cells = _cells(positions, np.eye(3))
+    if cells := _cells(positions, np.eye(3)):
+        return cells
     # Most volumes are aligned to x, y and z. Turned ones are looked for only after that.
-    for frame in () if cells else _frames(positions, topology):
-        cells = cells or _cells(np.stack([_snapped(column) for column in frame @ positions.T], axis=1), frame)
-    return cells
+    for frame in _frames(positions, topology):
+        columns = [_snapped(column) for column in frame @ positions.T]
+        if cells := _cells(np.stack(columns, axis=1), frame):
+            return cells
+    return None
 
 
 def _cells(places: Positions, frame: Floats) -> Cells | None:
@@ -205,7 +218,8 @@ def _cells(places: Positions, frame: Floats) -> Cells | None:
     thin = 0.0
     for axis, scale in enumerate(scales):
         stairs = numbers[between[:, axis]] @ scales
-        thin = max(thin, 2.0 * float(np.isin(stairs + 2 * scale, stairs).mean())) if len(stairs) else thin
+        if len(stairs):
+            thin = max(thin, 2.0 * float(np.isin(stairs + 2 * scale, stairs).mean()))
     levels = [np.unique(numbers[between[:, axis], axis]) for axis in range(3)]
     steps, thick = 2.0 * halves, 1.0
     half = np.where(between, halves, halves.min())
@@ -233,7 +247,8 @@ def slice_thickness(planes: Order) -> float:
         numbers = np.round((heights - begin) / thick)
         # Slices are rarely a whole number of cells thick, so ends are rounded up and down by turns.
         thick, begin = np.polyfit(numbers, heights, 1)
-    return float(thick) if np.abs(heights - begin - thick * numbers).max() < 1.0 else 1.0
+    even = np.abs(heights - begin - thick * numbers).max() < 1.0
+    return float(thick) if even else 1.0
 
 
 def _frames(positions: Positions, topology: Topology) -> list[Floats]:
@@ -245,13 +260,18 @@ def _frames(positions: Positions, topology: Topology) -> list[Floats]:
     ways *= np.where(np.take_along_axis(ways, np.abs(ways).argmax(axis=1)[:, None], axis=1) < 0.0, -1.0, 1.0)
     keys, counts = np.unique(np.round(ways / ALIKE).astype(np.int64), axis=0, return_counts=True)
     order = np.argsort(-counts, kind="stable")[: 2 * DIRECTIONS]
-    found: list[Floats] = []
+    directions = np.zeros((0, 3))
     for key in keys[order] * ALIKE:
-        if len(found) < DIRECTIONS and all(np.linalg.norm(key - other) > 4.0 * ALIKE for other in found):
+        distinct = (np.linalg.norm(directions - key, axis=1) > 4.0 * ALIKE).all()
+        if len(directions) < DIRECTIONS and distinct:
             mean = ways[np.linalg.norm(ways - key, axis=1) < 2.0 * ALIKE].sum(axis=0)
-            found.append(mean / np.linalg.norm(mean))
-    square = [pair for pair in combinations(found, 2) if abs(float(pair[0] @ pair[1])) < 4.0 * ALIKE]
-    return [np.linalg.qr(np.stack([*pair, np.cross(*pair)], axis=1))[0].T for pair in square]
+            directions = np.append(directions, [mean / np.linalg.norm(mean)], axis=0)
+    frames = []
+    for first, second in combinations(directions, 2):
+        if abs(float(first @ second)) < 4.0 * ALIKE:
+            axes = np.stack([first, second, np.cross(first, second)], axis=1)
+            frames.append(np.linalg.qr(axes)[0].T)
+    return frames
 
 
 def _snapped(column: Floats) -> Floats:
