@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from bsm._core import codec as _kernels
-from bsm.codec.arrays import Faces, Indices, Positions
+from bsm.codec.arrays import Faces, Indices, Matrix, Positions
 from bsm.codec.geometry.graph import edges_of
 from bsm.codec.look.measure import POWER
 from bsm.codec.look.pictures import TOWARDS, axes, light_of, sides_of
@@ -32,15 +32,20 @@ class Foresight:
         pairs = zip(TOWARDS[::2], TOWARDS[1::2], strict=True)
         self._views = np.array([[axes(one)[2], light_of(one), light_of(other)] for one, other in pairs]).reshape(-1, 9)
 
-    def look(self, original: Positions, decoded: Positions) -> float:
-        """Return about the distance of a frame from the original one, both of shape (n, 3)."""
+    def look(self, original: Positions, decoded: Positions, sides: Matrix | None = None) -> float:
+        """Return about the distance of a frame from the original one, both of shape (n, 3).
+
+        `sides`, if known, are those of the pictures of the original.
+        """
+        if sides is None:
+            sides = sides_of(original)
         original, decoded = (np.ascontiguousarray(positions, np.float64) for positions in (original, decoded))
         around, facing = np.empty((len(original), 6)), np.empty(len(self._faces), np.uint8)
         sums = np.empty((len(self._views), 4))
         _kernels.foresee(original, decoded, self._faces, self._edges, self._views, around, facing, sums)
         shades, outlines = sums[:, :2].ravel(), sums[:, 2:].ravel()
         squares = DIFFUSE**2 / 6.0 * shades + OUTLINES * outlines
-        unlike = np.sqrt(squares) / sides_of(original)
+        unlike = np.sqrt(squares) / sides
         return math.pow(float(unlike.mean()) / FORESEEN, POWER)
 
 

@@ -156,6 +156,10 @@ def _rolled_axes(towards: tuple[int, int, int]) -> Matrix:
     return np.array([cosine * right + sine * up, cosine * up - sine * right, ahead])
 
 
+_FLAT_AXES = np.concatenate([_rolled_axes(towards)[:2] for towards in TOWARDS])
+"""To the right and up, in the picture of each side."""
+
+
 def _bounds_along(positions: Positions, directions: Matrix) -> Matrix:
     """Return the least and the largest coordinate along each direction, shape (k, 2)."""
     # Not a matrix product, whose sums BLAS orders as it likes: pictures must be equal on all machines.
@@ -172,8 +176,7 @@ def _side_of(bounds: Matrix) -> float:
 
 def sides_of(positions: Positions) -> Matrix:
     """Return the sides of the pictures of positions, shape (n, 3), in their unit."""
-    rows = np.concatenate([_rolled_axes(towards)[:2] for towards in TOWARDS])
-    return np.array([_side_of(bounds) for bounds in _bounds_along(positions, rows).reshape(-1, 2, 2)])
+    return np.array([_side_of(bounds) for bounds in _bounds_along(positions, _FLAT_AXES).reshape(-1, 2, 2)])
 
 
 def cameras(positions: Positions, pixels: int, sides: tuple[tuple[int, int, int], ...] = TOWARDS) -> list[Matrix]:

@@ -15,7 +15,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.progress import silent
 from bsm.codec.sequence.frames import distinct_frames
 from bsm.codec.sequence.gop import GopEncoder
-from bsm.codec.sequence.temporal import Motion
+from bsm.codec.sequence.temporal import Decomposition
 from bsm.codec.static.attributes.encoding import PreparedAttribute, Values
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.targets import secant
@@ -240,7 +240,7 @@ class MovingAttributeEncoder:
             # Positions decide how frames are grouped and repeated. An attribute follows, so that one table tells both.
             distinct, places = distinct_frames(body.places)
             frames, weights = wanted[distinct], np.sqrt(np.bincount(places))
-            motion = Motion.of(frames, encoder.step)
+            motion = Decomposition(frames).motion(encoder.step)
             learnt = encoder.encode_learnt(motion.fields, motion.shapes, weights, body.method, silent)
         except OptionError as error:
             raise self._refusal(f"{error}") from error

@@ -8,7 +8,7 @@ import numpy as np
 
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.temporal import Motion
+from bsm.codec.sequence.temporal import Decomposition, Motion
 from bsm.codec.static.attributes.encoding import Values
 from bsm.codec.static.preamble_encoding import Prepared
 
@@ -24,6 +24,7 @@ class Group:
     positions: Positions
     moving: dict[str, Values]
     _motion: Motion | None = field(default=None, init=False)
+    _decomposition: Decomposition | None = field(default=None, init=False)
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -31,7 +32,8 @@ class Group:
     def motion(self, step: float) -> Motion:
         """Return the decomposed positions, as fine as steps that are not much finer than before need them."""
         if self._motion is None or step < self._motion.finest:
-            self._motion = Motion.of(self.positions, step)
+            self._decomposition = self._decomposition or Decomposition(self.positions)
+            self._motion = self._decomposition.motion(step)
         return self._motion
 
 

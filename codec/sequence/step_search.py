@@ -2,14 +2,14 @@
 
 Frames and a bound come in; the smallest encoding that keeps it in every frame goes out. A frame that looks worse than
 the others sets the step of all. So an attempt has two results: how far the worst frame is from its bound, which gives
-the next step, and how unlike frames look, which gives weights of frames: the temporal basis then spends more on those
-that look worse. Pictures are the dear part. The first attempt draws a few frames, each one those that are likely the
-worst; foreseen looks, which cost little, tell of the others: the logarithm of look over foresight is noise on a random
-walk in time. It hardly changes from attempt to attempt, so that frames drawn before count as known, nearly. Only the
-encoding that would be returned has all of its own frames drawn that may exceed the bound: it is the promise, so that
-nothing is taken on trust. If one does exceed it, the search goes on from there, or takes the next smallest. The search
-ends when another attempt would save less than its price in bytes, by the power law of bytes over the step; each attempt
-has to save more than the one before it.
+the next step, and how unlike frames are, which gives weights of frames: the temporal basis then spends more on those
+that are nearer to their bounds. Pictures are the dear part. The first attempt draws a few frames, each one those that
+are likely the worst; foreseen looks, which cost little, tell of the others: the logarithm of look over foresight is
+noise on a random walk in time. It hardly changes from attempt to attempt, so that frames drawn before count as known,
+nearly. Only the encoding that would be returned has all of its own frames drawn that may exceed the bound: it is the
+promise, so that nothing is taken on trust. If one does exceed it, the search goes on from there, or takes the next
+smallest. The search ends when another attempt would save less than its price in bytes, by the power law of bytes over
+the step; each attempt has to save more than the one before it.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ from bsm.codec.geometry.mesh import TriangleMesh, squares_of
 from bsm.codec.geometry.welding import group_rows
 from bsm.codec.look.foreseen import Foresight
 from bsm.codec.look.measure import POWER, LookMetric
+from bsm.codec.look.pictures import sides_of
 from bsm.codec.sequence.frames import same_frames
 from bsm.codec.static.targets import WIDEST as COARSEST_STEP
 from bsm.codec.static.targets import Contract
@@ -43,7 +44,7 @@ LIKELY, DEVIATIONS = 1.5, 4.0
 """Standard deviations: frames that may be the worst within the first are drawn at each attempt; an attempt is accepted
 once all frames that may exceed the bound within the second are drawn."""
 KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to attempt
-PRICE, PRICE_OF_ONE = 0.007, 0.04
+PRICE, PRICE_OF_ONE = 0.01, 0.04
 """Share of the bytes that the second attempt must save, about, the third twice as much and so on, of a GOP; and that
 each must save of a frame by itself, which must be quick."""
 SPARE = 0.02  # logarithm of what a step is aimed below the bound; more after each miss and each doubtful frame over it
@@ -90,6 +91,7 @@ class StepSearch:
         self.worst_look = 0.0  # of the frames that were drawn of the returned encoding
         if promise.look < math.inf:
             self._foresight = Foresight(faces)
+            self._sides = [sides_of(frame) for frame in frames]
             # Captured motion rests for many frames, which look the same and need be drawn once.
             self._twins = same_frames(frames, (), TWIN_STEP * self._reach)
             self._knots.update(np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist())
@@ -113,7 +115,8 @@ class StepSearch:
             # By bytes and not by steps: with weights, a finer step may give the smaller stream.
             kept = self._by_size([latest, *kept])
             while True:
-                step, evened = self._following(latest, attempt if weighed else 0, spare * (1 + missed))
+                margin = spare if weighed else spare * (1 + missed)
+                step, evened = self._following(latest, attempt if weighed else 0, margin)
                 step = min(step, math.sqrt(latest.step * above))
                 last = latest.step == (COARSEST_STEP if latest.excess <= 0.0 else finest)
                 # What the next attempt would take, about. It is made only if it can save more than its price.
@@ -153,24 +156,29 @@ class StepSearch:
 
     def _following(self, tried: Tried[Found], attempt: int, spare: float) -> tuple[float, Matrix]:
         """The step after one that was tried, and weights; they stay if the `attempt` is 0."""
-        change, looks = np.zeros(len(tried.evened)), tried.measured.looks()
-        if attempt and len(looks):
+        change = np.zeros(len(tried.evened))
+        if attempt:
+            shares = np.maximum(tried.measured.looks(), tried.measured.distances)
             # Less with each attempt, or weights would swing from frame to frame for ever.
-            change = EVENING * _evening(looks) / attempt
-        step = tried.step * math.exp(RELIEF * float(change.max()) - tried.excess - spare)
-        return step, (tried.evened + change).clip(-WIDEST, WIDEST)
+            change = EVENING * _evening(shares) / attempt
+        evened = (tried.evened + change).clip(-WIDEST, WIDEST)
+        relief = RELIEF * float((evened - tried.evened).max())
+        if attempt > 1 and tried.excess > 0.0:
+            relief = 0.0  # weights have brought less than was expected of them
+        return tried.step * math.exp(relief - tried.excess - spare), evened
 
     def _measure(self, decoded: Sequence[Matrix]) -> Measured:
         """Measure all frames, and draw those that may be the worst."""
         pairs = list(zip(self._frames, decoded, strict=True))
-        farthest = math.sqrt(max(squares_of(one - other).max() for one, other in pairs)) / self._reach
+        distances = np.sqrt([squares_of(one - other).max() for one, other in pairs]) / self._reach
         if not self._knots:
-            return Measured(farthest, np.zeros(0), {})
+            return Measured(distances, np.zeros(0), {})
         # Foreseen looks follow the drawn ones closely and cost a twentieth of them.
-        looks = ordered_map(lambda pair: self._foresight.look(*pair), pairs, self._threads)
+        versions = zip(self._frames, decoded, self._sides, strict=True)
+        looks = ordered_map(lambda version: self._foresight.look(*version), versions, self._threads)
         foreseen = np.array(list(looks)).clip(1e-12)
         knots = () if self._ratios else self._knots
-        measured = Measured(farthest, foreseen, {index: self._look(index, decoded) for index in knots}, self._ratios)
+        measured = Measured(distances, foreseen, {index: self._look(index, decoded) for index in knots}, self._ratios)
         while (index := int(measured.looks(LIKELY).argmax())) not in measured.drawn:
             measured.drawn[index] = self._look(index, decoded)
         self._ratios = measured.ratios
@@ -228,11 +236,16 @@ class Tried(Generic[Found]):
 class Measured:
     """Measurements of the frames of one attempt, as shares of their bounds; `foreseen` are looks without pictures."""
 
-    farthest: float
+    distances: Matrix
+    """Of the farthest vertex of each frame."""
     foreseen: Matrix
     drawn: dict[int, float]
     before: dict[int, float] = field(default_factory=dict)
     """Logarithms of looks over foreseen ones, of frames that earlier attempts drew."""
+
+    @property
+    def farthest(self) -> float:
+        return float(self.distances.max())
 
     @property
     def excess(self) -> float:

@@ -23,6 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -61,18 +62,30 @@ class Motion:
     shapes: Matrix
     finest: float
 
-    @staticmethod
-    def of(frames: Matrix, step: float) -> Motion:
-        """Decompose frames, shape (T, n, d)."""
+
+class Decomposition:
+    """All principal components of frames, shape (T, n, d); the work of which steps share the dear part."""
+
+    def __init__(self, frames: Matrix) -> None:
+        self._frames = frames
         rows = trajectories(frames)
         # Of the two products the smaller one is decomposed. Both have the same energies.
-        few = len(rows) < rows.shape[1]
+        self._few = len(rows) < rows.shape[1]
+        product = rows @ rows.T if self._few else rows.T @ rows
         # An eigenvalue problem of a few hundred rows instead of an SVD of all vertices.
-        vectors, energies, _ = np.linalg.svd(rows @ rows.T if few else rows.T @ rows, hermitian=True)
-        count = int(np.count_nonzero(energies > FAINT * least_energy(rows.shape[1], step)))
-        vectors, roots = np.ascontiguousarray(vectors[:, :count]), np.sqrt(energies[:count])
-        fields, shapes = (vectors, vectors.T @ rows) if few else (rows @ (vectors / roots), (vectors * roots).T)
-        return Motion(fields, np.ascontiguousarray(shapes).reshape(count, frames.shape[2], len(frames)), FINER * step)
+        self._vectors, self._energies, _ = np.linalg.svd(product, hermitian=True)
+
+    def motion(self, step: float) -> Motion:
+        """Return the components that show at a step."""
+        rows = trajectories(self._frames)
+        count = int(np.count_nonzero(self._energies > FAINT * least_energy(rows.shape[1], step)))
+        vectors, roots = np.ascontiguousarray(self._vectors[:, :count]), np.sqrt(self._energies[:count])
+        if self._few:
+            fields, shapes = vectors, vectors.T @ rows
+        else:
+            fields, shapes = rows @ (vectors / roots), (vectors * roots).T
+        shapes = np.ascontiguousarray(shapes).reshape(count, self._frames.shape[2], len(self._frames))
+        return Motion(fields, shapes, FINER * step)
 
 
 def least_energy(columns: int, step: float) -> float:
@@ -85,6 +98,7 @@ def lengths_of(motion: Motion, step: float) -> list[int]:
     vertices, shapes = len(motion.fields), motion.shapes[:MOST_ROWS]
     frames = shapes.shape[2]
 
+    @cache
     def bits(begin: int, end: int) -> float:
         part = shapes[..., begin:end]
         rows = part.reshape(len(part), part.shape[1] * part.shape[2])

@@ -183,7 +183,8 @@ def test_frames_that_are_only_expected_to_exceed_the_bound_are_drawn_before_an_e
     class Expecting(StepSearch):
         def _measure(self, decoded: Sequence[Matrix]) -> Measured:
             attempts.append(decoded)
-            return Measured(0.5, foreseen, {4: 0.99}, {frame: math.log(0.5) for frame in range(10) if frame != 4})
+            before = {frame: math.log(0.5) for frame in range(10) if frame != 4}
+            return Measured(np.full(10, 0.5), foreseen, {4: 0.99}, before)
 
         def _look(self, index: int, decoded: Sequence[Matrix]) -> float:
             return 0.99 if index == 4 else 0.5

@@ -9,7 +9,7 @@ from bsm.codec.sequence.temporal import (
     OCTAVE,
     PRECISION,
     WORTH,
-    Motion,
+    Decomposition,
     free_of,
     learn_basis,
     lengths_of,
@@ -52,10 +52,10 @@ def test_what_costs_more_than_it_brings_is_left_out() -> None:
 def test_motion_is_the_product_of_its_fields_and_shapes(frames, vertices):
     random = np.random.default_rng(3)
     given = np.tensordot(random.normal(size=(frames, 4)), random.normal(size=(4, vertices, 3)), 1)
-    motion = Motion.of(given, STEP)
+    motion = Decomposition(given).motion(STEP)
     np.testing.assert_allclose(np.tensordot(motion.shapes, motion.fields, (0, 1)).transpose(1, 2, 0), given, atol=1e-6)
     assert len(motion.shapes) <= min(12, 3 * frames, vertices)
-    assert Motion.of(np.zeros((frames, vertices, 3)), STEP).shapes.shape == (0, 3, frames)
+    assert Decomposition(np.zeros((frames, vertices, 3))).motion(STEP).shapes.shape == (0, 3, frames)
 
 
 def clip(seed, frames, rank=6, vertices=500):
@@ -68,7 +68,7 @@ def clip(seed, frames, rank=6, vertices=500):
 @pytest.mark.parametrize("lengths", [(200,), (70, 90), (60, 100, 41), (30, 30, 30, 30)])
 def test_gops_are_as_long_as_clips(lengths):
     frames = np.concatenate([clip(seed, length) for seed, length in enumerate(lengths)])
-    found = np.cumsum(lengths_of(Motion.of(frames, STEP), STEP))
+    found = np.cumsum(lengths_of(Decomposition(frames).motion(STEP), STEP))
     assert len(found) == len(lengths) and np.abs(found - np.cumsum(lengths)).max() <= 1
 
 
@@ -76,7 +76,7 @@ def test_loops_and_jumps_are_not_cut():
     frames = clip(0, 240)
     jumps = frames.reshape(12, 20, -1, 3)[np.random.default_rng(0).permutation(12)].reshape(frames.shape)
     for whole in (np.tile(frames[:40], (6, 1, 1)), jumps, frames[:12], frames[:1], np.zeros((50, 9, 3))):
-        assert lengths_of(Motion.of(whole, STEP), STEP) == [len(whole)]
+        assert lengths_of(Decomposition(whole).motion(STEP), STEP) == [len(whole)]
 
 
 def columns_of(free):
