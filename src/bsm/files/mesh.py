@@ -39,6 +39,7 @@ from bsm.ground.lengths import metres
 
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
 _ALL = 1 << 62
+_GZIP = b"\x1f\x8b"
 _WAY = "convert it to GLB, OBJ, PLY or VTU first, with the program that made it"
 _FOREIGN = {
     ("fbx", "blend", "abc", "3ds", "x3d", "wrl"): "convert it to GLB, OBJ or PLY first, for instance with Blender",
@@ -116,22 +117,19 @@ def read_cut(
     input_source, limits = as_input(source), as_limits(limits)
     kind = kind_of(input_source, file_format)
     if is_apart((kind,), limits, isolated):
-        isolated_mesh: MeshFile = by_name("bsm.files.isolation", "read_isolated")(
-            input_source, file_format, limits, kind
-        )
+        read_isolated = by_name("bsm.files.isolation", "read_isolated")
+        isolated_mesh: MeshFile = read_isolated(input_source, file_format, limits, kind)
         return isolated_mesh
-    path, name = (input_source.name if input_source.is_file else None), input_source.name
+    name = input_source.name
+    path = name if input_source.is_file else None
     folder = Path(path).parent if path else None
     if kind in FORMATS and FORMATS[kind].apart:
         # These libraries open a file by its name themselves, often several times; they know no gzip.
-        if path is None or input_source.peek(2) == b"\x1f\x8b":
+        if path is None or input_source.peek(2) == _GZIP:
             raise FormatError(f".{kind} files are read from an uncompressed file with a name")
-        surface, times = by_name("bsm.files.apart", "surface_of")(path, kind, limits, here=isolated is False)
-        later = (f"later steps ({len(times) - 1})",) * bool(times[1:])
-        still: Polygons = replace(surface, dropped=(*surface.dropped, *later))
-        return still.checked(limits, os.path.getsize(path), cut)
+        return _read_apart(path, kind, limits, cut, here=isolated is False)
     data = input_source.read_all()
-    if data.startswith(b"\x1f\x8b"):
+    if data.startswith(_GZIP):
         path, name, data = None, name.removesuffix(".gz"), gunzipped(data, limits)
     data = plain_text(data)
     if not data:
@@ -146,13 +144,16 @@ def read_cut(
         raise FormatError(f"this is {other_format}, not .{kind}; give it the right name, or name its format")
     if row is None or not row.reader or (kind in USD_FORMATS and not path):
         way = next((way for kinds, way in _FOREIGN.items() if kind in kinds), _WAY)
-        raise FormatError(f"{f'.{kind}' if kind else 'this'} is not a mesh format that is known here: {way}")
+        what = f".{kind}" if kind else "this"
+        raise FormatError(f"{what} is not a mesh format that is known here: {way}")
     reader = by_name(row.modules[0], row.reader)
-    if kind in USD_FORMATS or kind in GLTF:
-        document = by_name("bsm.gltf.document", "Document")
-        scene: MeshFile = reader(path, limits) if kind in USD_FORMATS else reader(document(data, folder, limits))
+    if kind in USD_FORMATS:
+        stage: MeshFile = reader(path, limits)
+        return stage
+    if kind in GLTF:
+        scene: MeshFile = reader(by_name("bsm.gltf.document", "Document")(data, folder, limits))
         return scene
-    polygons: Polygons = reader(data, *((path,) if row.by_path else ()), limits)
+    polygons: Polygons = reader(data, path, limits) if row.by_path else reader(data, limits)
     if row.beside:
         beside = Beside(folder, limits)
         metadata, notes, lost = fetched(polygons.metadata, beside.read)
@@ -161,22 +162,39 @@ def read_cut(
     return polygons.checked(limits, len(data), cut)
 
 
+def _read_apart(path: str, kind: str, limits: Limits, cut: Cut | None, *, here: bool) -> MeshFile:
+    """Read a file by a library that has a process of its own."""
+    surface_of = by_name("bsm.files.apart", "surface_of")
+    surface, times = surface_of(path, kind, limits, here=here)
+    still: Polygons = surface
+    if len(times) > 1:
+        still = replace(surface, dropped=(*surface.dropped, f"later steps ({len(times) - 1})"))
+    return still.checked(limits, os.path.getsize(path), cut)
+
+
 def kind_of(source: Input, file_format: str | None) -> str:
     """The format of a file, by its name, or else by its first bytes; "" if they do not tell."""
     head = source.peek(_HEAD if source.is_file else _ALL)
-    name = source.name.removesuffix(".gz") if head.startswith(b"\x1f\x8b") else source.name
+    name = source.name
+    if head.startswith(_GZIP):
+        name = name.removesuffix(".gz")
     return _kind(name, plain_text(head), file_format)
 
 
 def _kind(name: str, data: bytes, file_format: str | None) -> str:
     suffix = Path(name).suffix[1:].lower()
+    if file_format:
+        return file_format
     # The name first: text of many formats has lines that begin like those of an OBJ, as that of an array called v.
-    return file_format or (suffix if is_mesh_name(name) else format_of_bytes(data) or suffix)
+    if is_mesh_name(name):
+        return suffix
+    return format_of_bytes(data) or suffix
 
 
 def is_apart(kinds: Iterable[str], limits: Limits, isolated: bool | None) -> bool:
     """Whether files of these formats are read in a process of its own; refused if they must be and cannot."""
-    if not (limits.most_memory < math.inf if isolated is None else isolated):
+    is_wanted = limits.most_memory < math.inf if isolated is None else isolated
+    if not is_wanted:
         return False
     lack = landlock.lack()
     foreign = next((kind for kind in kinds if isolated or kind not in (*MESH_FORMATS, *GLTF, "npy", "")), None)
@@ -200,8 +218,11 @@ def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[s
 def unheard(metadata: Metadata, file_format: str) -> str:
     """Return the unit and the axis of a mesh that other programs do not learn from a format, in words."""
     unit, up = str(metadata.get("unit", "")), str(metadata.get("up", "")).lower()
-    statements = [f"the unit ({unit})"] if FORMATS[file_format].own_unit and metres(unit) not in (None, 1.0) else []
-    statements += [f"the upward axis ({up})"] if file_format == "obj" and up in ("x", "z") else []
+    statements: list[str] = []
+    if FORMATS[file_format].own_unit and metres(unit) not in (None, 1.0):
+        statements.append(f"the unit ({unit})")
+    if file_format == "obj" and up in ("x", "z"):
+        statements.append(f"the upward axis ({up})")
     return " and ".join(statements)
 
 
@@ -230,9 +251,12 @@ def parts_of(path: str, metadata: Metadata) -> dict[str, Path | None]:
             names = {*by_name("bsm.gltf.document", "read_document")(path).files}
     beside = Beside(Path(path).resolve().parent, Limits())
     # Images may lie beside the library of materials that names them, and not beside the mesh.
-    folders = ["", *(f"{folder}/" for line in libraries if (folder := line.replace("\\", "/").rpartition("/")[0]))]
-    paths = {name: [beside.find(folder + name) for folder in folders] for name in filter(None, names)}
-    return {name: next((part for part in parts if isinstance(part, Path)), None) for name, parts in paths.items()}
+    folders = dict.fromkeys(["", *(line.replace("\\", "/").rpartition("/")[0] for line in libraries)])
+    parts: dict[str, Path | None] = {}
+    for name in filter(None, names):
+        places = [beside.find(f"{folder}/{name}" if folder else name) for folder in folders]
+        parts[name] = next((place for place in places if isinstance(place, Path)), None)
+    return parts
 
 
 def size_with_parts(path: str, metadata: Metadata) -> tuple[int | None, dict[str, int]]:
@@ -246,10 +270,12 @@ def size_with_parts(path: str, metadata: Metadata) -> tuple[int | None, dict[str
 
 def copied(source: str, mesh: TriangleMesh, output: str | os.PathLike[str]) -> Written:
     """The bytes of a mesh file, and, unless they go to its own folder, those of the files there that it names."""
-    elsewhere = not can_be_replaced(output) or Path(output).resolve().parent != Path(source).resolve().parent
-    parts = parts_of(source, mesh.metadata) if elsewhere else {}
+    parts: dict[str, Path | None] = {}
+    if not can_be_replaced(output) or Path(output).resolve().parent != Path(source).resolve().parent:
+        parts = parts_of(source, mesh.metadata)
     beside = {Path(name).name: part.read_bytes() for name, part in parts.items() if part}
-    return Written(Path(source).read_bytes(), tuple(name for name, part in parts.items() if not part), beside)
+    missing = tuple(name for name, part in parts.items() if not part)
+    return Written(Path(source).read_bytes(), missing, beside)
 
 
 def save_written(
@@ -261,17 +287,22 @@ def save_written(
     follow: bool | str = True,
 ) -> tuple[str, ...]:
     """Write the files beside a mesh file, then the file; return the losses. A pipe has no files beside it."""
-    beside = {beside_it: data for name, data in written.beside.items() if (beside_it := _sibling(path, name))}
-    lost = () if beside else tuple(written.beside)
-    there = {name for name in beside if not is_url(name) and Path(name).is_file()}
-    beside = {name: data for name, data in beside.items() if name not in there or Path(name).read_bytes() != data}
+    beside: dict[str, bytes] = {}
+    lost: list[str] = []
+    for name, data in written.beside.items():
+        place = _sibling(path, name)
+        if not place:
+            lost.append(name)
+        elif is_url(place) or not Path(place).is_file() or Path(place).read_bytes() != data:
+            beside[place] = data
     replace_beside = overwrite if overwrite_beside is None else overwrite_beside
     refuse_to_overwrite(path, overwrite)
     # All names are asked before the first file is written: a refusal in the middle would leave half of the output.
-    for name in beside:
-        refuse_to_overwrite(name, replace_beside)
-    for name, data in beside.items():
-        write_output(name, data, overwrite=replace_beside, follow=follow if isinstance(follow, str) else False)
+    for place in beside:
+        refuse_to_overwrite(place, replace_beside)
+    follow_beside = follow if isinstance(follow, str) else False
+    for place, data in beside.items():
+        write_output(place, data, overwrite=replace_beside, follow=follow_beside)
     # The mesh comes last: who sees it finds all the files that it names.
     write_output(path, written.data, overwrite=overwrite, follow=follow)
     return (*written.left_out, *lost)
@@ -280,4 +311,6 @@ def save_written(
 def _sibling(path: str | os.PathLike[str], name: str) -> str | None:
     if isinstance(path, str) and is_url(path):
         return pipes.beside(path, name)
-    return str(Path(path).parent / name) if os.fspath(path) != "-" and can_be_replaced(path) else None
+    if os.fspath(path) == "-" or not can_be_replaced(path):
+        return None
+    return str(Path(path).parent / name)

@@ -47,7 +47,8 @@ def read_cache(path: str, kind: str, request: Wanted, limits: Limits) -> Frames:
     what = f"the {kind.upper()} file claims {cache.frames} frames of {cache.points} points"
     if cache.frames < 1 or cache.points < 1:
         raise FormatError(what)
-    if size < (needed := cache.start + 12 * cache.points * cache.frames):
+    needed = cache.start + 12 * cache.points * cache.frames
+    if size < needed:
         raise TruncatedError(f"{what}, which take {needed} bytes; it has {size}")
     require_counts(limits, vertices=cache.points, frames=cache.frames)
     # A cache only holds points. Animators keep the mesh beside it under the same name.
@@ -62,9 +63,12 @@ def read_cache(path: str, kind: str, request: Wanted, limits: Limits) -> Frames:
     # Asked with the same positions, only to learn which attributes a motion would make wrong.
     kept_mesh, normals = mesh.moved(mesh.positions)
     notes = [f"faces and attributes are those of {beside}"]
-    notes += [f"left out, for they move: {', '.join(normals)}"] if normals else []
-    notes += ["the times of frames are not numbers that grow, and are left out"] if cache.timing is None else []
-    shared = kept_mesh.attributes, tuple(notes), cache.rate, {**mesh.metadata, **(cache.timing or {})}
+    if normals:
+        notes.append(f"left out, for they move: {', '.join(normals)}")
+    if cache.timing is None:
+        notes.append("the times of frames are not numbers that grow, and are left out")
+    metadata = {**mesh.metadata, **(cache.timing or {})}
+    shared = kept_mesh.attributes, tuple(notes), cache.rate, metadata
     return Frames(mesh.faces, cache.frames, _samples(path, cache), *shared, rigged=cache.points)
 
 
@@ -75,10 +79,14 @@ def _head_of_pc2(file: BinaryIO) -> Cache:
     _, version, points, start, step, frames = _PC2.unpack(head)
     if version != 1:
         raise FormatError(f"PC2 of version {version} is not known; 1 is")
-    timing = {START: start} if start else {}
-    timing |= {STEP: step} if step != 1.0 else {}
-    timing_is_valid = np.isfinite([start, step]).all() and step > 0.0
-    return Cache(points, frames, _PC2.size, "<f4", timing=timing if timing_is_valid else None)
+    if not np.isfinite([start, step]).all() or step <= 0.0:
+        return Cache(points, frames, _PC2.size, "<f4", timing=None)
+    timing: dict[str, float | str] = {}
+    if start:
+        timing[START] = start
+    if step != 1.0:
+        timing[STEP] = step
+    return Cache(points, frames, _PC2.size, "<f4", timing=timing)
 
 
 def _head_of_mdd(file: BinaryIO, size: int, rate: float) -> Cache:
@@ -109,14 +117,12 @@ def _doubles(data: bytes, kind: str) -> Doubles:
 
 
 def mesh_beside(path: str) -> str:
-    candidates = [str(Path(path).with_suffix(suffix)) for suffix in MESH_SUFFIXES]
-    mesh_path = next((name for name in candidates if os.path.isfile(name)), None)
-    if mesh_path is None:
-        usual_name = Path(path).with_suffix(".obj").name
-        raise MeshError(
-            f"a cache holds points and no faces: put the mesh beside it ({usual_name}), or name it with --mesh"
-        )
-    return mesh_path
+    for suffix in MESH_SUFFIXES:
+        name = str(Path(path).with_suffix(suffix))
+        if os.path.isfile(name):
+            return name
+    usual_name = Path(mesh_of(path)).name
+    raise MeshError(f"a cache holds points and no faces: put the mesh beside it ({usual_name}), or name it with --mesh")
 
 
 def write_cache(
@@ -129,8 +135,8 @@ def write_cache(
             step = codes[1] - codes[0] if count > 1 else 1.0
             file.write(_PC2.pack(_SIGNATURE, 1, len(frame), codes[0], step, count))
         elif number == 0:
-            file.write(_MDD.pack(count, len(frame)))
-            file.write((np.array(codes) / (rate or USUAL_RATE)).astype(">f4").tobytes())
+            times = np.array(codes) / (rate or USUAL_RATE)
+            file.write(_MDD.pack(count, len(frame)) + times.astype(">f4").tobytes())
         # Beyond it a coordinate would become infinite without a word.
         if np.abs(frame).max() > np.finfo(np.float32).max:
             raise MeshError(f"a coordinate of frame {number} is beyond single precision, which {kind.upper()} has")

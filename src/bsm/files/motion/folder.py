@@ -7,11 +7,13 @@ import os
 import re
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache, partial
+from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -54,20 +56,23 @@ def mesh_files(path: str) -> list[str]:
 
 def frame_files(path: str, *, follow: bool = True) -> list[str]:
     """The mesh files of a folder or pattern, by the numbers in their names; `follow` links to other folders."""
-    if not (names := mesh_files(path)):
+    names = mesh_files(path)
+    if not names:
         raise FormatError(f"no mesh files in {path} ({', '.join(MESH_SUFFIXES)}); -r looks in the folders below, too")
     # A process that reads files from strangers could open the folders of links, too.
-    for name in names if not follow else ():
-        with about(name):
-            refuse_link_out(os.path.dirname(name), name)
+    if not follow:
+        for name in names:
+            with about(name):
+                refuse_link_out(os.path.dirname(name), name)
     return in_order(names)
 
 
 def frame_range(text: str) -> tuple[int, int]:
     """Return the first frame of a range A:B, and the one after the last."""
+    first = last = 0
     match = re.fullmatch("([0-9]*):([0-9]*)", text)
-    first = int(match[1] or 0) if match else 0
-    last = int(match[2] or sys.maxsize) if match else 0
+    if match:
+        first, last = int(match[1] or 0), int(match[2] or sys.maxsize)
     if first >= last:
         raise OptionError(f"--frames {text}: give A:B with 0 <= A < B; either may be left out")
     return first, last
@@ -90,8 +95,10 @@ def separate_meshes(path: str, file_format: str | None = None) -> list[str]:
 
 def _differing(names: Sequence[str]) -> list[str]:
     """The parts of paths below the folder that they share."""
+    if not names:
+        return []
     paths = [os.path.abspath(name) for name in names]
-    shared = os.path.commonpath([os.path.dirname(path) for path in paths]) if paths else ""
+    shared = os.path.commonpath([os.path.dirname(path) for path in paths])
     return [os.path.relpath(path, shared) for path in paths]
 
 
@@ -102,29 +109,42 @@ def _stems(names: Sequence[str]) -> list[str]:
 def _varying(stems: Sequence[str]) -> tuple[str, list[str]]:
     """The numbers that alone tell names apart, or none; and the letters around the first."""
     rows = [_DECIMALS.split(stem) for stem in stems]
-    places = [place for place, values in enumerate(zip(*rows)) if len(set(values)) > 1]
-    if len({*map(len, rows)}) != 1 or len(places) != 1 or places[0] % 2 == 0:
+    place = _varying_place(rows)
+    if place is None:
         return "", []
-    (place,) = places
     words = [row[place].lower().replace("d", "e") for row in rows]
     return f"{rows[0][place - 1][-1:]}#{rows[0][place + 1][:1]}", words
+
+
+def _varying_place(rows: Sequence[Sequence[str]]) -> int | None:
+    """Return the place of the only number that differs between names, which are split into texts and numbers."""
+    if len({len(row) for row in rows}) != 1:
+        return None
+    places = [place for place, values in enumerate(zip(*rows)) if len(set(values)) > 1]
+    if len(places) != 1 or places[0] % 2 == 0:
+        return None
+    return places[0]
 
 
 def times_in(names: Sequence[str]) -> list[float]:
     """Times in seconds that folders are called, or numbers with an exponent or below zero in names; or nothing."""
     around, words = _varying(_stems(names))
-    looks = re.compile(r"[.]|e[-+]" if around in (f"#{os.sep}", f"{os.sep}#{os.sep}") else r"^-.*[.]|e[-+]", re.I)
-    return [*map(float, words)] if any(map(looks.search, words)) else []
+    is_folder = around in (f"#{os.sep}", f"{os.sep}#{os.sep}")
+    pattern = re.compile(r"[.]|e[-+]" if is_folder else r"^-.*[.]|e[-+]", re.I)
+    if not any(map(pattern.search, words)):
+        return []
+    return [*map(float, words)]
 
 
 def in_order(names: Sequence[str]) -> list[str]:
-    if times := times_in(names):
-        ordered = [name for _, name in sorted(zip(times, names, strict=True))]
-        if twice := next((n for n in range(1, len(times)) if sorted(times)[n] == sorted(times)[n - 1]), 0):
-            raise MeshError(f"{ordered[twice - 1]} and {ordered[twice]} have one time; name one file for each")
-        return ordered
-    keys = dict(zip(names, map(_natural, _differing(names)), strict=True))
-    ordered = sorted(names, key=keys.__getitem__)
+    times = times_in(names)
+    if times:
+        pairs = sorted(zip(times, names, strict=True))
+        for (time, name), (next_time, next_name) in pairwise(pairs):
+            if time == next_time:
+                raise MeshError(f"{name} and {next_name} have one time; name one file for each")
+        return [name for _, name in pairs]
+    ordered = _sorted_naturally(names)
     _require_clear(ordered)
     _require_one_series(ordered)
     numbers = _numbers(ordered)
@@ -137,17 +157,25 @@ def in_order(names: Sequence[str]) -> list[str]:
     return ordered
 
 
+def _sorted_naturally(names: Sequence[str]) -> list[str]:
+    """Sort names by the numbers in them."""
+    keys = dict(zip(names, map(_natural, _differing(names)), strict=True))
+    return sorted(names, key=keys.__getitem__)
+
+
 def _require_one_series(ordered: Sequence[str]) -> None:
     """Refuse two files for one frame, and two series of frames; names that are alike but for numbers are one."""
-    stems = _stems(ordered)
-    counts = Counter(stems)
-    if twice := [name for name, stem in zip(ordered, stems, strict=True) if counts[stem] > 1][:2]:
-        raise MeshError(f"{twice[0]} and {twice[1]} are two files for one frame; name the files of one format")
-    series: dict[str, list[str]] = {}
-    for name, stem in zip(ordered, stems, strict=True):
-        series.setdefault(_DECIMALS.sub("#", stem), []).append(name)
-    if len(series) > 1 and all(len(names) > 1 for names in series.values()):
-        those = " and ".join(common_name(names) for names in [*series.values()][:2])
+    names_by_stem: dict[str, list[str]] = {}
+    names_by_series: dict[str, list[str]] = {}
+    for name, stem in zip(ordered, _stems(ordered), strict=True):
+        names_by_stem.setdefault(stem, []).append(name)
+        names_by_series.setdefault(_DECIMALS.sub("#", stem), []).append(name)
+    for names in names_by_stem.values():
+        if len(names) > 1:
+            raise MeshError(f"{names[0]} and {names[1]} are two files for one frame; name the files of one format")
+    series = [*names_by_series.values()]
+    if len(series) > 1 and all(len(names) > 1 for names in series):
+        those = " and ".join(map(common_name, series[:2]))
         raise MeshError(f"these files are {len(series)} series of frames, {those}; name the files of one, as a pattern")
 
 
@@ -157,46 +185,58 @@ def _require_clear(ordered: Sequence[str]) -> None:
     """Refuse names whose numbers can be read in two ways, with another order each."""
     bases, stems = _differing(ordered), _stems(ordered)
     shapes = [_NUMBERS.sub("#", base) for base in bases]
-    differing = next((place for place, shape in enumerate(shapes) if shape != shapes[0]), 0)
-    why = ""
+    place = _first_place(shape != shapes[0] for shape in shapes)
+    reason = ""
     if len(set(shapes)) > len({_SIGNED.sub("#", base) for base in bases}):
-        why = 'the "-" may be a sign or a hyphen; write _- before negative numbers'
-    alike = len({*map(len, stems)}) == 1 and sum(len({*letters}) > 1 for letters in zip(*stems)) <= 1
-    if not alike and not any(map(_NUMBERS.search, stems)):
-        differing, why = len(ordered) - 1, "nothing in their names tells it; add their times"
+        reason = 'the "-" may be a sign or a hyphen; write _- before negative numbers'
+    has_one_length = len({*map(len, stems)}) == 1
+    varying_letters = sum(len({*letters}) > 1 for letters in zip(*stems))
+    if not (has_one_length and varying_letters <= 1) and not any(map(_NUMBERS.search, stems)):
+        place, reason = len(ordered) - 1, "nothing in their names tells it; add their times"
     if len({re.sub("[#.]+", "#", shape) for shape in shapes}) < len({*shapes}):
-        why = "some have a point ahead of the number"
+        reason = "some have a point ahead of the number"
     _, words = _varying(stems)
-    decimals = [*map(float, words)]
-    falls = next((place for place in range(1, len(decimals)) if decimals[place] < decimals[place - 1]), 0)
+    falls = _first_fall([*map(float, words)])
     if falls and len({number.partition(".")[0] for number in words}) > 1:
-        differing, why = falls, "as decimal numbers they are the other way round"
+        place, reason = falls, "as decimal numbers they are the other way round"
     units = [unit for stem in stems for unit in _UNITS.findall(stem)]
-    if falls := next((place for place, unit in enumerate(units) if unit != units[0]), 0):
-        differing, why = falls, "their units differ"
+    other_unit = _first_place(unit != units[0] for unit in units)
+    if other_unit:
+        place, reason = other_unit, "their units differ"
     for keys in zip(*(map(_natural, base.split(os.sep)) for base in bases)):
-        if falls := next((place for place in range(1, len(keys)) if keys[place] < keys[place - 1]), 0):
-            differing, why = falls, "folders and names both count"
-    if why:
-        first = ordered[differing - 1 if differing else 0]
+        falls = _first_fall(keys)
+        if falls:
+            place, reason = falls, "folders and names both count"
+    if reason:
+        first = ordered[max(place - 1, 0)]
         raise MeshError(
-            f"the order of {first} and {ordered[differing]} is unclear: {why}, or number the files from 0 on"
+            f"the order of {first} and {ordered[place]} is unclear: {reason}, or number the files from 0 on"
         )
+
+
+def _first_place(marks: Iterable[bool]) -> int:
+    """Return the place of the first mark; 0 if there is none."""
+    return next((place for place, mark in enumerate(marks) if mark), 0)
+
+
+def _first_fall(keys: Sequence[Any]) -> int:
+    """Return the place of the first key that is less than the one before it; 0 if they do not fall."""
+    return next((place for place in range(1, len(keys)) if keys[place] < keys[place - 1]), 0)
 
 
 def look_like_frames(names: Sequence[str]) -> bool:
     """Whether files are called like the frames of one animation: alike but for a number that counts up evenly."""
-    keys = dict(zip(names, map(_natural, _differing(names)), strict=True))
-    steps = np.diff(_numbers(sorted(names, key=keys.__getitem__)))
+    steps = np.diff(_numbers(_sorted_naturally(names)))
     return len(steps) > 0 and steps.min() > 0 and bool((steps == steps.min()).all())
 
 
 def common_name(names: Sequence[str]) -> str:
     """Return one name for many files: their common beginning and end."""
     first, last = min(names), max(names)
-    same = [letter == last_letter for letter, last_letter in zip(first, last)]
-    head = len(same) if all(same) else same.index(False)
-    return f"{first[:head]}*{Path(first).suffix}"
+    length = 0
+    while length < len(first) and first[length] == last[length]:
+        length += 1
+    return f"{first[:length]}*{Path(first).suffix}"
 
 
 def _natural(name: str) -> list[str | int]:
@@ -206,13 +246,9 @@ def _natural(name: str) -> list[str | int]:
 
 def _numbers(ordered: Sequence[str]) -> list[int]:
     """The number that counts the files; none, if there is none that alone tells them apart."""
-    parts = [_NUMBERS.split(name) for name in _differing(ordered)]
-    if len({len(of_one) for of_one in parts}) != 1:
-        return []
-    differing = [place for place, values in enumerate(zip(*parts)) if len(set(values)) > 1]
-    if len(differing) != 1 or differing[0] % 2 == 0:
-        return []
-    return [int(of_one[differing[0]]) for of_one in parts]
+    rows = [_NUMBERS.split(name) for name in _differing(ordered)]
+    place = _varying_place(rows)
+    return [] if place is None else [int(row[place]) for row in rows]
 
 
 def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], request: Wanted) -> Frames:
@@ -224,12 +260,13 @@ def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], requ
         with about(f"{names[number]} (frame {number})"):
             try:
                 mesh_file = read_once(names[number])
-                notes.extend(note for note in mesh_file.notes if number == 0 and note not in notes)
-                return mesh_file.mesh
             except NoFacesError as error:
                 if runs:
                     return empty_frame()
                 raise MeshError(f"{error}; with --runs, frames may be without") from error
+        if number == 0:
+            notes.extend(note for note in mesh_file.notes if note not in notes)
+        return mesh_file.mesh
 
     first, count = read(0), len(names)
     metadata = {name: value for name, value in first.metadata.items() if name != TIME_VALUE}
@@ -240,68 +277,90 @@ def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], requ
     if rate and times and rate_of_names != rate:
         replaced_rate = f"; theirs is {rate_of_names:g}" if rate_of_names > 0 else ""
         notes.append(f"the times of frames are replaced by the frame rate {rate:g}{replaced_rate}")
-    rate, timing = timing_of(np.array(times, np.float64), rate) if times else (rate, _numbering(names))
-    notes += ["the times of frames are not numbers that grow, and are left out"] if timing is None else []
+    timing: Mapping[str, float | str] | None = _numbering(names)
+    if times:
+        rate, timing = timing_of(np.array(times, np.float64), rate)
+    if timing is None:
+        notes.append("the times of frames are not numbers that grow, and are left out")
     # An attribute that moves differs most between the first and the last frame; looking at all frames would read the
     # folder twice.
     last = read(count - 1) if first.attributes and not runs else first
-    attributes = [attribute for attribute in first.attributes if attribute.name != EMPTY]
-    kept_attributes = tuple(attribute for attribute in attributes if _as_in(last, attribute) is not None)
-    dropped_attributes = [attribute for attribute in attributes if attribute not in kept_attributes]
-    normals, others = (
-        [a.name for a in dropped_attributes if (a.semantic == "normal") is normal] for normal in (True, False)
-    )
-    notes += (
-        [f"left out: {', '.join(normals)}; a sequence has no normals, which follow from positions"] if normals else []
-    )
-    notes += [f"left out, for they move or change: {', '.join(others)}"] if others else []
-    same = [attribute.name for attribute in kept_attributes if not can_move(attribute)]
-    notes += [f"{', '.join(same)}: as the first frame {'of each run ' * runs}has them"] if count > 1 and same else []
-    changes = runs or len(same) < len(kept_attributes) or any(name.startswith(SHOWN) for name in first.metadata)
+    attributes = _attributes_in_all(first, last, notes)
+    still = [attribute.name for attribute in attributes if not can_move(attribute)]
+    if count > 1 and still:
+        of_runs = "of each run " if runs else ""
+        notes.append(f"{', '.join(still)}: as the first frame {of_runs}has them")
+    changes = runs or len(still) < len(attributes) or any(name.startswith(SHOWN) for name in first.metadata)
 
     def meshes() -> Iterator[TriangleMesh]:
-        yield first if runs else replace(first, attributes=kept_attributes)
+        yield first if runs else replace(first, attributes=attributes)
         for number in range(1, count):
             mesh = read(number)
-            yield (
-                mesh
-                if runs
-                else _with_faces_of(first, names[0], kept_attributes, mesh, f"{names[number]} (frame {number})")
-            )
+            if not runs:
+                mesh = _with_faces_of(first, names[0], attributes, mesh, f"{names[number]} (frame {number})")
+            yield mesh
 
-    shared = kept_attributes, tuple(notes), rate, {**metadata, **(timing or {})}
-    return Frames(first.faces, count, (mesh.positions for mesh in meshes()), *shared, meshes() if changes else None)
+    positions = (mesh.positions for mesh in meshes())
+    shared = attributes, tuple(notes), rate, {**metadata, **(timing or {})}
+    return Frames(first.faces, count, positions, *shared, meshes() if changes else None)
+
+
+def _attributes_in_all(first: TriangleMesh, last: TriangleMesh, notes: list[str]) -> tuple[Attribute, ...]:
+    """Return the attributes of the first frame that the last one has, too; note the others."""
+    attributes: list[Attribute] = []
+    normals: list[str] = []
+    others: list[str] = []
+    for attribute in first.attributes:
+        if attribute.name == EMPTY:
+            continue
+        if _as_in(last, attribute) is not None:
+            attributes.append(attribute)
+        elif attribute.semantic == "normal":
+            normals.append(attribute.name)
+        else:
+            others.append(attribute.name)
+    if normals:
+        notes.append(f"left out: {', '.join(normals)}; a sequence has no normals, which follow from positions")
+    if others:
+        notes.append(f"left out, for they move or change: {', '.join(others)}")
+    return tuple(attributes)
 
 
 def read_steps(
     surface: Callable[[int], Polygons], times: Sequence[float], size: int, request: Wanted, limits: Limits
 ) -> Frames | None:
     """The steps in a file of so many bytes as frames; None if it has fewer than two."""
+    if len(times) < 2:
+        return None
     cut = CutAlike()
 
     def read(step: str) -> MeshFile:
         return surface(int(step)).checked(limits, size, cut)
 
-    return read_files([*map(str, range(len(times)))], read, replace(request, times=times)) if times[1:] else None
+    return read_files([*map(str, range(len(times)))], read, replace(request, times=times))
 
 
 def _with_faces_of(
     first: TriangleMesh, of_first: str, attributes: Sequence[Attribute], mesh: TriangleMesh, name: str
 ) -> TriangleMesh:
     """A frame with the attributes that are kept; an error if its faces are not those of the first one."""
-    if difference := other_faces(first, mesh):
+    difference = other_faces(first, mesh)
+    if difference:
         raise MeshError(
             f"these are different meshes, not the frames of one animation: {name} has other faces than {of_first}: "
             f"{difference}; if their faces change, --runs; to work on each by itself, name the files, or the folder "
             "with -r, and write to a folder, -o FOLDER/"
         )
-    now = {attribute.name: _as_in(mesh, attribute) for attribute in attributes}
-    if changed := [attribute for attribute, there in now.items() if there is None]:
-        raise MeshError(
-            f"{changed[0]} differs in {name} but not in the last frame; only colors and numbers of vertices may "
-            "change: --runs keeps others as the first frame has them"
-        )
-    return replace(mesh, attributes=tuple(filter(None, now.values())))
+    attributes_here: list[Attribute] = []
+    for attribute in attributes:
+        same_here = _as_in(mesh, attribute)
+        if same_here is None:
+            raise MeshError(
+                f"{attribute.name} differs in {name} but not in the last frame; only colors and numbers of vertices "
+                "may change: --runs keeps others as the first frame has them"
+            )
+        attributes_here.append(same_here)
+    return replace(mesh, attributes=tuple(attributes_here))
 
 
 LISTS = ("pvd", "series")  # of ParaView, files and their times
@@ -318,30 +377,36 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
         else:
             from bsm.files.formats.vtp import elements_of  # which loads a parser of XML
 
-            entries = (element.attrib for element in elements_of(data) if element.tag == "DataSet")
+            entries = [element.attrib for element in elements_of(data) if element.tag == "DataSet"]
             rows = [(float(entry.get("timestep") or 0.0), entry["file"]) for entry in entries]
         if not all(math.isfinite(time) for time, _ in rows):
             raise ValueError("a time is not finite")
     # JSON may hold anything in any place, and nested lists end the recursion of its parser.
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError) as error:
         raise FormatError(f"this is not a .{kind} file of ParaView: {type(error).__name__}: {error}") from error
-    if not rows or len({time if kind == "series" else (time, name) for time, name in rows}) < len(rows):
+    counts = Counter(time for time, _ in sorted(rows, key=lambda row: row[0]))
+    different = len(counts) if kind == "series" else len(set(rows))
+    if not rows or different < len(rows):
         raise MeshError("the list names no file, or two for one time that are not its parts")
-    names = []
-    for _, name in (rows := sorted(rows, key=lambda row: row[0])):
+    names: list[str] = []
+    for _, name in sorted(rows, key=lambda row: row[0]):
         with about(name):
             names.append(str(file_beside(Path(path).resolve().parent, name)))
-    counts = Counter(time for time, _ in rows)
     return names, [*counts], [*counts.values()]
 
 
-def _numbering(names: Sequence[str]) -> dict[str, float]:
+def _numbering(names: Sequence[str]) -> dict[str, float | str]:
     """Return the first number and the step of names that count frames, as metadata."""
     numbers = _numbers(names)
+    metadata: dict[str, float | str] = {}
     if len(numbers) < 2:
-        return {}
+        return metadata
     start, step = float(numbers[0]), float(numbers[1] - numbers[0])
-    return ({START: start} if start else {}) | ({STEP: step} if step != 1 else {})
+    if start:
+        metadata[START] = start
+    if step != 1:
+        metadata[STEP] = step
+    return metadata
 
 
 def _as_in(mesh: TriangleMesh, attribute: Attribute) -> Attribute | None:
@@ -356,7 +421,8 @@ def _as_in(mesh: TriangleMesh, attribute: Attribute) -> Attribute | None:
 
 def is_numbered(path: str) -> bool:
     """Whether a path has a place for the number of a frame, as ``walk/%04d.obj`` and ``walk/####.obj`` have."""
-    return len(_PLACE.findall(os.path.basename(path))) == 1 and "%" not in _PLACE.sub("", os.path.basename(path))
+    name = os.path.basename(path)
+    return len(_PLACE.findall(name)) == 1 and "%" not in _PLACE.sub("", name)
 
 
 def _number_at(number: int, place: re.Match[str]) -> str:

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache, partial
+from functools import lru_cache
 from itertools import islice
 from operator import lt
 from typing import Protocol
@@ -58,7 +58,8 @@ class Frames:
                 raise MeshError(f"frame {number} has {vertices} of the {last + 1} vertices that faces need")
             if len(frame) != vertices:
                 raise MeshError(f"frame {number} has {len(frame)} vertices, and the first one has {vertices}")
-            if not (finite := np.isfinite(frame)).all():
+            finite = np.isfinite(frame)
+            if not finite.all():
                 row = int(np.argmin(finite.all(axis=1)))
                 raise MeshError(f"vertex {row} of frame {number} has a coordinate that is not finite; repair it")
             yield frame
@@ -74,12 +75,17 @@ class Frames:
         # By the vertices of each face, sorted: files of one cache may list the same faces in any order, and equal faces
         # must come to the same place.
         order = np.lexsort(np.sort(faces, axis=1).T)
-        corners = (np.argmin(faces, axis=1)[:, None] + np.arange(3))[order] % 3
+        first_corners = np.argmin(faces, axis=1)[order]
+        corners = (first_corners[:, None] + np.arange(3)) % 3
         source_faces = np.where(order < len(self.faces), order, 0)
-        attributes = [attribute.taken(np.arange(self.rigged), source_faces) for attribute in self.attributes]
-        turn = partial(np.take_along_axis, indices=corners, axis=1)
-        turned = (a if a.indices is None else replace(a, indices=turn(a.indices)) for a in attributes)
-        return replace(self, faces=turn(faces[order]), attributes=tuple(turned))
+        attributes: list[Attribute] = []
+        for attribute in self.attributes:
+            moved = attribute.taken(np.arange(self.rigged), source_faces)
+            if moved.indices is not None:
+                moved = replace(moved, indices=np.take_along_axis(moved.indices, corners, axis=1))
+            attributes.append(moved)
+        turned = np.take_along_axis(faces[order], corners, axis=1)
+        return replace(self, faces=turned, attributes=tuple(attributes))
 
 
 @dataclass(frozen=True)
@@ -113,16 +119,18 @@ class Shared:
     @property
     def frame_rate(self) -> float:
         rate = self.metadata().get(RATE)
-        return float(rate) if isinstance(rate, int | float) and 0 < rate < float("inf") else 0.0
+        if isinstance(rate, int | float) and 0 < rate < float("inf"):
+            return float(rate)
+        return 0.0
 
     def code(self, number: int) -> float:
         """When a frame, of those that are written, is shown: in frames at the rate."""
         number += self.first
-        times = _times_in(str(self.metadata().get(TIMES, "")))
+        metadata = self.metadata()
+        times = _times_in(str(metadata.get(TIMES, "")))
         if number < len(times):
             return times[number] * (self.frame_rate or USUAL_RATE)
-        start, step = (_finite(self.metadata().get(name), usual) for name, usual in ((START, 0.0), (STEP, 1.0)))
-        return start + number * step
+        return _finite(metadata.get(START), 0.0) + number * _finite(metadata.get(STEP), 1.0)
 
     @property
     def numbered(self) -> bool:
@@ -131,22 +139,25 @@ class Shared:
 
     def timed(self, mesh: TriangleMesh, number: int) -> TriangleMesh:
         """Return a frame with its time, if that is known."""
-        time_metadata = self.metadata().keys() & {TIMES, RATE}
-        time = {TIME_VALUE: self.code(number) / (self.frame_rate or USUAL_RATE)} if time_metadata else {}
-        return replace(mesh, metadata={**mesh.metadata, **time})
+        if self.metadata().keys().isdisjoint((TIMES, RATE)):
+            return mesh
+        time = self.code(number) / (self.frame_rate or USUAL_RATE)
+        return replace(mesh, metadata={**mesh.metadata, TIME_VALUE: time})
 
     def mesh(self, positions: Positions, faces: Faces, *, with_metadata: bool = True) -> TriangleMesh:
-        # The names of properties are those of every file.
-        every = {n: v for n, v in self.metadata().items() if with_metadata or n.startswith((CALLED, COMPONENTS))}
-        metadata = {name: value for name, value in every.items() if name not in self.held}
+        metadata: dict[str, str | int | float | bytes] = {}
+        for name, value in self.metadata().items():
+            # The names of properties are those of every file.
+            is_of_file = with_metadata or name.startswith((CALLED, COMPONENTS))
+            if is_of_file and name not in self.held:
+                metadata[name] = value
         return TriangleMesh(positions, faces, self.attributes(), metadata)
 
     def moved(self, *, anew: bool = False) -> tuple[Attribute, ...]:
         """Attributes that are others now than they were when this was asked first, or anew."""
         if anew:
             self._begun.clear()
-        now = self.attributes()
-        return tuple(a for a in now if self._begun.setdefault(a.name, a) is not a)
+        return tuple(a for a in self.attributes() if self._begun.setdefault(a.name, a) is not a)
 
     def loses(self, names: Iterable[str]) -> None:
         self.left_out.extend(name for name in dict.fromkeys(names) if name not in self.left_out)
@@ -155,27 +166,30 @@ class Shared:
 def painted_like(first: TriangleMesh, mesh: TriangleMesh) -> TriangleMesh:
     """A frame whose colors are of the kind of the first one's: bytes, or floats from 0 to 1."""
     kinds = {attribute.name: attribute.values.dtype for attribute in first.attributes if attribute.semantic == "color"}
-
-    def same(attribute: Attribute) -> Attribute:
+    attributes: list[Attribute] = []
+    for attribute in mesh.attributes:
         kind = kinds.get(attribute.name, attribute.values.dtype)
-        if kind == attribute.values.dtype or attribute.semantic != "color":
-            return attribute
-        shades = shares_of(attribute.values)
-        return replace(attribute, values=(np.rint(255.0 * shades) if kind == np.uint8 else shades).astype(kind))
-
-    return replace(mesh, attributes=tuple(map(same, mesh.attributes)))
+        if kind != attribute.values.dtype and attribute.semantic == "color":
+            shades = shares_of(attribute.values)
+            if kind == np.uint8:
+                shades = np.rint(255.0 * shades)
+            attribute = replace(attribute, values=shades.astype(kind))
+        attributes.append(attribute)
+    return replace(mesh, attributes=tuple(attributes))
 
 
 def timing_of(times: Positions, rate: float = 0.0) -> tuple[float, dict[str, float | str] | None]:
     """Frames per second of times, shape (T,), 0 if uneven, and metadata of the rest; None: they do not grow."""
     if not len(times):
         return rate, {}
-    if not np.isfinite(times).all() or (np.diff(times) <= 0.0).any():
+    steps = np.diff(times)
+    if not np.isfinite(times).all() or (steps <= 0.0).any():
         return rate, None
     own_rate = rate_of_times(times)
     even = times[:1] + np.arange(len(times)) / (own_rate or rate or USUAL_RATE)
     # Times of files are often floats of 32 bits: at an hour they are only known to about 0.2 ms.
-    tolerance = 4.0 * float(np.finfo(np.float32).eps * np.abs(times).max()) + 1e-3 * float(np.diff(times[:2]).sum())
+    spacing = float(np.finfo(np.float32).eps * np.abs(times).max())
+    tolerance = 4.0 * spacing + 1e-3 * float(steps[:1].sum())
     if np.abs(even - times).max() > tolerance:
         return own_rate, {TIMES: " ".join(f"{time:.9g}" for time in times.tolist())}
     start = round(float(times[0]) * (rate or own_rate or USUAL_RATE), 6)
@@ -184,11 +198,14 @@ def timing_of(times: Positions, rate: float = 0.0) -> tuple[float, dict[str, flo
 
 def between(name: str, codes: Positions, rate: float) -> list[str]:
     """A note on samples at codes, shape (k,), counted in frames from the first one, that lie between the frames."""
-    off = [int((np.abs(k * codes - np.rint(k * codes)) > 0.02).sum()) for k in range(1, 9)]
-    if not off[0]:
+    counts: list[int] = []
+    for factor in range(1, 9):
+        distances = np.abs(factor * codes - np.rint(factor * codes))
+        counts.append(int((distances > 0.02).sum()))
+    if not counts[0]:
         return []
-    finer = f"; --frame-rate {rate * (1 + off.index(0)):g} reads them" if 0 in off else ""
-    return [f"{off[0]} of {len(codes)} {name} lie between the frames and are not read{finer}"]
+    finer = f"; --frame-rate {rate * (1 + counts.index(0)):g} reads them" if 0 in counts else ""
+    return [f"{counts[0]} of {len(codes)} {name} lie between the frames and are not read{finer}"]
 
 
 def rate_of_times(times: Positions) -> float:
@@ -200,8 +217,9 @@ def rate_of_times(times: Positions) -> float:
     if step <= 0 or float(np.abs(np.diff(times) - step).max()) > 0.02 * step:
         return 0.0
     rate = 1.0 / step
+    whole_rate = float(round(rate))
     # 23.976 stays as it is, while 29.9999 from rounded times becomes 30.
-    return float(round(rate)) if abs(rate - round(rate)) < 1e-3 * rate else rate
+    return whole_rate if abs(rate - whole_rate) < 1e-3 * rate else rate
 
 
 @lru_cache(1)
@@ -212,11 +230,15 @@ def _times_in(text: str) -> list[float]:
 
 
 def _finite(value: object, usual: float) -> float:
-    return float(value) if isinstance(value, int | float) and np.isfinite(value) else usual
+    if isinstance(value, int | float) and np.isfinite(value):
+        return float(value)
+    return usual
 
 
 def describe_runs(starts: Sequence[int]) -> str:
     """In words, the frames before which faces change."""
-    starts_named = ", ".join(map(str, starts[:MOST_LISTED]))
-    rest = f" and {len(starts) - MOST_LISTED} more" if len(starts) > MOST_LISTED else ""
-    return f"connectivity changes at frame{'s' if len(starts) > 1 else ''} {starts_named}{rest}"
+    words = ", ".join(map(str, starts[:MOST_LISTED]))
+    if len(starts) > MOST_LISTED:
+        words += f" and {len(starts) - MOST_LISTED} more"
+    plural = "s" if len(starts) > 1 else ""
+    return f"connectivity changes at frame{plural} {words}"
