@@ -14,6 +14,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Parts, join, prepare
 from bsm.codec.static.ways.grid import levels_field
+from bsm.codec.static.ways.in_blocks import refine_blocks
 from bsm.codec.static.ways.in_cells import InCells, Spread
 from tools.surgery import Frames, frames_of, stream_of, with_header
 from tools.vectors.good import Bad, Good
@@ -45,7 +46,8 @@ def draft(
     levels, _ = base.wanted(base.expected_steps(layer))
     known = base.known_steps(layer, levels)
     levels[:, 1:] = np.rint(base.offsets[:, 1:] / known[:, 1:])
-    return base.refined(layer, levels, base.moved(layer, levels, known)), prepared.mesh.faces, levels
+    moved = base.moved(layer, levels, known)
+    return refine_blocks(base.prepared, base.draft, layer, levels, moved), prepared.mesh.faces, levels
 
 
 def based(*given: Any, **options: Any) -> bytes:
