@@ -8,6 +8,7 @@ from typing import Any
 
 from bsm import END_OF_STREAM, Decoder, FrameEvent, SequenceDecoder, Signal
 from bsm.bitstream.container.packets import Packet, SectionWriter
+from bsm.files.inspection import StreamInfo, inspect_stream
 from tools.surgery import scan
 
 
@@ -15,6 +16,11 @@ def write_stream(packets: list[Packet]) -> bytes:
     """Return a whole stream: preamble, the packets given, END."""
     writer = SectionWriter()
     return b"".join([writer.start(), *(writer.write(packet) for packet in packets), writer.end()])
+
+
+def info_of(data: bytes) -> StreamInfo:
+    """What a stream says of itself, as `bsm info` reads it."""
+    return inspect_stream(iter([data]))
 
 
 def events_of(data: bytes, pieces: Sequence[bytes] | None = None, **options: Any) -> list[Any]:

@@ -14,13 +14,13 @@ from bsm._core import bitstream as of_bytes
 from bsm._core import codec as of_arrays
 from bsm.codec.denoise.learnt import descriptions
 from bsm.codec.denoise.surface import Topology, surroundings
-from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Original, Reference, surface_distance
 from bsm.codec.look.measure import AttributeLook
 from bsm.codec.signal.smooth import local_frames, raised, slide
 from bsm.codec.static.choice.settling import Settler
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.encoding.options import encode_options
+from tests.blocks import graph_of
 from tests.codec.static.attributes.test_attributes import dressed
 from tests.motion import bending
 from tests.refined import LAYER, refined
@@ -118,10 +118,10 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     frames, steps = local_frames(bare.positions, bare.faces), np.ones((size, 3))
     still = np.zeros((size, 3), np.int32)
     slide(raised(bare.positions, frames, still, 0.1), frames, still, np.ones(size))
-    shaper = Shaper(Original(bare.positions, bare.faces), graph_of_faces(bare.faces, size))
+    shaper = Shaper(Original(bare.positions, bare.faces), graph_of(bare))
     shaper.levels(bare.positions, still[:, :1], frames[:, None, :3], 1.0, 1.0)
     defended(of_arrays.turn_columns, "turn_columns", refusals)(np.eye(4, 2), np.empty(4), np.empty(2))
-    seen = Settler(bare.positions, bare.faces, graph_of_faces(bare.faces, size))
+    seen = Settler(bare.positions, bare.faces, graph_of(bare))
     seen.levels(2.0 * bare.positions, frames, steps, lambda _: steps, 0.01, np.full(size, np.inf))
     corners = bare.positions[bare.faces].reshape(-1, 9)
     assert AttributeLook(bare, "color", corners).distance(bare.positions, corners) == 0.0

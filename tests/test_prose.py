@@ -11,10 +11,10 @@ import pytest
 from bsm import Decoder, EncodeOptions, EndEvent, denoise, encode, read_mesh
 from bsm.codec.blocks.overlap import block_size, grow_blocks, metis_partition
 from bsm.codec.denoise.coarse import OVERLAP, RULES
-from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.ways.in_cells import CHAIN, SPREADS
 from bsm.files.inspection import Skimmer, StreamInfo, inspect_stream
+from tests.blocks import graph_of
 from tests.codec.static.test_cells import stream
 from tests.shapes import theta
 from tools.replicate.quotes import KEPT
@@ -141,7 +141,7 @@ def test_most_vertices_have_all_their_neighbors_in_one_block(meshes: Path) -> No
     pytest.importorskip("pymetis", reason="needs METIS")
     alone, least, most = numbers("codec/PAPER.md", r"(\d+) % of the vertices of fandisk .*? overlap (\d+) to (\d+) %")
     mesh = read_mesh(meshes / "static" / "fandisk_6475.ply").mesh
-    graph = graph_of_faces(mesh.faces, len(mesh.positions))
+    graph = graph_of(mesh)
     partition = metis_partition(graph, 15)
     degrees = np.diff(graph.offsets)
     rows = np.repeat(np.arange(graph.size), degrees)
@@ -160,7 +160,7 @@ def test_the_choice_of_distances_changes_nmsve_as_told(meshes: Path) -> None:
     (most,) = numbers("codec/PAPER.md", r"in both change it by less than ([\d.]+) decibels")
     clean = read_mesh(meshes / "static" / "fandisk_6475.ply").mesh
     noisy = read_mesh(meshes / "noisy" / "fandisk_0.7_noisy.ply").mesh
-    graph = graph_of_faces(clean.faces, len(clean.positions))
+    graph = graph_of(clean)
     rows = np.repeat(np.arange(graph.size), np.diff(graph.offsets))
 
     def rough(positions: np.ndarray, measured: np.ndarray) -> np.ndarray:

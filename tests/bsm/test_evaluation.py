@@ -10,8 +10,6 @@ import pytest
 
 from bsm import CorruptError, EncodeOptions, MeshError, TriangleMesh, save
 from bsm.cli import main
-from bsm.codec.blocks.overlap import derive_partition, grow_blocks
-from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
 from bsm.evaluation.curve import (
     STYLES,
@@ -35,6 +33,7 @@ from bsm.evaluation.curve import (
     table,
 )
 from bsm.ground.pictures import render, view_matrix
+from tests.blocks import blocks_of
 from tests.shapes import knot, patch, torus
 from tools.laplacians import dense_laplacian
 from tools.replicate.paper.compression import EXACT
@@ -332,8 +331,7 @@ def test_the_nearest_face_is_drawn():
 
 @pytest.fixture(scope="module")
 def block():
-    graph = graph_of_faces(patch(14, 14).faces, 196)
-    return grow_blocks(graph, derive_partition(graph, 1), 196).block(0)
+    return blocks_of(patch(14, 14)).block(0)
 
 
 @pytest.mark.parametrize("name", EXACT)

@@ -14,12 +14,12 @@ import pytest
 import bsm
 from bsm.cli import main
 from bsm.files.images import ImageRule, smaller
-from bsm.files.inspection import inspect_stream
 from bsm.gltf.coding import EXTENSION, array_of, drawn
 from bsm.gltf.compress import compress, count_primitives
 from bsm.gltf.document import Document, read_document
 from tests.gltf import Built, glb, scene
 from tests.shapes import torus
+from tests.streams import info_of
 
 WEB = Path(__file__).parents[2] / "web"
 CODE = {"grid": 13}
@@ -278,7 +278,7 @@ def test_scenes_of_many_meshes_are_quick_to_decode(tmp_path, count, more, light)
     assert main(["glb", str(tmp_path / "many.glb"), "-o", str(tmp_path / "small.glb"), *more]) == 0
     after = read_document(str(tmp_path / "small.glb"))
     streams = {extension["stream"] for extension, _ in coded_of(after).values()}
-    headers = [inspect_stream(iter([after.view(stream)])).header for stream in streams]
+    headers = [info_of(after.view(stream)).header for stream in streams]
     assert headers and all((header.light == 1) == light for header in headers)
 
 

@@ -431,7 +431,6 @@ def test_uses_of_primitives_are_counted_before_any_is_made(animated, tmp_path):
 import resource, sys
 import bsm
 from bsm.files.motion.frames import Wanted
-from bsm.files.mesh import read_mesh
 from bsm.gltf.scene import read_gltf
 before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 try:

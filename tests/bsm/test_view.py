@@ -30,7 +30,6 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.container.wire import MAGIC
 from bsm.cli import main
 from bsm.codec.geometry.metrics import distances_to_surface
 from bsm.codec.static.presets import SEQUENCE_ROWS
@@ -263,7 +262,7 @@ def test_late_joiners_enter_at_the_run_of_a_mesh_of_its_own():
 
 def test_pages_that_have_gone_are_let_go_of():
     growing = Arrival("sway.bsm")
-    growing.take(MAGIC)
+    growing.take(b"\x89BSM")
     with serving(growing) as server:
         before = threading.active_count()
         pages = [socket.create_connection(server.server_address) for _ in range(5)]

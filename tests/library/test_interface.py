@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.container.wire import MAGIC
 from bsm.cli import main
 from tests.library.conftest import linked
 from tests.shapes import torus
@@ -206,7 +205,7 @@ def test_the_example_reads_a_scene(tmp_path: Path) -> None:
     far = np.linalg.norm(mesh.positions - np.array(place.split(), float), axis=1).min()
     assert far < 1e-3 * mesh.diagonal
     scene = (tmp_path / "small.glb").read_bytes()
-    place = scene.index(MAGIC) + 40
+    place = scene.index(b"\x89BSM") + 40
     (tmp_path / "bad.glb").write_bytes(scene[:place] + bytes([scene[place] ^ 255]) + scene[place + 1 :])
     refused = subprocess.run([program, tmp_path / "bad.glb"], capture_output=True, text=True, check=False)
     assert refused.returncode == 1 and "checksum" in refused.stderr

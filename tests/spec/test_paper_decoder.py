@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.files.inspection import inspect_stream
 from tests.shapes import torus
+from tests.streams import info_of
 from tools.surgery import frames_of
 
 
@@ -32,7 +32,7 @@ def reference(imported):
 def off(decoder, stream):
     """How far the farthest vertex is from that of the product, over the diagonal; the faces are equal."""
     ours = bsm.decode(stream)
-    theirs, faces = decoder(inspect_stream(iter([stream])).header, frames_of(stream))
+    theirs, faces = decoder(info_of(stream).header, frames_of(stream))
     assert np.array_equal(faces, ours.faces)
     return np.linalg.norm(theirs - ours.positions, axis=1).max() / ours.diagonal
 
@@ -54,7 +54,7 @@ def test_a_decoder_from_the_paper_agrees_on_real_meshes(name, options, numpy_dec
 @pytest.mark.parametrize("options", [{}, {"keep": 0.4, "power": 3, "iterations": 2}, {"keep": 0.3, "power": 2}])
 def test_streams_of_the_preset_come_back_with_the_same_bits(options, reference):
     stream = bsm.encode(torus(30, 24, bumps=0.1), preset="paper", block_size=90, **options)
-    header = inspect_stream(iter([stream])).header
+    header = info_of(stream).header
     assert header.onorm == header.constants.power > 1 and stream[4] == 0x11  # 1.1 brought `onorm`
     positions, faces, skipped = reference.decode(stream)
     ours = bsm.decode(stream)

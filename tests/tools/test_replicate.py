@@ -15,9 +15,8 @@ import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from bsm import TriangleMesh, read_mesh, save
-from bsm.codec.blocks.overlap import derive_partition, grow_blocks
-from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
+from tests.blocks import blocks_of, graph_of
 from tests.codec.denoise.denoise_shapes import grid
 from tests.shapes import torus
 from tools.laplacians import dense_laplacian
@@ -432,14 +431,13 @@ def test_r_is_the_inverse_of_a_laplacian_with_weights_by_length():
 
 
 def block_of(mesh):
-    graph = graph_of_faces(mesh.faces, len(mesh.positions))
-    return grow_blocks(graph, derive_partition(graph, 1), len(mesh.positions)).block(0)
+    return blocks_of(mesh).block(0)
 
 
 def test_rows_in_the_order_of_the_file_are_those_of_the_mesh():
     mesh = torus(12, 9)
     block = dictionaries.in_file_order(block_of(mesh))
-    graph = graph_of_faces(mesh.faces, len(mesh.positions))
+    graph = graph_of(mesh)
     assert block.vertices.tolist() == list(range(len(mesh.positions)))
     assert np.array_equal(block.offsets, graph.offsets) and np.array_equal(block.neighbors, graph.neighbors)
 

@@ -13,11 +13,7 @@ from hypothesis import strategies as st
 
 from bsm import OptionError
 from bsm._core.bitstream import constant
-from bsm.bitstream.container.header import LAW
-from bsm.codec.blocks.overlap import derive_partition, grow_blocks
-from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.signal.chain import Chain
-from bsm.codec.static.coding import rules_of
+from tests.blocks import blocks_of, chain_of
 from tests.shapes import patch
 
 MOST = constant("MAX_LEVEL")
@@ -26,13 +22,12 @@ ROWS = st.lists(st.tuples(UNITS, UNITS, UNITS), min_size=1, max_size=12)
 UNIT = 256
 """Targets are in 1 / UNIT of a step."""
 MESH = patch(16, 16)
-GRAPH = graph_of_faces(MESH.faces, 256)
-BLOCKS = grow_blocks(GRAPH, derive_partition(GRAPH, 4), 80)
+BLOCKS = blocks_of(MESH, 4, 80)
 
 
 def coded(blocks: list[np.ndarray], width: int = 60) -> tuple[list[bytes], list[np.ndarray]]:
     """Payloads of blocks of targets, one after the other in a chain, and the points that they decode to, in steps."""
-    chain, payloads, points = Chain(rules_of(LAW), BLOCKS, width), [], []
+    chain, payloads, points = chain_of(BLOCKS, width), [], []
     for index, targets in enumerate(blocks):
         still = np.zeros((len(chain.begin(index)[0]), 3))
         chain.give(np.eye(len(still), len(targets), dtype=np.float32))
@@ -77,7 +72,7 @@ def test_a_block_wider_than_announced_is_refused() -> None:
 
 @pytest.mark.parametrize("step", [0.0, -1.0, np.nan])
 def test_a_step_that_is_none_is_refused(step: float) -> None:
-    chain = Chain(rules_of(LAW), BLOCKS, 60)
+    chain = chain_of(BLOCKS, 60)
     still = np.zeros((len(chain.begin(0)[0]), 3))
     chain.dictionary(5)
     for rows, given_step in ((5, step), (6, 1.0)):

@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 from bsm import BsmError, CorruptError, LimitError, Limits, MeshError, OptionError, TruncatedError, read_mesh
 from bsm._core import Cut, GivenMesh
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
-from bsm.codec.geometry.graph import graph_of_faces
 from tests.bitstream.attributes.test_values import place_of
 from tests.bitstream.fields.fields import SOUPS
-from tests.shapes import Faces, grid_faces
+from tests.blocks import graph_of
+from tests.shapes import Faces, grid_faces, patch
 from tools.payloads import decode_connectivity
 
 quick = settings(max_examples=200)
@@ -251,7 +251,7 @@ def test_what_needs_joined_and_coded_faces_is_refused_without(call: str) -> None
 
 
 def test_compact_parts_cost_little():
-    graph = graph_of_faces(grid_faces(60, 60), 3600)
+    graph = graph_of(patch(60, 60))
     labels = np.add.outer(np.arange(60) // 20 * 3, np.arange(60) // 20).ravel().astype(np.int32)
     data = Cut(graph.offsets, graph.neighbors).write(labels, 9)
     assert 8 * len(data) < 0.2 * len(labels)

@@ -22,7 +22,7 @@ from bsm.bitstream.container.header import (
 )
 from bsm.bitstream.container.packets import write_header
 from bsm.bitstream.container.wire import SHORT, SKIPPABLE_TYPES, FrameType, checksum, write_map
-from bsm.files.inspection import inspect_stream
+from tests.streams import info_of
 from tools.surgery import record_of, stream_of
 
 SMALL_HEADER = Header(vertices=100, faces=190, blocks=3, block_size=60, coefficients=10)
@@ -126,13 +126,13 @@ UNREADABLE = (
 @pytest.mark.parametrize("payload", UNREADABLE)
 def test_headers_that_cannot_be_read(payload):
     with pytest.raises(CorruptError):
-        inspect_stream([stream_of([(FrameType.HEADER, payload)])])
+        info_of(stream_of([(FrameType.HEADER, payload)]))
 
 
 @pytest.mark.parametrize("changes", [{"vertices": 0}, {"step": math.nan}, {"step": 0.0}, {"center": (1, 2)}])
 def test_a_header_cannot_have_illegal_values(changes):
     with pytest.raises(CorruptError):
-        inspect_stream([stream_of([(FrameType.HEADER, write_header(replace(SMALL_HEADER, **changes)))])])
+        info_of(stream_of([(FrameType.HEADER, write_header(replace(SMALL_HEADER, **changes)))]))
 
 
 SPEC = Path(__file__).parents[3] / "spec"
@@ -196,7 +196,7 @@ def test_the_papers_entry_is_documented():
             paper = replace(Constants(bits=12), **{name: value})
             header = write_header(replace(SMALL_HEADER, paper=paper.entry(LAW)))
             with pytest.raises(CorruptError, match="legal" if refused else "unexpected section type 15"):
-                inspect_stream([stream_of([(FrameType.HEADER, header)])])
+                info_of(stream_of([(FrameType.HEADER, header)]))
 
 
 def test_frame_types_are_documented():

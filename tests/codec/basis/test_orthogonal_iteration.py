@@ -4,10 +4,9 @@ import pytest
 from bsm import Encoder, decode
 from bsm._core import Cut
 from bsm.codec.basis.orthogonal_iteration import DynamicSize
-from bsm.codec.blocks.overlap import derive_partition, grow_blocks
-from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain, ChainRules
 from bsm.encoding.options import encode_options
+from tests.blocks import blocks_of
 from tests.shapes import patch, torus
 from tools.laplacians import dense_laplacian
 
@@ -17,8 +16,7 @@ RULES = ChainRules(exact=True, key_interval=1, power=2, iterations=1, key_iterat
 @pytest.mark.parametrize("mesh", [patch(17, 23), torus(20, 20)])
 def test_the_exact_basis_is_exact_to_the_tolerance_that_it_states(mesh):
     """Its Rayleigh quotients against LAPACK's eigenvalues, of a torus with many equal ones too."""
-    graph = graph_of_faces(mesh.faces, len(mesh.positions))
-    blocks = grow_blocks(graph, derive_partition(graph, 1), graph.size)
+    blocks = blocks_of(mesh)
     chain, matrix = Chain(RULES, blocks), dense_laplacian(blocks.block(0))
     chain.begin(0)
     basis = chain.dictionary(57)

@@ -2,29 +2,19 @@ import numpy as np
 import pytest
 
 from bsm import Encoder, OptionError
-from bsm.bitstream.container.header import LAW
-from bsm.codec.blocks.overlap import derive_partition, grow_blocks
-from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.signal.chain import Chain
-from bsm.codec.static.coding import rules_of
 from bsm.encoding.options import encode_options
+from tests.blocks import blocks_of, chain_of
 from tests.shapes import torus
 
 
-def chain_of(mesh, parts, size):
-    graph = graph_of_faces(mesh.faces, len(mesh.positions))
-    blocks = grow_blocks(graph, derive_partition(graph, parts), size)
-    return Chain(rules_of(LAW), blocks)
-
-
 def test_blocks_come_in_their_order():
-    chain = chain_of(torus(10, 8), 4, 26)
+    chain = chain_of(blocks_of(torus(10, 8), 4, 26))
     with pytest.raises(OptionError, match="not the next"):
         chain.begin(1)
 
 
 def test_positions_that_do_not_fit_are_refused():
-    chain = chain_of(torus(10, 8), 4, 26)
+    chain = chain_of(blocks_of(torus(10, 8), 4, 26))
     vertices = chain.begin(0)[0]
     chain.dictionary(4)
     with pytest.raises(OptionError, match="fit"):

@@ -1,22 +1,21 @@
+from typing import Any
+
 import numpy as np
 import pytest
 
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
-from bsm.codec.blocks.overlap import Blocks, derive_partition, grow_blocks
-from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.transform import MeasuredSpectrum
+from tests.blocks import blocks_of
 from tests.shapes import patch
 
 SHIFT = 2.0**-5
 
 
-def blocks_of(side: int, parts: int) -> Blocks:
-    mesh = patch(side, side)
-    graph = graph_of_faces(mesh.faces, side * side)
-    return grow_blocks(graph, derive_partition(graph, parts), side * side // parts + 40)
+def square(side: int, parts: int) -> Any:
+    return blocks_of(patch(side, side), parts, side * side // parts + 40)
 
 
-def waves(blocks: Blocks, count: int, amplitude: float) -> np.ndarray:
+def waves(blocks: Any, count: int, amplitude: float) -> np.ndarray:
     """Positions of a single block whose first `count` coefficients in x, y and z are all `amplitude`, and no others."""
     block = blocks.block(0)
     subspace = block.iterated(cosine_columns(block.size, count), SHIFT)
@@ -27,7 +26,7 @@ def waves(blocks: Blocks, count: int, amplitude: float) -> np.ndarray:
 
 @pytest.mark.parametrize("count", [9, 40, 200])
 def test_each_frequency_is_worth_a_coefficient(count: int) -> None:
-    blocks = blocks_of(22, 1)
+    blocks = square(22, 1)
     spectrum = MeasuredSpectrum(blocks, waves(blocks, count, 0.01), shift=SHIFT)
     blur = 2 + (count + 4) // 8  # frequencies are averaged with an eighth of them around
     assert abs(spectrum.worthwhile_size(0.005) - count) <= blur
@@ -35,7 +34,7 @@ def test_each_frequency_is_worth_a_coefficient(count: int) -> None:
 
 
 def test_noise_is_worth_them_all_and_a_finer_step_no_fewer() -> None:
-    blocks = blocks_of(24, 3)
+    blocks = square(24, 3)
     positions = np.random.default_rng(1).normal(size=(576, 3))
     spectrum = MeasuredSpectrum(blocks, positions, shift=SHIFT)
     largest = int(np.diff(blocks.starts).max())

@@ -5,11 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bsm import Decoder, EncodeOptions
+from bsm import Decoder, EncodeOptions, decode, encode
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Grid, write_brief
-from bsm.codec.decoding import decode
-from bsm.codec.static.encoder import encode
 from tests.refined import header_of
 from tools.surgery import frames_of, is_brief, stream_of
 from tools.vectors.good_attributes import charts, with_attributes

@@ -9,8 +9,8 @@ from bsm import BlockEvent, Decoder, EndEvent, Limits, LossEvent, RefinementEven
 from bsm._core import Decoder as Engine
 from bsm.bitstream.container.wire import FrameType
 from bsm.codec.decoding import BLOCK, REFINEMENT, Event, mask_of
-from bsm.files.inspection import inspect_stream
 from tests.shapes import torus
+from tests.streams import info_of
 from tools.surgery import Cursor, spans_of, with_header
 
 KINDS = FrameType.BLOCK, FrameType.REFINEMENT
@@ -112,7 +112,7 @@ def test_another_number_of_cells_is_refused() -> None:
 
 def test_positions_are_counted_by_blocks_levels_of_cells_and_levels_of_vertices() -> None:
     """Against a walk over the frames: every frame of both kinds begins with two numbers, and data follow."""
-    info = inspect_stream(iter([stream()]))
+    info = info_of(stream())
     expected = dict.fromkeys(("blocks", "levels_of_cells", "levels_of_vertices"), 0)
     for span in spans_of(stream()):
         if span.type not in KINDS:

@@ -10,13 +10,23 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 import bsm
-from bsm import PRESETS, Contract, CorruptError, EncodeOptions, Encoder, Target, TriangleMesh, TruncatedError, look
-from bsm.codec.decoding import decode
+from bsm import (
+    PRESETS,
+    Contract,
+    CorruptError,
+    EncodeOptions,
+    Encoder,
+    Target,
+    TriangleMesh,
+    TruncatedError,
+    decode,
+    encode,
+    look,
+)
 from bsm.codec.geometry.turns import UNTURNED
 from bsm.codec.static.choice.bounds import Bounds, Measures
 from bsm.codec.static.choice.congruence import coded_transforms, lattice, planes_of, transforms_of
 from bsm.codec.static.choice.grids import Frame, Gridded, _rounded, grid_draft, paying, repeating, rounded
-from bsm.codec.static.encoder import encode
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_grid, grid_of, sampled_size
 from tests.refined import header_of

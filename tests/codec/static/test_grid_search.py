@@ -9,13 +9,13 @@ import pytest
 from bsm import PRESETS, EncodeOptions, Encoder, TriangleMesh, decode, encode, read_mesh
 from bsm._core import Field
 from bsm.account.comparison import in_order_of
-from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Original, face_normals, folded_edges
 from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.choice.table import ways_of
 from bsm.codec.static.preamble_encoding import join
 from bsm.codec.static.ways.grid import grid_field
+from tests.blocks import graph_of
 from tests.codec.static.test_presets import PROMISING
 from tests.shapes import curved, grid_faces, patch, together
 
@@ -55,7 +55,7 @@ def test_faces_that_rounding_turns_over_are_turned_back_within_reach() -> None:
     random = np.random.default_rng(3)
     slivers = mesh.positions + random.uniform(-0.45, 0.45, mesh.positions.shape) * (1, 1, 0) / 24
     original, step = Original(slivers, mesh.faces), 1 / 30
-    shaper = Shaper(original, graph_of_faces(mesh.faces, len(slivers)))
+    shaper = Shaper(original, graph_of(mesh))
 
     def over(places: np.ndarray) -> int:
         turned = face_normals(places * step, mesh.faces) * original.normals
@@ -159,7 +159,7 @@ def test_the_nearest_cell_without_faults_is_taken() -> None:
 def test_few_edges_are_folded_over(meshes: Path, name: str) -> None:
     mesh = join(read_mesh(meshes / name).mesh.bare, keep=False).mesh
     decoded = in_order_of(mesh, decode(encode(mesh, EncodeOptions())))
-    shaper = Shaper(Original(mesh.positions, mesh.faces), graph_of_faces(mesh.faces, len(mesh.positions)))
+    shaper = Shaper(Original(mesh.positions, mesh.faces), graph_of(mesh))
     assert shaper.more_folds(decoded) <= -(-len(mesh.faces) // 4_000)
 
 
@@ -174,7 +174,7 @@ def test_folds_are_counted_from_100_120_and_150_degrees_on(before: float, after:
         up, across = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
         return np.array([[0, 0, 0], [1, -1, 0], [2, 0, 0], [1, across, up]], np.float64)
 
-    shaper = Shaper(Original(bent(before), faces), graph_of_faces(faces, 4))
+    shaper = Shaper(Original(bent(before), faces), graph_of(TriangleMesh(bent(before), faces)))
     assert shaper.more_folds(bent(after)) == folded
     assert len(shaper.over(bent(after))) == 4 * folded
     assert shaper.more_folds(bent(before)) == 0

@@ -17,9 +17,9 @@ from bsm.codec.signal.chain import Chain
 from bsm.codec.static.ways import block_coder
 from bsm.encoding.options import encode_options
 from bsm.evaluation.curve import paper_options
-from bsm.files.inspection import inspect_stream
 from tests.bsm.program import python
 from tests.shapes import patch, tetrahedron, together, torus
+from tests.streams import info_of
 from tools.surgery import frames_of
 
 MESH = torus(60, 40, bumps=0.1)
@@ -27,7 +27,7 @@ SMALL = {"block_size": 150, "threads": 1}
 
 
 def inspected(**options):
-    return inspect_stream(iter([bsm.encode(MESH, preset="paper", **{**SMALL, **options})]))
+    return info_of(bsm.encode(MESH, preset="paper", **{**SMALL, **options}))
 
 
 def test_a_preset_gives_what_is_not_given_itself():
@@ -51,12 +51,12 @@ def test_the_stream_is_as_the_paper_has_it():
     assert (header.key_interval, header.smoothing, header.refinement) == (0, 0.0, ())
     parts = Encoder(MESH, EncodeOptions(preset="paper", **SMALL))._input.prepared.partition
     assert header.block_size == round(1.15 * parts.sizes.max())
-    assert not inspect_stream(iter([bsm.encode(MESH, step=0.01)])).is_paper
+    assert not info_of(bsm.encode(MESH, step=0.01)).is_paper
     others = {"key_interval": 4}, {"key_seed": "cosines"}, {"power": 9}, {"iterations": 3}, {"partition": "derived"}
     for other in (*others, {"overlap": 1.05}, {"bits": 10}, {"shift": 0.1}):
         assert not inspected(**other).is_paper
     assert inspected(keep=0.1).is_paper and inspected(block_size=300).is_paper
-    assert inspect_stream(iter([bsm.encode(patch(6, 7), preset="paper")])).is_paper
+    assert info_of(bsm.encode(patch(6, 7), preset="paper")).is_paper
 
 
 def test_sizes_follow_the_error_or_are_fixed():
@@ -100,7 +100,7 @@ def test_where_eps_h_cannot_be_met_a_note_says_so():
 def test_a_mesh_smaller_than_a_block_is_one_block_and_a_note_says_so():
     encoder = Encoder(patch(6, 7), EncodeOptions(preset="paper"))
     data = encoder.encode()
-    assert inspect_stream(iter([data])).header.blocks == 1
+    assert info_of(data).header.blocks == 1
     assert "no orthogonal iterations follow" in encoder.notes[-1]
     assert FrameType.BLOCK in [kind for kind, _ in frames_of(data)]
     assert bsm.compare(patch(6, 7), data).max_error_relative < 0.07
@@ -116,7 +116,7 @@ def test_without_metis_our_rule_cuts_and_a_note_says_so(tmp_path):
     assert re.search("METIS .* is not installed: BSM's own rule cuts the mesh into parts", done.stderr)
     data = (tmp_path / "a.bsm").read_bytes()
     assert len(bsm.decode(data).faces) == len(MESH.faces)
-    info = inspect_stream(iter([data]))
+    info = info_of(data)
     assert info.sizes["partition"] == 0 and not info.is_paper
 
 
@@ -139,7 +139,7 @@ def test_coefficients_are_as_many_as_decoders_grant(monkeypatch):
     granted = Limits(work=2e7, work_per_vertex=0.0, work_per_byte=0.0)
     monkeypatch.setitem(NAMED_LIMITS, "default", lambda: granted)
     encoder = Encoder(MESH, EncodeOptions(preset="paper", doi=(1e-7, 1e-6), **SMALL))
-    info = inspect_stream(iter([data := encoder.encode()]))
+    info = info_of(data := encoder.encode())
     assert max(info.coefficients) < info.header.block_size / 2 and "eps_h is exceeded" in encoder.losses[-1]
     assert bsm.decode(data, limits=granted).faces.shape == MESH.faces.shape
     with pytest.raises(OptionError, match="decoders with default limits would refuse this stream"):
@@ -151,7 +151,7 @@ def test_a_quality_or_a_rate_is_reached_by_eps(target):
     encoder = Encoder(MESH, encode_options(preset="paper", **target, **SMALL))
     found = encoder.result()
     assert -0.1 < encoder.options.target.excess(found) <= 0.0
-    assert inspect_stream(iter([b"".join(found.frames)])).is_paper and not encoder.losses
+    assert info_of(b"".join(found.frames)).is_paper and not encoder.losses
 
 
 def test_a_target_and_a_given_c_exclude_each_other():

@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import PRESETS, BsmError, EncodeOptions, Encoder, MeshError, TriangleMesh, decode, read_mesh
+from bsm import PRESETS, BsmError, EncodeOptions, Encoder, MeshError, TriangleMesh, decode, look, read_mesh
 from bsm.codec.geometry.metrics import Reference
-from bsm.codec.look.measure import look
 from bsm.codec.static.choice.grids import spacing_of
 from bsm.codec.static.options import BALANCED, changed
 from bsm.evaluation.curve import EXACT_BASES, Spectral, measure, paper_options

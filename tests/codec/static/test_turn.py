@@ -8,10 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import bsm
-from bsm import PRESETS, Attribute, EncodeOptions, Encoder, Target, TriangleMesh, read_mesh
-from bsm.codec.decoding import decode
+from bsm import PRESETS, Attribute, EncodeOptions, Encoder, Target, TriangleMesh, decode, encode, read_mesh
 from bsm.codec.geometry.turns import turn_of, turned_by
-from bsm.codec.static.encoder import encode
 from tests.refined import header_of
 from tools.surgery import frames_of, is_brief, stream_of
 from tools.vectors.meshes import together, torus

@@ -1,19 +1,13 @@
 """What a decoder spends is bounded, whatever the faces are, and counted before it is spent."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from bsm import PRESETS, Decoder, EncodeOptions, LimitError, Limits, OptionError, TriangleMesh, decode, encode
 from bsm._core import Decoder as Engine
-from bsm.bitstream.container.header import LAW
-from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.decoding import BLOCK, mask_of
-from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.signal.chain import Chain
-from bsm.codec.static.coding import rules_of
 from bsm.encoding.options import encode_options
+from tests.blocks import blocks_of, chain_of
 from tests.shapes import patch
 from tools.vectors.meshes import torus
 
@@ -30,9 +24,7 @@ def soup(vertices, faces):
 
 def dictionary_work(mesh, width):
     """What decoders count for a dictionary of the whole of a mesh as one block."""
-    graph = graph_of_faces(mesh.faces, len(mesh.positions))
-    rules = replace(rules_of(LAW), power=3, key_iterations=4)
-    chain = Chain(rules, grow_blocks(graph, derive_partition(graph, 1), graph.size))
+    chain = chain_of(blocks_of(mesh), power=3, key_iterations=4)
     chain.begin(0)
     return chain.costs(width)[0]
 
