@@ -219,14 +219,13 @@ function meshOf(primitive: Primitive): MeshInput {
     // Tangents are turned from normals and texture coordinates, which come first.
     const arrays = arraysOf(primitive).filter(([name]) => name !== "POSITION");
     arrays.sort(([one], [other]) => Number(one === "TANGENT") - Number(other === "TANGENT"));
-    const attributes = arrays
-        .map(([name, accessor]): AttributeInput => ({
-            ...MEANINGS[name],
-            ...(isFloat(name, accessor) ? {} : { quality: "exact" }),
-            name,
-            values: isFloat(name, accessor) ? floatsOf(accessor) : (accessor.getArray() as AttributeInput["values"]),
-            components: accessor.getElementSize(),
-        }));
+    const attributes = arrays.map(([name, accessor]): AttributeInput => ({
+        ...MEANINGS[name],
+        ...(isFloat(name, accessor) ? {} : { quality: "exact" }),
+        name,
+        values: isFloat(name, accessor) ? floatsOf(accessor) : (accessor.getArray() as AttributeInput["values"]),
+        components: accessor.getElementSize(),
+    }));
     return {
         positions: floatsOf(positions),
         faces: indices ? Uint32Array.from(indices) : Uint32Array.from({ length: positions.getCount() }, (_, i) => i),
