@@ -174,6 +174,20 @@ def test_a_frame_in_doubt_is_drawn_before_an_encoding_is_returned(hidden: int, m
     assert max(looks(original[[hidden]], decoded[[hidden]], found)) <= 1.001 / 1.5
 
 
+def test_weights_follow_the_farthest_vertices_where_these_are_nearest_to_their_bound() -> None:
+    positions, faces = bending(10)
+    search = StepSearch(positions, faces, Contract(0.02, look=1.0), UNITS, 1)
+    distances = np.full(10, 0.2)
+    distances[6] = 1.5
+    measured = Measured(distances, np.full(10, 0.5), {0: 0.5})
+    tried = Tried(Encoding(positions, 0.003, 0.5, 1000.0), 0.003, np.zeros(10), measured)
+    step, weights = search._following(tried, 1, 0.0)
+    assert int(weights.argmax()) == 6 and step < 0.003
+    # After the first attempt, one that breaks a bound counts on no relief.
+    later, _ = search._following(tried, 2, 0.0)
+    assert later == pytest.approx(0.003 / 1.5)
+
+
 def test_frames_that_are_only_expected_to_exceed_the_bound_are_drawn_before_an_encoding_is_thrown_away() -> None:
     """One frame of ten looks much better than its error of normals tells: all others would seem to exceed."""
     foreseen = np.full(10, 1.0)
