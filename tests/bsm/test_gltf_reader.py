@@ -434,7 +434,7 @@ from bsm.files.motion.frames import Wanted
 from bsm.gltf.scene import read_gltf
 before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 try:
-    read_gltf(sys.argv[1], Wanted()) if sys.argv[2] == "True" else read_mesh(sys.argv[1])
+    read_gltf(sys.argv[1], Wanted()) if sys.argv[2] == "True" else bsm.read_mesh(sys.argv[1])
 except bsm.LimitError as error:
     print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) // 1024)
 """
