@@ -60,6 +60,7 @@ MANY = "bsm encode -q -f a.ply b.obj c.stl -o streams/ --report report.json"
 
 
 SETTING = """
+from bsm.files.mesh import read_mesh
 mesh = read_mesh("bunny.ply").mesh
 positions, faces = mesh.positions, mesh.faces
 data = open("bunny.bsm", "rb").read()

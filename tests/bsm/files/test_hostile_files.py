@@ -269,7 +269,9 @@ def test_an_obj_is_known_by_its_content():
 SECONDS, BYTES = 10, 1 << 30
 PROGRAM = f"""
 import json, os, signal, sys
+from bsm.bitstream.errors import BsmError
 from bsm.codec.geometry.mesh import NoFacesError
+from bsm.files.mesh import read_mesh
 for path in sys.argv[1:]:
     child = os.fork()
     if child == 0:
