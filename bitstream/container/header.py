@@ -5,7 +5,6 @@ from __future__ import annotations
 import operator
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field, fields
-from functools import cache
 from typing import Any, TypeAlias
 
 from bsm._core.bitstream import fields as table_of
@@ -177,7 +176,6 @@ class Header:
         return self.run[1] if len(self.run) == 2 else None
 
 
-@cache
 def fields_of(kind: Kind) -> dict[str, Field]:
     return {item.name: item.metadata["wire"] for item in fields(kind)}
 
