@@ -453,7 +453,7 @@ def test_scenes_are_compared_as_one_mesh(tmp_path, capsys):
     assert 0 < found["max_error_relative"] < 1e-4
     assert found["attributes"]["ID"]["max_error"] == 0 and found["attributes"]["color"]["max_error"] < 0.003
     assert main(["info", small]) == 0
-    assert "scene of 3 primitives, 1 streams" in capsys.readouterr().out
+    assert "scene of 3 primitives, 1 stream\n" in capsys.readouterr().out
 
 
 def test_references_that_lead_nowhere_and_numbers_that_are_none_are_errors():
