@@ -81,22 +81,22 @@ class Seen:
     start: float | None = None
     error: str = ""
 
-    def differences(self, wanted: "Seen", *, moving: bool) -> Iterator[str]:
+    def differences(self, expected: "Seen", *, moving: bool) -> Iterator[str]:
         if self.error:
             yield self.error
             return
         compared: tuple[tuple[str, Array, Array], ...] = (
-            ("height in meters", self.extents[self.up], wanted.extents[wanted.up]),
-            ("width", np.sort(np.delete(self.extents, self.up)), np.sort(np.delete(wanted.extents, wanted.up))),
-            ("colors of vertices", self.shades, wanted.shades),
-            ("looks of materials", _rows(self.surfaces), _rows(wanted.surfaces)),
+            ("height in meters", self.extents[self.up], expected.extents[expected.up]),
+            ("width", np.sort(np.delete(self.extents, self.up)), np.sort(np.delete(expected.extents, expected.up))),
+            ("colors of vertices", self.shades, expected.shades),
+            ("looks of materials", _rows(self.surfaces), _rows(expected.surfaces)),
         )
-        size = float(wanted.extents.max(initial=0.0))
-        for what, own, other in compared:
-            if np.shape(own) != np.shape(other) or not np.allclose(
-                own, other, NEAR, NEAR * (size if what in ("height in meters", "width") else 1.0)
+        size = float(expected.extents.max(initial=0.0))
+        for what, value, expected_value in compared:
+            if np.shape(value) != np.shape(expected_value) or not np.allclose(
+                value, expected_value, NEAR, NEAR * (size if what in ("height in meters", "width") else 1.0)
             ):
-                yield f"{what}: {np.round(own, 5).tolist()}, not {np.round(other, 5).tolist()}"
+                yield f"{what}: {np.round(value, 5).tolist()}, not {np.round(expected_value, 5).tolist()}"
         if moving and (self.start is None or abs(self.start - START / RATE) > 1e-3):
             yield f"the first frame is shown at {self.start} s, not {START / RATE}"
 
@@ -117,9 +117,11 @@ def wanted_of(mesh: bsm.TriangleMesh, *, faces: bool = False) -> Seen:
     size = metres(str(mesh.metadata.get("unit", ""))) or 1.0
     numbers = face_numbers(mesh, "material")
     used = [0] if numbers is None else np.unique(numbers.values).tolist()
-    shown = [a for a in mesh.attributes if a.components in (3, 4) and (faces or a.domain != "face")]
-    color = next((a for a in shown if a.semantic == "color"), None)
-    bright = next((a for a in shown if a.name == "color" and a.values.dtype == np.float32), None)  # above 1, and linear
+    attributes = [a for a in mesh.attributes if a.components in (3, 4) and (faces or a.domain != "face")]
+    color = next((a for a in attributes if a.semantic == "color"), None)
+    bright = next(
+        (a for a in attributes if a.name == "color" and a.values.dtype == np.float32), None
+    )  # above 1, and linear
     kinds = materials_in(mesh.metadata)
     images = {number for number, (_, data) in images_in(mesh.metadata).items() if re.match(SHOWN, data, re.DOTALL)}
     surfaces = np.array([_surface(kinds.get(number, {}), images)[: OF_USD if faces else None] for number in used])
@@ -142,8 +144,10 @@ def wanted_of(mesh: bsm.TriangleMesh, *, faces: bool = False) -> Seen:
 
 def _surface(words: dict[str, Any], images: set[int]) -> list[float]:
     """Color, opacity, metal, roughness, double sides, and one more than the set of the images of color and normals."""
-    known = ["Kd", "d", "Tr", "Pm", "Pr", "baseColorFactor", "metallicFactor", "roughnessFactor"]
-    numbers = {n: [float(word) for word in str(words[n]).removeprefix("-halo").split()] for n in known if n in words}
+    number_words = ["Kd", "d", "Tr", "Pm", "Pr", "baseColorFactor", "metallicFactor", "roughnessFactor"]
+    numbers = {
+        n: [float(word) for word in str(words[n]).removeprefix("-halo").split()] for n in number_words if n in words
+    }
     of_gltf = any(re.match("name|base|metal|rough|emissive|normalT|occl|alpha|double", name) for name in words)
     of_mtl = any(re.match("[A-Z][a-z]|d$|illum|map_|norm$|bump", name) for name in words)
     both = "map_Pr" in words and words.get("map_Pm") == words["map_Pr"]
@@ -163,11 +167,11 @@ def _surface(words: dict[str, Any], images: set[int]) -> list[float]:
 
 def by_three(paths: Sequence[Path]) -> list[Seen]:
     command = ["node", "--input-type=module", "-e", THREE, *map(str, paths)]
-    found = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=True, timeout=600).stdout
+    output = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=True, timeout=600).stdout
     return [
         Seen(np.zeros(3), 1, np.zeros(0), np.zeros(0), None, line["error"]) if "error" in line
         else Seen(np.array(line["extents"]), 1, np.array(line["surfaces"]), np.array(line["shades"]), line["start"])
-        for line in map(json.loads, found.splitlines())
+        for line in map(json.loads, output.splitlines())
     ]  # fmt: skip
 
 
@@ -180,9 +184,9 @@ def by_usd(path: Path) -> Seen:
     for prim in stage.Traverse():
         if prim.IsA(shade.Material):
             surface = shade.Material(prim).ComputeSurfaceSource()[0]
-            given = map(surface.GetInput, ("diffuseColor", "opacity", "metallic", "roughness"))
-            said = (value.Get() if value and not value.HasConnectedSource() else None for value in given)
-            color, opacity, *rough = said
+            inputs = map(surface.GetInput, ("diffuseColor", "opacity", "metallic", "roughness"))
+            input_values = (value.Get() if value and not value.HasConnectedSource() else None for value in inputs)
+            color, opacity, *rough = input_values
             surfaces.append([*(color or [1.0] * 3), 1.0 if opacity is None else opacity, *rough])
         elif prim.IsA(geom.Mesh) and (var := geom.Mesh(prim).GetDisplayColorPrimvar()) and var.HasValue():
             values = np.array(var.ComputeFlattened(code))
@@ -201,7 +205,7 @@ class Acts:
 
     def add(self, name: str, mesh: bsm.TriangleMesh) -> Iterator[tuple[str, str]]:
         """Write a mesh; yield what usd-core finds wrong. A mesh that a format cannot hold is none of its files."""
-        wanted = wanted_of(mesh)
+        expected = wanted_of(mesh)
         about = {**mesh.metadata, "frame_rate": RATE, "frame_start": START}
         shared = Shared(lambda: mesh.attributes, lambda: about)
         for kind in ("glb", "moving.glb", "usdc"):
@@ -218,28 +222,30 @@ class Acts:
             except bsm.BsmError:
                 continue
             if kind != "usdc":
-                self.waiting.append((f"{name}, {kind}", path, wanted, kind != "glb"))
+                self.waiting.append((f"{name}, {kind}", path, expected, kind != "glb"))
                 continue
-            seen = by_usd(path)
-            wanted = wanted_of(mesh, faces=True)
-            near = [
-                (np.abs(wanted.surfaces - row).max(axis=1) < NEAR).any()
-                for row in np.reshape(seen.surfaces, (-1, OF_USD))
+            result = by_usd(path)
+            expected = wanted_of(mesh, faces=True)
+            is_expected = [
+                (np.abs(expected.surfaces - row).max(axis=1) < NEAR).any()
+                for row in np.reshape(result.surfaces, (-1, OF_USD))
             ]
-            seen.surfaces = seen.surfaces[near] if any(near) else seen.surfaces  # it also has those that no face has
+            result.surfaces = (
+                result.surfaces[is_expected] if any(is_expected) else result.surfaces
+            )  # it also has those that no face has
             numbers, kinds = face_numbers(mesh, "material"), materials_in(mesh.metadata)
             if not all(map(kinds.get, [0] if numbers is None else np.unique(numbers.values).tolist())):
                 bare = np.array([_surface({}, set())[:OF_USD]])  # faces without a material
-                seen.surfaces = np.concatenate([np.reshape(seen.surfaces, (-1, OF_USD)), bare])
-            yield from ((f"{name}, usdc", what) for what in seen.differences(wanted, moving=True))
+                result.surfaces = np.concatenate([np.reshape(result.surfaces, (-1, OF_USD)), bare])
+            yield from ((f"{name}, usdc", what) for what in result.differences(expected, moving=True))
             path.unlink()
 
     def finish(self) -> Iterator[tuple[str, str]]:
         """Yield what three.js finds wrong."""
         for begin in range(0, len(self.waiting), 100):
-            some = self.waiting[begin : begin + 100]
-            for (name, path, wanted, moving), seen in zip(
-                some, by_three([path for _, path, _, _ in some]), strict=True
+            batch = self.waiting[begin : begin + 100]
+            for (name, path, expected, moving), result in zip(
+                batch, by_three([path for _, path, _, _ in batch]), strict=True
             ):
-                yield from ((name, what) for what in seen.differences(wanted, moving=moving))
+                yield from ((name, what) for what in result.differences(expected, moving=moving))
                 path.unlink()

@@ -116,14 +116,14 @@ def _holds(name: str, how: str, limits: str) -> bool:
     """Measure one stream, again where it takes more than it may, print what it took, and say whether it may."""
     stream = _stream(name)
     for _ in range(TIMES):
-        taken = taken_by(stream, how, limits)
-        memory, seconds = browser_bounds(taken, stream) if how == "browser" else bounds(limits, taken)
-        if not (problem := taken.problem(memory, seconds)):
+        cost = taken_by(stream, how, limits)
+        memory, seconds = browser_bounds(cost, stream) if how == "browser" else bounds(limits, cost)
+        if not (problem := cost.problem(memory, seconds)):
             break
     print(
-        f"{Path(name).stem:22} {how:8} {taken.size:9} bytes {taken.vertices:9} vertices {taken.memory / 2**20:8.1f} of "
-        f"{memory / 2**20:8.1f} MiB {taken.seconds:7.2f} of {seconds:7.2f} s  {'FAILED' if problem else 'holds':7} "
-        f"{taken.outcome[:90]}",
+        f"{Path(name).stem:22} {how:8} {cost.size:9} bytes {cost.vertices:9} vertices {cost.memory / 2**20:8.1f} of "
+        f"{memory / 2**20:8.1f} MiB {cost.seconds:7.2f} of {seconds:7.2f} s  {'FAILED' if problem else 'holds':7} "
+        f"{cost.outcome[:90]}",
         flush=True,
     )
     return problem is None
@@ -148,8 +148,8 @@ def walk_problems(streams: Mapping[str, bytes], hows: Sequence[str]) -> Iterator
     warm_up()
     for how in hows:
         if how == "browser":
-            for (name, stream), taken in zip(streams.items(), taken_by_browser(list(streams.values())), strict=True):
-                if problem := taken.problem(*browser_bounds(taken, stream)):
+            for (name, stream), cost in zip(streams.items(), taken_by_browser(list(streams.values())), strict=True):
+                if problem := cost.problem(*browser_bounds(cost, stream)):
                     yield f"{name} ({how}): {problem}"
             continue
         for limits in ("default", "service"):
@@ -172,15 +172,15 @@ def charges() -> int:
     for how in args.how:
         slowness = 1.0
         for name, stream in streams.items():
-            taken = min((taken_by(stream, how, "wide") for _ in range(args.times)), key=lambda taken: taken.seconds)
-            ratio = taken.seconds / max(taken.work / 1e9, 1e-9) / (BROWSER if how == "browser" else 1.0)
+            cost = min((taken_by(stream, how, "wide") for _ in range(args.times)), key=lambda cost: cost.seconds)
+            ratio = cost.seconds / max(cost.work / 1e9, 1e-9) / (BROWSER if how == "browser" else 1.0)
             slowness = max(slowness, ratio) if name == YARDSTICK else slowness
-            unsound = taken.escaped or (args.small and taken.outcome != "decoded")
-            wrong = unsound or (ratio > args.most * slowness and taken.seconds > LEAST_SECONDS)
+            unsound = cost.escaped or (args.small and cost.outcome != "decoded")
+            wrong = unsound or (ratio > args.most * slowness and cost.seconds > LEAST_SECONDS)
             failed += [f"{name} ({how})"] * wrong
             print(
-                f"{name:22} {how:8} {taken.work / 1e9:8.3f} s charged, {taken.seconds:8.3f} s taken, ratio "
-                f"{ratio:5.2f} of {args.most * slowness:.2f}{' FAILED' * wrong} {taken.outcome[:60]}",
+                f"{name:22} {how:8} {cost.work / 1e9:8.3f} s charged, {cost.seconds:8.3f} s taken, ratio "
+                f"{ratio:5.2f} of {args.most * slowness:.2f}{' FAILED' * wrong} {cost.outcome[:60]}",
                 flush=True,
             )
     print(f"{len(streams)} streams, {len(failed)} take more than is charged: {', '.join(failed) or 'none'}")

@@ -26,9 +26,9 @@ def recorded(lines: Iterable[str]) -> tuple[Counter[str], Counter[str]]:
     """Calls of processes that have closed their calls, and those of them that were refused."""
     closed, calls, refused = set[str](), Counter[str](), Counter[str]()
     for line in lines:
-        if not (found := _LINE.match(line)):
+        if not (match := _LINE.match(line)):
             continue
-        process, begun, ended, rest = found.groups()
+        process, begun, ended, rest = match.groups()
         if process in closed and not (begun or ended):
             closed.remove(process)  # it is over, and its number is given to others
         elif process in closed:

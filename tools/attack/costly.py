@@ -156,21 +156,21 @@ def encoded(data: bytes, preset: str, kind: str = "meshes") -> Taken:
         return Taken(f"{type(error).__name__}: {error}", len(data))
 
 
-def share(taken: Taken) -> float:
+def share(cost: Taken) -> float:
     """What it took over what it may take; something else than a stream or an error of ours is the worst."""
-    return float("inf") if taken.escaped else taken.seconds / (SECONDS + SECONDS_PER_BYTE * taken.size)
+    return float("inf") if cost.escaped else cost.seconds / (SECONDS + SECONDS_PER_BYTE * cost.size)
 
 
-def search(seconds: float, seed: str, kept: int = 12, kind: str = "meshes") -> list[tuple[float, Recipe | File, Taken]]:
+def search(seconds: float, seed: str, most: int = 12, kind: str = "meshes") -> list[tuple[float, Recipe | File, Taken]]:
     """Return the worst files found within a time, the worst first."""
     random, worst, end = Random(seed), list[tuple[float, Recipe | File, Taken]](), time.monotonic() + seconds
     while time.monotonic() < end:
         new = not worst or random.random() < 0.3
         recipes = [_drawn(kind, random) if new else _changed(random.choice(worst)[1], kind, random) for _ in range(4)]
         works = [partial(_prepared, recipe, kind) for recipe in recipes]
-        found = zip(recipes, taken_by_each(works, seconds=120), strict=True)
-        worst = sorted([*worst, *((share(taken), recipe, taken) for recipe, taken in found)], key=lambda row: -row[0])
-        worst = worst[:kept]
+        costs = zip(recipes, taken_by_each(works, seconds=120), strict=True)
+        worst = sorted([*worst, *((share(cost), recipe, cost) for recipe, cost in costs)], key=lambda row: -row[0])
+        worst = worst[:most]
     return worst
 
 
@@ -198,8 +198,8 @@ def main() -> int:
     args = parser.parse_args()
     warm_up()
     worst = search(args.seconds, args.seed, kind=args.kind)
-    for part, recipe, taken in worst:
-        print(f"{part:.2f} of the bound: {taken.seconds:.2f} s, {taken.size} bytes, {taken.outcome[:60]}; {recipe}")
+    for part, recipe, cost in worst:
+        print(f"{part:.2f} of the bound: {cost.seconds:.2f} s, {cost.size} bytes, {cost.outcome[:60]}; {recipe}")
     if args.save:
         recipe = worst[0][1]
         args.save.write_bytes(recipe.data if isinstance(recipe, File) else recipe.ply)

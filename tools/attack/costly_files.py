@@ -168,13 +168,13 @@ class File:
         inside = "".join(ways[way](count)[:MOST_BYTES] for way, count in self.parts)
         if suffix != "npz":
             return text.replace("{}", inside).encode()
-        made = io.BytesIO()
+        buffer = io.BytesIO()
         arrays: dict[str, Any] = {"positions": np.eye(3), "faces": np.array([[0, 1, 2]])}
         arrays |= {
             f"{'meta.x' if letter == 'm' else 'vertex.x'}{n}": np.zeros(3) for n, letter in enumerate(inside[:4096])
         }
-        np.savez(made, **arrays)
-        return made.getvalue()
+        np.savez(buffer, **arrays)
+        return buffer.getvalue()
 
 
 def drawn_file(kind: str, random: Random) -> File:

@@ -59,7 +59,7 @@ def _by_events(
     positions: list[np.ndarray] = []
     frames: list[np.ndarray] = []
     values: dict[str, Attribute] = {}
-    shown: list[tuple[Attribute, ...]] = []
+    shown_attributes: list[tuple[Attribute, ...]] = []
     runs: list[tuple[int, int, np.ndarray]] = []
     with kind(limits, threads, tolerant=tolerant) as decoder:
         for piece in (*pieces, b""):
@@ -72,7 +72,7 @@ def _by_events(
                     case ConnectivityEvent():
                         if kind is SequenceDecoder:  # a run, with a mesh of its own
                             faces, vertices, positions = np.zeros((0, 3), np.int32), 0, []
-                            shown.clear()
+                            shown_attributes.clear()
                             runs.append((len(frames), event.vertices, event.faces))
                         faces = np.concatenate([faces, event.faces])
                         more = np.full((event.vertices - vertices, 3), np.nan)
@@ -82,7 +82,7 @@ def _by_events(
                         positions[0][event.vertices] = event.positions
                     case FrameEvent():
                         frames.append(event.positions)
-                        shown.append(event.attributes)
+                        shown_attributes.append(event.attributes)
                     case AttributeEvent():
                         rows = vertices if event.domain == "vertex" else len(faces)
                         if event.indices is not None:
@@ -91,8 +91,10 @@ def _by_events(
                     case LossEvent():
                         losses += 1
         if len(runs) > 1 and isinstance(decoder, SequenceDecoder):
-            return _of_runs(frames, runs, {} if losses else arrays_of_frames(decoder.attributes, shown)), losses
-        arrays = {} if losses else arrays_of_frames(_completed(decoder, values), shown)
+            return _of_runs(
+                frames, runs, {} if losses else arrays_of_frames(decoder.attributes, shown_attributes)
+            ), losses
+        arrays = {} if losses else arrays_of_frames(_completed(decoder, values), shown_attributes)
     if kind is SequenceDecoder:
         return (np.array(frames).reshape(len(frames), vertices, 3), faces, arrays), losses
     return (positions[0] if positions else np.zeros((0, 3)), faces, arrays), losses
@@ -111,10 +113,10 @@ def _completed(decoder: Decoder | SequenceDecoder, attributes: dict[str, Attribu
     return [attributes.get(a.name, a) for a in mesh.attributes if a.name in attributes or a.semantic == "normal"]
 
 
-def _with_values(known: Attribute | None, event: AttributeEvent, rows: int) -> Attribute:
+def _with_values(attribute: Attribute | None, event: AttributeEvent, rows: int) -> Attribute:
     """An attribute with what an event tells of it; zeros where nothing has come yet."""
     shape = (rows, *event.values.shape[1:])
-    values = np.zeros(shape, event.values.dtype) if known is None else known.values.copy()
+    values = np.zeros(shape, event.values.dtype) if attribute is None else attribute.values.copy()
     values[event.rows] = event.values
     return Attribute(event.name, values, event.domain, event.semantic, event.indices)
 

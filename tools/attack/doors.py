@@ -88,15 +88,15 @@ class Read:
         vectors = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         areas = np.linalg.norm(vectors, axis=1) if self.normals is None else (vectors * self.normals).sum(axis=1)
         middles = corners.mean(axis=1)
-        whole = areas.sum() or 1.0
-        found = {"area": np.array([whole]), "place": areas @ middles / whole, "turn": vectors.T @ middles / whole}
-        found |= {"bounds": np.concatenate([low, high]) / (np.abs([low, high]).max() or 1.0)}
+        area = areas.sum() or 1.0
+        sums = {"area": np.array([area]), "place": areas @ middles / area, "turn": vectors.T @ middles / area}
+        sums |= {"bounds": np.concatenate([low, high]) / (np.abs([low, high]).max() or 1.0)}
         for name, values in self.values.items():
             of_faces = values.astype(np.float64).mean(axis=1)
-            weight = whole * (np.abs(of_faces).max(initial=0.0) or 1.0)
+            weight = area * (np.abs(of_faces).max(initial=0.0) or 1.0)
             moved = (areas[:, None] * of_faces).T @ middles
-            found[name] = np.concatenate([areas @ of_faces, moved.ravel()]) / weight
-        return found
+            sums[name] = np.concatenate([areas @ of_faces, moved.ravel()]) / weight
+        return sums
 
 
 def of_ours(mesh: bsm.TriangleMesh) -> Read:
@@ -111,10 +111,10 @@ def of_ours(mesh: bsm.TriangleMesh) -> Read:
     names = {str(material.get("name", "")) for material in materials_in(mesh.metadata).values()}
     groups = {name for what in ("part", "group", "object") for name in names_in(mesh.metadata, what).values()}
     groups |= {str(mesh.metadata.get("name", ""))}
-    known = (within(appearance(words))[0] for words in (*materials_in(mesh.metadata).values(), {}))
+    looks_of_materials = (within(appearance(words))[0] for words in (*materials_in(mesh.metadata).values(), {}))
     looks = [
         (*look.color, look.color_texture is not None, look.metallic, look.roughness, look.double_sided)
-        for look in known
+        for look in looks_of_materials
     ]
     return Read(mesh.positions[mesh.faces], values, names - {""}, groups - {""}, looks=looks)
 
@@ -140,10 +140,10 @@ def of_trimesh(path: Path) -> Read:
             values.setdefault("color", []).append(part.visual.vertex_colors[faces][..., :3] / 255)
         if "vertex_normals" in part._cache and np.array_equal(matrix, np.eye(4)):
             values.setdefault("normal", []).append(part.vertex_normals[faces])
-    whole = {name: np.concatenate(tables) for name, tables in values.items() if len(tables) == len(triangles) - 1}
+    complete = {name: np.concatenate(tables) for name, tables in values.items() if len(tables) == len(triangles) - 1}
     several = path.suffix.lower() == ".3mf" and len(parts) == len(scene.geometry) > 1
     groups = {name for name in scene.geometry if several and not name.isdigit()}  # a number is its own, for no name
-    return Read(np.concatenate(triangles), whole, names - {"", "default", "material_0"}, groups, looks=looks)
+    return Read(np.concatenate(triangles), complete, names - {"", "default", "material_0"}, groups, looks=looks)
 
 
 def _looks_of_trimesh(material: Any) -> list[tuple[float, ...]]:
@@ -153,8 +153,8 @@ def _looks_of_trimesh(material: Any) -> list[tuple[float, ...]]:
         factors = (1.0 if f is None else f for f in (material.metallicFactor, material.roughnessFactor))
         return [(*color, material.baseColorTexture is not None, *factors, bool(material.doubleSided))]
     color = to_linear(np.asarray(getattr(material, "diffuse", UNSAID))[None, :3] / 255)[0].tolist()
-    said = not np.array_equal(getattr(material, "diffuse", UNSAID), UNSAID)
-    return [(*color, 1.0 if material.image else np.nan, *3 * [np.nan])] if said else []
+    has_look = not np.array_equal(getattr(material, "diffuse", UNSAID), UNSAID)
+    return [(*color, 1.0 if material.image else np.nan, *3 * [np.nan])] if has_look else []
 
 
 def of_lib3mf(path: Path) -> Read:
@@ -169,17 +169,17 @@ def of_lib3mf(path: Path) -> Read:
     while items.MoveNext():
         waiting.append((items.GetCurrent().GetObjectResource(), placed(items.GetCurrent().GetObjectTransform())))
     while waiting:
-        found, matrix = waiting.pop()
-        if found.IsComponentsObject():
-            parts = map(found.GetComponent, range(found.GetComponentCount()))
+        item, matrix = waiting.pop()
+        if item.IsComponentsObject():
+            parts = map(item.GetComponent, range(item.GetComponentCount()))
             waiting += [(part.GetObjectResource(), placed(part.GetTransform()) @ matrix) for part in parts]
             continue
-        points = np.array([[*vertex.Coordinates, 1.0] for vertex in found.GetVertices()]) @ matrix
-        faces = np.array([triangle.Indices[:] for triangle in found.GetTriangleIndices()])
+        points = np.array([[*vertex.Coordinates, 1.0] for vertex in item.GetVertices()]) @ matrix
+        faces = np.array([triangle.Indices[:] for triangle in item.GetTriangleIndices()])
         triangles.append(points[faces[:, ::-1] if np.linalg.det(matrix) < 0 else faces][..., :3])
-        usual, of_usual, _ = found.GetObjectLevelProperty()
-        given = [(one.ResourceID, one.PropertyIDs[0]) for one in found.GetAllTriangleProperties()]
-        used |= {one if one[0] else (usual, of_usual) for one in given}
+        usual, of_usual, _ = item.GetObjectLevelProperty()
+        properties = [(one.ResourceID, one.PropertyIDs[0]) for one in item.GetAllTriangleProperties()]
+        used |= {one if one[0] else (usual, of_usual) for one in properties}
     plain = [one for one in used if one[0] and model.GetPropertyTypeByID(one[0]).name == "BaseMaterial"]
     colors = [model.GetBaseMaterialGroupByID(owner).GetDisplayColor(place) for owner, place in plain]
     linear = [to_linear(np.array([[c.Red, c.Green, c.Blue]]) / 255)[0].tolist() for c in colors]
@@ -230,8 +230,8 @@ def of_pymeshlab(path: Path) -> Read:
             values.setdefault("color", []).append(mesh.vertex_color_matrix()[faces][..., :3])
         if mesh.has_wedge_tex_coord() and mesh.wedge_tex_coord_matrix().any():  # zeros: it has not read them
             values.setdefault("texcoord", []).append(mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2))
-    whole = {name: np.concatenate(tables) for name, tables in values.items() if len(tables) == len(triangles) - 1}
-    return Read(np.concatenate(triangles), whole)
+    complete = {name: np.concatenate(tables) for name, tables in values.items() if len(tables) == len(triangles) - 1}
+    return Read(np.concatenate(triangles), complete)
 
 
 def of_polygons(points: Array, sizes: Sequence[int], corners: Array) -> Read:
@@ -243,18 +243,18 @@ def of_polygons(points: Array, sizes: Sequence[int], corners: Array) -> Read:
     begin = first[faces]
     triangles = points[corners[np.stack([begin, begin + step, begin + step + 1], axis=1)]]
     vectors = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    whole = np.zeros((len(counts), 3))
-    np.add.at(whole, faces, vectors)
-    normals = whole / np.maximum(np.linalg.norm(whole, axis=1), 1e-300)[:, None]
+    sums = np.zeros((len(counts), 3))
+    np.add.at(sums, faces, vectors)
+    normals = sums / np.maximum(np.linalg.norm(sums, axis=1), 1e-300)[:, None]
     heights = np.abs(((triangles - triangles[:, :1]) * normals[faces][:, None]).sum(axis=2)).max(axis=1, initial=0.0)
     areas = np.linalg.norm(vectors, axis=1)
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0))) if len(triangles) else 1.0
     added = areas * heights / (size or 1.0) + areas - np.abs((vectors * normals[faces]).sum(axis=1))
     quads = np.flatnonzero(counts == 4)
     turned = points[corners[first[quads][:, None] + [[1, 2, 3, 1, 3, 0]]]].reshape(-1, 2, 3, 3)
-    other = np.linalg.norm(np.cross(turned[:, :, 1] - turned[:, :, 0], turned[:, :, 2] - turned[:, :, 0]), axis=2)
-    cut = np.minimum(np.bincount(faces, areas, len(counts))[quads], other.sum(axis=1))  # more where edges cross
-    crossed = (cut - np.linalg.norm(whole, axis=1)[quads]).sum()
+    other_areas = np.linalg.norm(np.cross(turned[:, :, 1] - turned[:, :, 0], turned[:, :, 2] - turned[:, :, 0]), axis=2)
+    cut = np.minimum(np.bincount(faces, areas, len(counts))[quads], other_areas.sum(axis=1))  # more where edges cross
+    crossed = (cut - np.linalg.norm(sums, axis=1)[quads]).sum()
     return Read(triangles, normals=normals[faces], uneven=2 * float((added.sum() + crossed) / (areas.sum() or 1.0)))
 
 
@@ -299,11 +299,15 @@ def of_usd(path: Path) -> Read:
     points = [np.zeros((0, 3))]
     sizes, corners, many = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)], 0
     cache = geom.XformCache(code)
-    shown = {geom.Imageable(prim).ComputePurpose() for prim in stage.Traverse() if geom.Mesh(prim)}
-    left_out = {geom.Tokens.guide, geom.Tokens.proxy if geom.Tokens.render in shown else geom.Tokens.guide}
+    purposes = {geom.Imageable(prim).ComputePurpose() for prim in stage.Traverse() if geom.Mesh(prim)}
+    left_out = {geom.Tokens.guide, geom.Tokens.proxy if geom.Tokens.render in purposes else geom.Tokens.guide}
     for prim in usd.PrimRange(stage.GetPseudoRoot(), usd.TraverseInstanceProxies(usd.PrimDefaultPredicate)):
-        mesh, seen = geom.Mesh(prim), geom.Imageable(prim)
-        if not mesh or seen.ComputeVisibility(code) == geom.Tokens.invisible or seen.ComputePurpose() in left_out:
+        mesh, imageable = geom.Mesh(prim), geom.Imageable(prim)
+        if (
+            not mesh
+            or imageable.ComputeVisibility(code) == geom.Tokens.invisible
+            or imageable.ComputePurpose() in left_out
+        ):
             continue
         matrix = np.array(cache.GetLocalToWorldTransform(prim))
         points.append(np.asarray(mesh.GetPointsAttr().Get(code), np.float64) @ matrix[:3, :3] + matrix[3, :3])
@@ -312,24 +316,24 @@ def of_usd(path: Path) -> Read:
         if (mesh.GetOrientationAttr().Get() == geom.Tokens.leftHanded) != (np.linalg.det(matrix[:3, :3]) < 0):
             begin = np.repeat(2 * (np.cumsum(counts) - counts) + counts - 1, counts)
             rows = rows[begin - np.arange(len(rows))]
-        kept = ~np.isin(np.arange(len(counts)), mesh.GetHoleIndicesAttr().Get(code) or [])
-        sizes.append(counts[kept])
-        corners.append(rows[np.repeat(kept, counts)] + many)
+        is_kept = ~np.isin(np.arange(len(counts)), mesh.GetHoleIndicesAttr().Get(code) or [])
+        sizes.append(counts[is_kept])
+        corners.append(rows[np.repeat(is_kept, counts)] + many)
         many += len(points[-1])
-        sets = geom.Subset.GetAllGeomSubsets(seen)
+        sets = geom.Subset.GetAllGeomSubsets(imageable)
         for bound in (shade.MaterialBindingAPI(p).ComputeBoundMaterial()[0] for p in map(prim_of, sets or [mesh])):
             surface = bound.ComputeSurfaceSource()[0] if bound else None
             if surface and surface.GetIdAttr().Get() == "UsdPreviewSurface":
                 looks.add((*_inputs_of_usd(surface), bool(mesh.GetDoubleSidedAttr().Get())))
-    found = of_polygons(np.concatenate(points), np.concatenate(sizes).tolist(), np.concatenate(corners))
-    return replace(found, looks=[*looks])
+    polygons = of_polygons(np.concatenate(points), np.concatenate(sizes).tolist(), np.concatenate(corners))
+    return replace(polygons, looks=[*looks])
 
 
 def _inputs_of_usd(surface: Any) -> Iterator[float]:
     """The color, 1 if that is an image, metal and roughness of a surface; NaN where these are images."""
     for name, usual in (("diffuseColor", [0.18] * 3), ("metallic", [0.0]), ("roughness", [0.5])):
-        given = surface.GetInput(name)
-        sources = given.GetValueProducingAttributes() if given else []
+        shader_input = surface.GetInput(name)
+        sources = shader_input.GetValueProducingAttributes() if shader_input else []
         painted = bool(sources) and sources[0].GetPrim() != surface.GetPrim() and "rgb" in sources[0].GetName()
         value = sources[0].Get() if sources else usual
         yield from [np.nan] * len(usual) if value is None else np.reshape(value, -1).tolist()
@@ -396,8 +400,8 @@ def compared(path: Path, readers: Sequence[str], apart: Apart) -> Iterator[tuple
         if (read := apart.read(name, path)) and len(read.triangles):
             theirs[name] = read
     try:
-        given = bsm.read_mesh(path)
-        ours, notes, most = *coded(given.mesh), EXACT
+        file = bsm.read_mesh(path)
+        ours, notes, most = *coded(file.mesh), EXACT
     except bsm.BsmError as error:
         over = isinstance(error, bsm.LimitError) or "default limits would refuse" in str(error)
         for name in theirs or ["nobody"]:
@@ -405,20 +409,20 @@ def compared(path: Path, readers: Sequence[str], apart: Apart) -> Iterator[tuple
         return
     if notes and notes[0] == "grid14":
         most = ON_GRID
-    said = " | ".join((*given.notes, *notes)).lower()
-    found = {name: dict(differences(name, ours, read, most, said)) for name, read in theirs.items()}
-    right = any(name in EVEN and not {*found[name]}.intersection(SHAPE) for name in found)
-    for name, wrong in found.items():
-        other = right and not {*wrong}.isdisjoint(SHAPE)  # its triangles, and so its values, are others
+    words = " | ".join((*file.notes, *notes)).lower()
+    differences_by_name = {name: dict(differences(name, ours, read, most, words)) for name, read in theirs.items()}
+    right = any(name in EVEN and not {*differences_by_name[name]}.intersection(SHAPE) for name in differences_by_name)
+    for name, wrong in differences_by_name.items():
+        is_settled = right and not {*wrong}.isdisjoint(SHAPE)  # its triangles, and so its values, are others
         for what, difference in wrong.items():
-            result = "noted" if _WORDS.get(what, what) in said else "differs"
-            settled = other and what not in ("materials", "groups")
+            result = "noted" if _WORDS.get(what, what) in words else "differs"
+            settled = is_settled and what not in ("materials", "groups")
             yield name, "settled" if settled else result, f"{what} {difference}"
         if not wrong:
             yield name, "same", ""
 
 
-def differences(name: str, ours: Read, read: Read, most: float, said: str) -> Iterator[tuple[str, str]]:
+def differences(name: str, ours: Read, read: Read, most: float, words: str) -> Iterator[tuple[str, str]]:
     """In what ours differs from another reader's, and how."""
     moments, most = ours.moments(), most + min(read.uneven, UNEVEN)
     has_shape = name != "pycollada"  # which is asked for colors only
@@ -434,7 +438,7 @@ def differences(name: str, ours: Read, read: Read, most: float, said: str) -> It
         if not any(np.nanmax(np.abs(np.subtract(look, mine))) < OF_LOOKS for mine in ours.looks):
             yield "looks", f"lost: {np.round(look, 3).tolist()}"
     fans = read.normals is not None or not has_shape  # corners in line have no area in one cut, and one in another
-    if (mine_too := ours.count()) != (count := read.count()) and "without area" not in said and not fans:
+    if (mine_too := ours.count()) != (count := read.count()) and "without area" not in words and not fans:
         yield "triangles", f"{mine_too}, by {name} {count}"
 
 
@@ -490,13 +494,13 @@ WEB = Path(__file__).parents[2] / "web"
 def errors_of(paths: Sequence[Path]) -> list[list[str]]:
     """The errors that the Khronos validator finds in glTF files; it must be installed (`npm ci` in web/)."""
     command = ["node", "--input-type=module", "-e", VALIDATOR, *map(str, paths)]
-    found = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=True, timeout=600).stdout
-    return [json.loads(line) for line in found.splitlines()]
+    output = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=True, timeout=600).stdout
+    return [json.loads(line) for line in output.splitlines()]
 
 
 def rewritten(paths: Sequence[Path], folder: Path) -> Iterator[tuple[Path, str, Counter[str]]]:
     """Each scene after `bsm glb` and after `bsm decode` of that, "refused" or "read", and the errors that are new."""
-    made: list[tuple[Path, Path]] = []
+    rewritten_files: list[tuple[Path, Path]] = []
     for number, path in enumerate(paths):
         for kind, preset in {"grid14": "grid14", "lossless": "lossless"}.items():
             small, plain = (folder / f"{number}.{kind}.{end}.glb" for end in ("small", "plain"))
@@ -507,18 +511,20 @@ def rewritten(paths: Sequence[Path], folder: Path) -> Iterator[tuple[Path, str, 
             except bsm.BsmError as error:
                 yield path, f"refused: {error}", Counter()
                 break
-            made += [(path, small), (path, plain)]
+            rewritten_files += [(path, small), (path, plain)]
     before = dict(zip(paths, errors_of(paths), strict=True))
-    for (path, output), errors in zip(made, errors_of([output for _, output in made]), strict=True):
+    for (path, output), errors in zip(
+        rewritten_files, errors_of([output for _, output in rewritten_files]), strict=True
+    ):
         yield path, output.name.partition(".")[2], Counter(errors) - Counter(before[path])
 
 
 def scenes_in(folders: Sequence[Path]) -> int:
     """Print how scenes in folders fare; return how many errors are new."""
-    known = {digest for source in json.loads(LIST.read_text())["scenes"] for digest in source["files"].values()}
+    digests = {digest for source in json.loads(LIST.read_text())["scenes"] for digest in source["files"].values()}
     paths = [path for folder in folders for path in sorted(folder.rglob("*")) if path.suffix in (".glb", ".gltf")]
     paths = [path for path in paths if path.stat().st_size <= LARGEST]
-    listed_ones = sum(hashlib.sha256(path.read_bytes()).hexdigest() in known for path in paths)
+    listed_ones = sum(hashlib.sha256(path.read_bytes()).hexdigest() in digests for path in paths)
     refused, outputs, added = 0, 0, 0
     with tempfile.TemporaryDirectory() as folder:
         for path, what, errors in rewritten(paths, Path(folder)):
@@ -559,10 +565,10 @@ def main() -> NoReturn:
     written = tempfile.TemporaryDirectory()
     acts = Acts(Path(written.name))
 
-    def wrong(found: Iterator[tuple[str, str]]) -> int:
-        said = [text for text in (f"{n}: {d}" for n, d in found) if not any(key in text for key in explained)]
-        print("\n".join(said), end="\n" * bool(said), flush=True)
-        return len(said)
+    def wrong(differing: Iterator[tuple[str, str]]) -> int:
+        texts = [text for text in (f"{n}: {d}" for n, d in differing) if not any(key in text for key in explained)]
+        print("\n".join(texts), end="\n" * bool(texts), flush=True)
+        return len(texts)
 
     begun = time.monotonic()
     for number, (name, path) in enumerate(files):
@@ -574,8 +580,8 @@ def main() -> NoReturn:
         except bsm.BsmError:
             counts["refused"] += 1
         for reader, result, difference in compared(path, args.readers, apart):
-            said = f"{reader} {name}: {difference}"
-            why = next((why for key, why in explained.items() if fnmatch.fnmatchcase(said, f"*{key}*")), "")
+            texts = f"{reader} {name}: {difference}"
+            why = next((why for key, why in explained.items() if fnmatch.fnmatchcase(texts, f"*{key}*")), "")
             result = "explained" if result == "differs" and why else result
             counts[result] += 1
             if result == "differs":

@@ -110,10 +110,10 @@ def moving(random: Random, mesh: TriangleMesh, frames: int) -> Any:
         lambda: positions * (1.0 + times),
         lambda: positions + 0.01 * size * random.normal(size=(frames, *positions.shape)),
     ]
-    found = motions[random.integers(5)]()
+    frames_of_motion = motions[random.integers(5)]()
     if random.integers(5) == 0:
-        found[frames // 2] = found[frames // 2].mean(axis=0)
-    return found
+        frames_of_motion[frames // 2] = frames_of_motion[frames // 2].mean(axis=0)
+    return frames_of_motion
 
 
 def of_mesh(mesh: TriangleMesh | Path, options: Words, folder: Path, suffix: str = "npz") -> list[str] | None:
@@ -126,46 +126,52 @@ def of_mesh(mesh: TriangleMesh | Path, options: Words, folder: Path, suffix: str
         return None
     facts, line = encoded
     surfaces = facts["error_of"] == "surfaces"
-    seen, code = _compared(path, stream, *(["--surface"] if surfaces else []))
-    if seen is None:
+    comparison, code = _compared(path, stream, *(["--surface"] if surfaces else []))
+    if comparison is None:
         return [f"compare ends with {code}"]
-    looks = seen.get("look", {})
-    asked = [name for name, word in (("colors", "color"), ("checker", "texcoord")) if f"{word}=" in " ".join(options)]
-    shown = [
-        looks.get(name) for name in ("distance", "colors", "checker") if name not in asked and "*=exact" not in options
+    looks = comparison.get("look", {})
+    requested = [
+        name for name, word in (("colors", "color"), ("checker", "texcoord")) if f"{word}=" in " ".join(options)
     ]
-    look = max([float(value) for value in shown if value is not None] or [looks.get("distance", 0.0)])
+    distances = [
+        looks.get(name)
+        for name in ("distance", "colors", "checker")
+        if name not in requested and "*=exact" not in options
+    ]
+    look = max([float(value) for value in distances if value is not None] or [looks.get("distance", 0.0)])
     unit = facts.get("unit")
     nothing = (facts["nmsve_db"] or -math.inf) < NOTHING_DB
     figures = [] if surfaces else [name for name in _FIGURES if not (nothing and name.startswith("nmsve"))]
-    found = [_unlike(name, facts[name], seen.get(name)) for name in figures]
-    found += [_unlike("max_error", facts["max_error"], seen["max_error"])] if unit and not surfaces else []
+    problems = [_unlike(name, facts[name], comparison.get(name)) for name in figures]
+    problems += [_unlike("max_error", facts["max_error"], comparison["max_error"])] if unit and not surfaces else []
     if surfaces:
-        off, most = float(seen["hausdorff_relative"]), float(facts["max_error_relative"])
-        found += [f"surfaces are {off:.4g} apart, not {most:.4g}"] if abs(off - most) > 1e-3 * most + 1e-9 else []
+        off, most = float(comparison["hausdorff_relative"]), float(facts["max_error_relative"])
+        problems += [f"surfaces are {off:.4g} apart, not {most:.4g}"] if abs(off - most) > 1e-3 * most + 1e-9 else []
     if facts["look"] is not None:
-        found += [_unlike("look", facts["look"], look, 1e-3, 1e-3)]  # where faces cover each other, their order counts
+        problems += [
+            _unlike("look", facts["look"], look, 1e-3, 1e-3)
+        ]  # where faces cover each other, their order counts
     size = stream.stat().st_size
     counts = {"output_bytes": size, "bytes": size, "bpv_total": 8 * size / facts["vertices"]}
-    found += [_unlike(name, facts[name], value) for name, value in counts.items()]
+    problems += [_unlike(name, facts[name], value) for name, value in counts.items()]
     for pattern, value in {
         r"(\S+) bits per vertex": facts["bpv_total"],
         r"-> (\d+) bytes": size,
         r"look (\S+) of": look if facts["look"] is not None else None,
-        r"largest vertex error (?:\S+ mm \()?(\S+) %": None if surfaces else 100 * seen["max_error_relative"],
-        r"mean normal error (\S+) degrees": None if surfaces else seen["angle_deg"],
+        r"largest vertex error (?:\S+ mm \()?(\S+) %": None if surfaces else 100 * comparison["max_error_relative"],
+        r"mean normal error (\S+) degrees": None if surfaces else comparison["angle_deg"],
     }.items():
         match = re.search(pattern, line)
         if match and value is not None:
-            found.append(_unlike(f"line, {pattern}", float(match[1]), float(value), 6e-3, 6e-3))
+            problems.append(_unlike(f"line, {pattern}", float(match[1]), float(value), 6e-3, 6e-3))
         elif bool(match) != (value is not None) and "look" not in pattern:
-            found.append(f"line, {pattern}: {line}")
+            problems.append(f"line, {pattern}: {line}")
     promised = (
         None if {"normal=5bits", "normal=none", "*=none"} & {*options} else re.search(r"look \S+ of ([^\s,]+)", line)
     )
     if promised and look > float(promised[1]) * (1.0 + 1e-6):
-        found.append(f"look {look:.4g} of {promised[1]}")
-    return [problem for problem in found if problem]
+        problems.append(f"look {look:.4g} of {promised[1]}")
+    return [problem for problem in problems if problem]
 
 
 def of_frames(frames: Any, faces: Any, options: Words, folder: Path) -> list[str] | None:
@@ -181,54 +187,58 @@ def of_frames(frames: Any, faces: Any, options: Words, folder: Path) -> list[str
     if encoded is None:
         return None
     facts, line = encoded
-    seen, code = _compared(path, stream)
-    if seen is None:
+    comparison, code = _compared(path, stream)
+    if comparison is None:
         return [f"compare ends with {code}"]
-    found = [_unlike(name, facts[name], seen.get(name)) for name in ("kg", "bpvf_total")]
-    found += [_unlike("frames", facts["frames"], len(seen["frames"]))]
-    found += [_unlike("bytes", facts[name], stream.stat().st_size) for name in ("bytes", "output_bytes")]
-    found += [_unlike("line, kg", float(m[1]), seen["kg"], 6e-3) for m in [re.search(r"KG error (\S+) %", line)] if m]
+    problems = [_unlike(name, facts[name], comparison.get(name)) for name in ("kg", "bpvf_total")]
+    problems += [_unlike("frames", facts["frames"], len(comparison["frames"]))]
+    problems += [_unlike("bytes", facts[name], stream.stat().st_size) for name in ("bytes", "output_bytes")]
+    problems += [
+        _unlike("line, kg", float(m[1]), comparison["kg"], 6e-3) for m in [re.search(r"KG error (\S+) %", line)] if m
+    ]
     for name, word in (("kg", "--kg"), ("theta_deg", "--theta"), ("nmsve_db", "--nmsve-db=-50")):
         if word in options:
             target = -50.0 if "=" in word else float(options[options.index(word) + 1])
-            value = -math.inf if seen[name] is None else float(seen[name])
-            found += [f"{name} is {value:.6g}, and the target {target:g}"] if value > target + 1e-6 else []
+            value = -math.inf if comparison[name] is None else float(comparison[name])
+            problems += [f"{name} is {value:.6g}, and the target {target:g}"] if value > target + 1e-6 else []
     if match := re.search(r"look (\S+) of (\S+) in the worst frame drawn", line):
-        worst = seen.get("look_worst", 0.0)
-        found += [f"look {match[1]} of the drawn frames, {worst:.4g} of all"] if float(match[1]) > worst + 6e-3 else []
-        found += [f"look {worst:.4g} of {match[2]}"] if worst > float(match[2].rstrip(",")) * (1.0 + 1e-5) else []
-    return [problem for problem in found if problem]
+        worst = comparison.get("look_worst", 0.0)
+        problems += (
+            [f"look {match[1]} of the drawn frames, {worst:.4g} of all"] if float(match[1]) > worst + 6e-3 else []
+        )
+        problems += [f"look {worst:.4g} of {match[2]}"] if worst > float(match[2].rstrip(",")) * (1.0 + 1e-5) else []
+    return [problem for problem in problems if problem]
 
 
 def _encoded(path: Path, stream: Path, options: Words) -> tuple[dict[str, Any], str] | None:
     """The JSON and the line of `bsm encode`; None: it refuses the mesh or the promise."""
-    done = BSM("encode", path, "-o", stream, "-f", "--json", *options, text=True)
-    if done.returncode:
-        if done.returncode == 1 or "usage:" in done.stderr:
-            raise AssertionError(f"{options}: {done.stderr}")
+    process = BSM("encode", path, "-o", stream, "-f", "--json", *options, text=True)
+    if process.returncode:
+        if process.returncode == 1 or "usage:" in process.stderr:
+            raise AssertionError(f"{options}: {process.stderr}")
         return None
-    facts: dict[str, Any] = json.loads(done.stdout)
-    said = map(json.loads, reversed(done.stderr.splitlines()))  # progress, too, where the machine is slow
-    return facts, next(line["note"] for line in said if "note" in line)
+    facts: dict[str, Any] = json.loads(process.stdout)
+    events = map(json.loads, reversed(process.stderr.splitlines()))  # progress, too, where the machine is slow
+    return facts, next(line["note"] for line in events if "note" in line)
 
 
 def _compared(path: Path, stream: Path, *words: str) -> tuple[dict[str, Any] | None, str]:
     """The JSON of `bsm compare`, with looks if there is something to see, or its complaint."""
-    done = BSM("compare", path, stream, "--json", "--look", *words, text=True)
-    if done.returncode and "cannot be looked at" in done.stderr:
-        done = BSM("compare", path, stream, "--json", *words, text=True)
-    return (None if done.returncode else json.loads(done.stdout)), done.stderr
+    process = BSM("compare", path, stream, "--json", "--look", *words, text=True)
+    if process.returncode and "cannot be looked at" in process.stderr:
+        process = BSM("compare", path, stream, "--json", *words, text=True)
+    return (None if process.returncode else json.loads(process.stdout)), process.stderr
 
 
 def _unlike(
-    name: str, stated: float | None, found: float | None, relative: float = 1e-4, absolute: float = 1e-9
+    name: str, stated: float | None, measured: float | None, relative: float = 1e-4, absolute: float = 1e-9
 ) -> str:
     """Say how a stated figure differs, if it does."""
     absolute = 1e-5 if name.endswith("_deg") else absolute
-    if stated is None or found is None:
-        return "" if stated is found else f"{name} is {found}, not {stated}"
-    alike = math.isclose(stated, found, rel_tol=relative, abs_tol=absolute)
-    return "" if alike else f"{name} is {found:.6g}, not {stated:.6g}"
+    if stated is None or measured is None:
+        return "" if stated is measured else f"{name} is {measured}, not {stated}"
+    alike = math.isclose(stated, measured, rel_tol=relative, abs_tol=absolute)
+    return "" if alike else f"{name} is {measured:.6g}, not {stated:.6g}"
 
 
 def cases(seed: int, folder: Path, *, frames: bool = False) -> Iterator[str]:
@@ -240,10 +250,10 @@ def cases(seed: int, folder: Path, *, frames: bool = False) -> Iterator[str]:
         if f"{name}=" in " ".join(words) and not any(attribute.name == name for attribute in mesh.attributes):
             mesh = odd(random, ("copies", name))
     if frames:
-        found = of_frames(moving(random, mesh, int(random.integers(1, 9))), mesh.faces, words, folder)
+        problems = of_frames(moving(random, mesh, int(random.integers(1, 9))), mesh.faces, words, folder)
     else:
-        found = of_mesh(mesh, words, folder, "npz" if random.integers(2) else "ply")
-    yield from (f"seed {seed}, {' '.join(words)}: {problem}" for problem in found or ())
+        problems = of_mesh(mesh, words, folder, "npz" if random.integers(2) else "ply")
+    yield from (f"seed {seed}, {' '.join(words)}: {problem}" for problem in problems or ())
 
 
 def main() -> int:
@@ -254,18 +264,20 @@ def main() -> int:
     parser.add_argument("--frames", action="store_true", help="sequences in place of meshes")
     parser.add_argument("--turned", action="store_true", help="cones, globes, tubes and pinched ones, by each preset")
     args = parser.parse_args()
-    done, problems = 0, 0
+    count, problems = 0, 0
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for seed in range(args.seed, args.seed + args.count):
             if args.turned:
                 mesh = turned(np.random.default_rng(seed))
                 each = {words: of_mesh(mesh, words, folder) for words in _OF_PRESETS}
-                done += sum(found is not None for found in each.values())
-                found = [f"seed {seed}, {' '.join(words)}: {p}" for words, some in each.items() for p in some or ()]
+                count += sum(findings is not None for findings in each.values())
+                findings = [
+                    f"seed {seed}, {' '.join(words)}: {p}" for words, texts in each.items() for p in texts or ()
+                ]
             else:
-                found, done = list(cases(seed, folder, frames=args.frames)), done + 1
-            problems += len(found)
-            print("\n".join(found), end="\n" if found else "", flush=True)
-    print(f"{args.count} {'sequences' if args.frames else 'meshes'}, {done} streams, {problems} findings")
+                findings, count = list(cases(seed, folder, frames=args.frames)), count + 1
+            problems += len(findings)
+            print("\n".join(findings), end="\n" if findings else "", flush=True)
+    print(f"{args.count} {'sequences' if args.frames else 'meshes'}, {count} streams, {problems} findings")
     return 1 if problems else 0

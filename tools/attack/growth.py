@@ -25,8 +25,8 @@ def growth(make: Callable[[int], Sample], most: float = MOST_GROWTH, times: int 
     for _ in range(times):
         with tempfile.TemporaryDirectory() as folder:
             works = [partial(reading, partial(make, size), Path(folder), Limits()) for size in (SIZE, 4 * SIZE)]
-            for number, taken in enumerate(taken_by_each(works, seconds=30)):
-                least[number] = min(least[number], float("inf") if taken.escaped else taken.seconds)
+            for number, cost in enumerate(taken_by_each(works, seconds=30)):
+                least[number] = min(least[number], float("inf") if cost.escaped else cost.seconds)
         if least[1] < max(LEAST_SECONDS, most * least[0]):
             return None
     return f"{least[0]:.3f} s at {SIZE} bytes, {least[1]:.3f} s at {4 * SIZE}: {least[1] / least[0]:.1f} times as long"
@@ -38,5 +38,5 @@ def main() -> int:
     parser.add_argument("--most", type=float, default=MOST_GROWTH, help="growth at four times (default: %(default)s)")
     most = parser.parse_args().most
     warm_up()
-    found = {name: growth(lambda size, name=name: grown(size)[name](), most) for name in filter(is_ours, grown(1))}  # type: ignore[misc]
-    return report((f"{name}: {problem}" for name, problem in found.items() if problem), f"{len(found)} files")
+    growths = {name: growth(lambda size, name=name: grown(size)[name](), most) for name in filter(is_ours, grown(1))}  # type: ignore[misc]
+    return report((f"{name}: {problem}" for name, problem in growths.items() if problem), f"{len(growths)} files")

@@ -130,7 +130,7 @@ def _some(random: Random, choices: dict[str, Callable[[], Any]], share: float) -
 
 def _static_options(random: Random) -> EncodeOptions:
     way = random.randrange(8)
-    given: dict[str, Any] = {"block_size": random.choice((12, 30, 30, 60, 100, 750)), "threads": 1}
+    options: dict[str, Any] = {"block_size": random.choice((12, 30, 30, 60, 100, 750)), "threads": 1}
     if way == 0:
         preset = vars(PRESETS[random.choice(sorted({*PRESETS} - {"none"}))])
         return EncodeOptions(**{**preset, "effort": random.choice(("quick", "normal", "normal")), "threads": 1})
@@ -138,14 +138,14 @@ def _static_options(random: Random) -> EncodeOptions:
         keep, effort = random.random() < 0.3, random.choice(("quick", "normal"))
         return EncodeOptions(grid=random.randrange(1, 21), threads=1, keep_order=keep, effort=effort)
     if way == 2:
-        given["target"] = Target(random.choice(TARGETS), random.choice((0.01, 1.0, 8.0, 400.0)))
+        options["target"] = Target(random.choice(TARGETS), random.choice((0.01, 1.0, 8.0, 400.0)))
     elif way == 3:
-        given |= {"bits": random.randrange(2, 17), "partition": "metis"}
+        options |= {"bits": random.randrange(2, 17), "partition": "metis"}
     elif way == 4:
-        given["doi"] = (0.05, 0.2)
+        options["doi"] = (0.05, 0.2)
     else:
-        given["step"] = 2.0 ** -random.randrange(3, 16)
-    return changed(EncodeOptions(), **{**_some(random, _static_choices(random), 0.15), **given})
+        options["step"] = 2.0 ** -random.randrange(3, 16)
+    return changed(EncodeOptions(), **{**_some(random, _static_choices(random), 0.15), **options})
 
 
 def _static_choices(random: Random) -> dict[str, Callable[[], Any]]:
@@ -189,7 +189,7 @@ def _sequence(random: Random) -> bytes:
         places = np.resize(still / (np.abs(still).max() or 1.0), (len(still), width))
         meshes = []
         for t, frame in enumerate(positions):
-            own = Attribute("moving", (60.0 + 50.0 * np.sin(3.0 * places + 0.7 * t)).astype(kind))
-            meshes.append(replace(mesh, positions=frame, attributes=(*mesh.attributes, own)))
+            attribute = Attribute("moving", (60.0 + 50.0 * np.sin(3.0 * places + 0.7 * t)).astype(kind))
+            meshes.append(replace(mesh, positions=frame, attributes=(*mesh.attributes, attribute)))
         return b"".join(SequenceEncoder(mesh.faces, chosen, frames).chunks(meshes))
     return encode_sequence(positions, mesh.faces, chosen, mesh_attributes=mesh.attributes)

@@ -24,41 +24,43 @@ STATUS = {
 }
 
 
-def outcome_of(found: Decoded, stream: bytes) -> Outcome:
+def outcome_of(decoded: Decoded, stream: bytes) -> Outcome:
     """What the library makes of a stream, its errors translated."""
-    if found.status:
-        kind: type[BsmError] = getattr(errors, next(name for name, code in STATUS.items() if code == found.status))
-        return kind(found.message)
-    arrays = of_sequence(found) if is_sequence(stream) else dict(found.arrays)
+    if decoded.status:
+        kind: type[BsmError] = getattr(errors, next(name for name, code in STATUS.items() if code == decoded.status))
+        return kind(decoded.message)
+    arrays = of_sequence(decoded) if is_sequence(stream) else dict(decoded.arrays)
     return arrays.pop("positions", np.zeros((0, 3))), arrays.pop("faces", np.zeros((0, 3), np.int32)), arrays
 
 
-def loss_difference(found: Decoded, stream: bytes) -> str | None:
+def loss_difference(decoded: Decoded, stream: bytes) -> str | None:
     """What a tolerant decoder tells beside what Python's tells: an error, how many losses, other frames."""
     expected, losses = piecewise(stream, Random(0), tolerant=True)
-    outcome = outcome_of(found, stream)
+    outcome = outcome_of(decoded, stream)
     if isinstance(outcome, BsmError) or isinstance(expected, BsmError):
         return Tally().hold(stream, outcome, expected)
-    if found.losses != losses:
-        return f"{found.losses} losses, expected {losses}"
+    if decoded.losses != losses:
+        return f"{decoded.losses} losses, expected {losses}"
     if not is_sequence(stream):
         return None
     if losses:
-        kept = ({name: values for name, values in each[2].items() if name == "runs"} for each in (outcome, expected))
-        outcome, expected = ((*each[:2], some) for each, some in zip((outcome, expected), kept, strict=True))
+        arrays = ({name: values for name, values in each[2].items() if name == "runs"} for each in (outcome, expected))
+        outcome, expected = (
+            (*each[:2], run_arrays) for each, run_arrays in zip((outcome, expected), arrays, strict=True)
+        )
     return Tally().hold(stream, outcome, expected)
 
 
 def compare(library: ctypes.CDLL, count: int, seed: str) -> tuple[Counter[str], list[str]]:
     """Count the outcomes of a number of mutants of a seed, and list failures."""
     random, seeds = Random(seed), vector_seeds()
-    tally, found = Counter[str](), list[str]()
+    tally, findings = Counter[str](), list[str]()
     for number in range(count):
         stream = mutant(random, seeds)
         decoded = decode(library, stream, pieces=random.choice((0, 0, 1 + random.randrange(100))))
         tally[f"status {decoded.status}"] += 1
         if wrong := loss_difference(decode(library, stream, tolerant=True), stream):
-            found.append(f"mutant {number}: tolerantly {wrong}")
+            findings.append(f"mutant {number}: tolerantly {wrong}")
         if wrong := Tally().hold(stream, outcome_of(decoded, stream), whole(stream)):
-            found.append(f"mutant {number}: {wrong}")
-    return tally, found
+            findings.append(f"mutant {number}: {wrong}")
+    return tally, findings

@@ -54,7 +54,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args(argv)
-    encoder, seen, end, seed = library(*SANITIZED), Counter[int](), time.monotonic() + args.seconds, args.seed
+    encoder, counts, end, seed = library(*SANITIZED), Counter[int](), time.monotonic() + args.seconds, args.seed
     while time.monotonic() < end:
         rng = np.random.default_rng(seed)
         mesh = mesh_of(rng)
@@ -64,12 +64,12 @@ def main(argv: list[str] | None = None) -> int:
         options = {"cell": 10.0 ** float(rng.integers(-3, 1))} if positions == CELLS else {}
         if positions == 0:
             options = {"bits": int(rng.integers(0, 21)), "quick": int(rng.integers(2))}
-        found = encode(encoder, mesh, qualities, positions=positions, keep_order=keep, **options)
-        seen[found.status] += 1
-        asked = bool(qualities) or positions == CELLS  # what a mesh may not be able to keep
-        if found.status not in (0, UNREACHABLE if positions or qualities else 0, MISUSED if asked else 0):
-            print(f"seed {seed}: status {found.status}: {found.message}")
+        result = encode(encoder, mesh, qualities, positions=positions, keep_order=keep, **options)
+        counts[result.status] += 1
+        has_requests = bool(qualities) or positions == CELLS  # what a mesh may not be able to keep
+        if result.status not in (0, UNREACHABLE if positions or qualities else 0, MISUSED if has_requests else 0):
+            print(f"seed {seed}: status {result.status}: {result.message}")
             return 1
         seed += 1
-    print(f"{sum(seen.values())} meshes from seed {args.seed} on, without a finding: {dict(seen)}")
+    print(f"{sum(counts.values())} meshes from seed {args.seed} on, without a finding: {dict(counts)}")
     return 0

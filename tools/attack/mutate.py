@@ -72,8 +72,8 @@ def _change_coded(frames: Frames, random: Random, mutate: Mutate) -> None:
     if coded:
         place = random.choice(coded)
         kind, payload = frames[place]
-        kept = _KEPT.get(FrameType(kind), 1) if kind in _KINDS else 1
-        frames[place] = (kind, payload[:kept] + mutate(payload[kept:], len(payload) + 64))
+        head = _KEPT.get(FrameType(kind), 1) if kind in _KINDS else 1
+        frames[place] = (kind, payload[:head] + mutate(payload[head:], len(payload) + 64))
 
 
 def _change_header(frames: Frames, random: Random, mutate: Mutate) -> None:
@@ -136,8 +136,8 @@ def _value(declared: Field, old: object, random: Random) -> object:
     part = replace(declared, type=declared.item)
     if isinstance(old, list) and old and random.random() < 0.7:
         place, step = random.randrange(len(old)), random.choice((1, 1, 2))
-        other = [_value(part, item, random) for item in old[place : place + step]]
-        return [*old[:place], *random.choice((other, other, [], 2 * other)), *old[place + step :]]
+        replacement = [_value(part, item, random) for item in old[place : place + step]]
+        return [*old[:place], *random.choice((replacement, replacement, [], 2 * replacement)), *old[place + step :]]
     return [_value(part, None, random) for _ in range(random.choice((declared.lengths[0], 1, 2, 3)))]
 
 
@@ -166,11 +166,11 @@ def _recut(frames: Frames, random: Random, mutate: Mutate) -> None:
         frames[place] = (FrameType.CONNECTIVITY, data[:cut])
         frames.insert(behind, (FrameType.CONNECTIVITY, data[cut:]))
         return
-    other = places[which + 1]
-    whole, cut = data + frames[other][1][1:], len(data) + random.choice((-4, -1, 1, 1, 3, 4, 5, 9))
-    cut = min(max(cut, 0), len(whole))
-    frames[place] = (FrameType.CONNECTIVITY, whole[:cut])
-    frames[other] = (FrameType.CONNECTIVITY, whole[cut:])
+    next_place = places[which + 1]
+    joined, cut = data + frames[next_place][1][1:], len(data) + random.choice((-4, -1, 1, 1, 3, 4, 5, 9))
+    cut = min(max(cut, 0), len(joined))
+    frames[place] = (FrameType.CONNECTIVITY, joined[:cut])
+    frames[next_place] = (FrameType.CONNECTIVITY, joined[cut:])
 
 
 def _move(frames: Frames, random: Random, mutate: Mutate) -> None:
@@ -182,8 +182,8 @@ def _move(frames: Frames, random: Random, mutate: Mutate) -> None:
     elif choice == 1:
         frames.insert(random.randrange(len(frames) + 1), frames[place])
     elif choice == 2:
-        other = random.randrange(len(frames))
-        frames[place], frames[other] = frames[other], frames[place]
+        other_place = random.randrange(len(frames))
+        frames[place], frames[other_place] = frames[other_place], frames[place]
     elif choice == 3:
         frames.insert(place, (random.randrange(16), mutate(b"", 32)))
     else:

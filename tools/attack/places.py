@@ -46,8 +46,8 @@ def processors(short: bool = False) -> tuple[Place, ...]:
     """
     needs = {1: set(), 2: {"sse4_2", "ssse3"}, 3: {"avx2", "fma", "bmi2"}, 4: {"avx512f", "avx512vl", "avx512dq"}}
     names = {1: "Prescott", 2: "Nehalem", 3: "Haswell", 4: "SkylakeX"}
-    found = [_processor(level, names[level]) for level, needed in needs.items() if needed <= _flags()]
-    return tuple(found[:1] if short else found)
+    places = [_processor(level, names[level]) for level, needed in needs.items() if needed <= _flags()]
+    return tuple(places[:1] if short else places)
 
 
 def _processor(level: int, blas: str) -> Place:
@@ -114,19 +114,21 @@ def environments() -> tuple[Place, ...]:
         {"LD_BIND_NOW": "1"},
         {"PYTHONWARNINGS": "error"},
     )
-    named = [Place(" ".join(f"{key}={value}" for key, value in some.items()), variables=some) for some in variables]
-    named += [
+    places = [
+        Place(" ".join(f"{key}={value}" for key, value in values.items()), variables=values) for values in variables
+    ]
+    places += [
         Place(f"python {' '.join(flags)}", flags=flags) for flags in (("-O",), ("-OO",), ("-B", "-s"), ("-X", "dev"))
     ]
     limits = ("ulimit -n 24", "ulimit -s 512", "ulimit -c 0; umask 777", "ulimit -f 4096", "exec 0<&-", "exec 2>&-")
-    named += [Place(limit, wrapper=("bash", "-c", f'{limit}; exec "$@"', "bash")) for limit in limits]
+    places += [Place(limit, wrapper=("bash", "-c", f'{limit}; exec "$@"', "bash")) for limit in limits]
     if shutil.which("taskset"):
-        named.append(Place("one core", wrapper=("taskset", "-c", "0")))
+        places.append(Place("one core", wrapper=("taskset", "-c", "0")))
     if shutil.which("setsid"):
-        named.append(Place("no terminal", wrapper=("setsid", "-w")))
+        places.append(Place("no terminal", wrapper=("setsid", "-w")))
     if shutil.which("gcc"):
-        named.append(Place("a library that flushes small numbers to zero", variables={"LD_PRELOAD": str(_flushing())}))
-    return tuple(named)
+        places.append(Place("a library that flushes small numbers to zero", variables={"LD_PRELOAD": str(_flushing())}))
+    return tuple(places)
 
 
 @cache

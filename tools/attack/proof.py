@@ -74,11 +74,11 @@ def main() -> int:
     tallies: dict[str, Tally] = {part.suite: Tally() for part in parts}
     with ThreadPoolExecutor(args.jobs) as pool:
         waiting = {pool.submit(run, part, args, findings): part for part in parts}
-        for done in as_completed(waiting):
-            tally = done.result()
-            tallies[waiting[done].suite].add(tally)
+        for future in as_completed(waiting):
+            tally = future.result()
+            tallies[waiting[future].suite].add(tally)
             for finding in tally.findings:
-                print(f"FOUND in {waiting[done].name}: {finding}", flush=True)
+                print(f"FOUND in {waiting[future].name}: {finding}", flush=True)
     print("\n".join(table(tallies)))
     print(f"{time.monotonic() - begin:.0f} s, seed {args.seed}")
     return 1 if any(tally.findings or tally.escapes for tally in tallies.values()) else 0
@@ -109,12 +109,12 @@ def run(part: Part, args: argparse.Namespace, findings: Path) -> Tally:
         *("--findings", str(findings)),
     ]
     try:
-        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=SHARD_SECONDS)
-        if done.returncode == 0:
-            return Tally(**json.loads(done.stdout.splitlines()[-1]))
+        process = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=SHARD_SECONDS)
+        if process.returncode == 0:
+            return Tally(**json.loads(process.stdout.splitlines()[-1]))
         careful = [*command[:-1], str(findings / part.name), "--careful"]
         subprocess.run(careful, cwd=ROOT, capture_output=True, check=False, timeout=SHARD_SECONDS)
-        problem = f"code {done.returncode}, the input is in {findings / part.name}: {done.stderr[-2000:]}"
+        problem = f"code {process.returncode}, the input is in {findings / part.name}: {process.stderr[-2000:]}"
     except subprocess.TimeoutExpired:
         problem = f"did not end within {SHARD_SECONDS} s"
     return Tally(escapes=1, findings=[problem])

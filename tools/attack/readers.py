@@ -180,7 +180,7 @@ def samples() -> dict[str, Sample]:
     mesh, plain = _mesh(), written_mesh(torus(3, 3), "obj").data
     beside = (("a.obj", plain),)
     painted = ply_head(more="property uchar red\nproperty uchar green\nproperty uchar blue\n")
-    found = {
+    samples_by_name = {
         **{kind: Sample(kind, written_mesh(mesh, kind).data) for kind in (*MESH_FORMATS, "glb")},
         "ply of text": Sample("ply", (painted + "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n3 0 1 2\n").encode()),
         "ply of polygons": Sample("ply", _ragged_ply()),
@@ -195,7 +195,7 @@ def samples() -> dict[str, Sample]:
         "series": Sample("series", _SERIES, (*beside, ("b.obj", plain))),
     }
     usd = {"usda": Sample("usda", _USDA)} if importlib.util.find_spec("pxr") else {}
-    return {**found, "msh": Sample("msh", _MSH), **usd}
+    return {**samples_by_name, "msh": Sample("msh", _MSH), **usd}
 
 
 # -------------------------------------------------------------------------------------------------------- every number
@@ -211,13 +211,13 @@ def numbers() -> Iterator[Case]:
         if b"\0" not in sample.data and sample.suffix != "obj.gz":
             for match in _NUMBER.finditer(sample.data):
                 for word in HUGE_WORDS:
-                    made = partial(_with_word, sample, match.start(), match.end(), word)
-                    yield Case(f"{kind}, number at {match.start()} is {word[:20].decode()}", made)
+                    make = partial(_with_word, sample, match.start(), match.end(), word)
+                    yield Case(f"{kind}, number at {match.start()} is {word[:20].decode()}", make)
             continue
         for offset in range(len(sample.data)):
             for word in HUGE_BYTES:
-                made = partial(_with_word, sample, offset, offset + len(word), word)
-                yield Case(f"{kind}, {word.hex()} at {offset}", made)
+                make = partial(_with_word, sample, offset, offset + len(word), word)
+                yield Case(f"{kind}, {word.hex()} at {offset}", make)
         if sample.suffix == "glb":
             yield from _numbers_of_tree(kind, sample)
 
@@ -230,8 +230,8 @@ def _numbers_of_tree(kind: str, sample: Sample) -> Iterator[Case]:
         for word in (b"2147483647", b"20000000", b"9" * 18, b"-1", b"1e300", b'"a"', b"[]"):
             changed = text[: match.start()] + word + text[match.end() :]
             before = text[max(0, match.start() - 20) : match.start()].decode()
-            made = partial(_remade, changed, binary)
-            yield Case(f"{kind}, {before}{word.decode()} at {match.start()}", made)
+            make = partial(_remade, changed, binary)
+            yield Case(f"{kind}, {before}{word.decode()} at {match.start()}", make)
 
 
 def _remade(text: bytes, binary: bytes) -> Sample:
@@ -255,7 +255,7 @@ def _numbered(suffix: str, head: bytes, line: str, size: int, tail: bytes = b"")
 
 def grown(size: int) -> dict[str, Callable[[], Sample]]:
     """Return valid files, or nearly so, of about `size` bytes, each large in one place."""
-    found: dict[str, Callable[[], Sample]] = {}
+    makers: dict[str, Callable[[], Sample]] = {}
     triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 0\n"
     for what, line in {
         "points": b"v 0 0 0\n",
@@ -269,7 +269,7 @@ def grown(size: int) -> dict[str, Callable[[], Sample]]:
         "continued": b"\\\n",
         "others": b"q\n",
     }.items():
-        found[f"obj, {what}"] = partial(_text, "obj", triangle, line, size, b"f 1 2 3\n")
+        makers[f"obj, {what}"] = partial(_text, "obj", triangle, line, size, b"f 1 2 3\n")
     for what, numbered in {
         "materials": "usemtl {0}\nf 1 2 3\n",
         "groups": "g {0}\nf 1 2 3\n",
@@ -277,30 +277,30 @@ def grown(size: int) -> dict[str, Callable[[], Sample]]:
         "libraries": "mtllib {0}\n",
         "remarks": "# meta a{0}: 1\n",
     }.items():
-        found[f"obj, {what}"] = partial(_numbered, "obj", triangle, numbered, size, b"f 1 2 3\n")
-    found["obj, corners of one face"] = partial(_text, "obj", triangle + b"f", b" 1", size, b"\n")
-    found["obj, numbers of corners"] = partial(_text, "obj", triangle + b"vt 0\nvn 0 0 1\nf", b" 1/1/1", size, b"\n")
-    found["obj, slashes"] = partial(_text, "obj", triangle + b"f 1", b"/", size, b"\n")
-    found["obj, numbers of a point"] = partial(_text, "obj", b"v", b" 0", size, b"\nf 1 1 1\n")
-    found["obj, one number"] = partial(_text, "obj", b"v 0 0 ", b"1", size, b"\nf 1 1 1\n")
+        makers[f"obj, {what}"] = partial(_numbered, "obj", triangle, numbered, size, b"f 1 2 3\n")
+    makers["obj, corners of one face"] = partial(_text, "obj", triangle + b"f", b" 1", size, b"\n")
+    makers["obj, numbers of corners"] = partial(_text, "obj", triangle + b"vt 0\nvn 0 0 1\nf", b" 1/1/1", size, b"\n")
+    makers["obj, slashes"] = partial(_text, "obj", triangle + b"f 1", b"/", size, b"\n")
+    makers["obj, numbers of a point"] = partial(_text, "obj", b"v", b" 0", size, b"\nf 1 1 1\n")
+    makers["obj, one number"] = partial(_text, "obj", b"v 0 0 ", b"1", size, b"\nf 1 1 1\n")
     count = size // 6
-    found["off, points"] = partial(_text, "off", f"OFF {count} 1\n".encode(), b"0 0 0\n", 6 * count, b"3 0 1 2\n")
-    found["off, faces"] = partial(_text, "off", f"OFF 1 {size // 8}\n0 0 0\n".encode(), b"3 0 0 0\n", size)
-    found["off, empty faces"] = partial(_text, "off", f"OFF 1 {size // 2}\n0 0 0\n".encode(), b"0\n", size)
-    found["off, one face"] = partial(_text, "off", f"OFF 1 1\n0 0 0\n{size // 2}".encode(), b" 0", size, b"\n")
-    found["off, comments"] = partial(_text, "off", b"", b"# meta a: 1\n", size, b"OFF 1 1\n0 0 0\n3 0 0 0\n")
-    found["off, keywords"] = partial(_text, "off", b"", b"ST", size, b"OFF 1 1\n0 0 0\n3 0 0 0\n")
-    found["off, spaces"] = partial(_text, "off", b"OFF", b"\n", size, b"x")
-    found["stl, triangles"] = lambda: Sample(
+    makers["off, points"] = partial(_text, "off", f"OFF {count} 1\n".encode(), b"0 0 0\n", 6 * count, b"3 0 1 2\n")
+    makers["off, faces"] = partial(_text, "off", f"OFF 1 {size // 8}\n0 0 0\n".encode(), b"3 0 0 0\n", size)
+    makers["off, empty faces"] = partial(_text, "off", f"OFF 1 {size // 2}\n0 0 0\n".encode(), b"0\n", size)
+    makers["off, one face"] = partial(_text, "off", f"OFF 1 1\n0 0 0\n{size // 2}".encode(), b" 0", size, b"\n")
+    makers["off, comments"] = partial(_text, "off", b"", b"# meta a: 1\n", size, b"OFF 1 1\n0 0 0\n3 0 0 0\n")
+    makers["off, keywords"] = partial(_text, "off", b"", b"ST", size, b"OFF 1 1\n0 0 0\n3 0 0 0\n")
+    makers["off, spaces"] = partial(_text, "off", b"OFF", b"\n", size, b"x")
+    makers["stl, triangles"] = lambda: Sample(
         "stl", bytes(80) + struct.pack("<I", size // 50) + bytes(50 * (size // 50))
     )
-    found["stl of text, lines"] = partial(_text, "stl", b"solid\n", b"vertex 0 0 0\n", size, b"endsolid")
-    found["stl of text, facets"] = partial(_text, "stl", b"solid\n", _FACET, size, b"endsolid")
-    found["stl of text, spaces"] = partial(_text, "stl", b"solid\n", b" ", size, b"endsolid")
-    found |= _grown_ply(size) | _grown_archives(size) | _grown_gltf(size) | _grown_caches(size) | _grown_3mf(size)
+    makers["stl of text, lines"] = partial(_text, "stl", b"solid\n", b"vertex 0 0 0\n", size, b"endsolid")
+    makers["stl of text, facets"] = partial(_text, "stl", b"solid\n", _FACET, size, b"endsolid")
+    makers["stl of text, spaces"] = partial(_text, "stl", b"solid\n", b" ", size, b"endsolid")
+    makers |= _grown_ply(size) | _grown_archives(size) | _grown_gltf(size) | _grown_caches(size) | _grown_3mf(size)
     if "usda" in samples():
-        found |= _grown_usd(size)
-    return found
+        makers |= _grown_usd(size)
+    return makers
 
 
 def _grown_ply(size: int) -> dict[str, Callable[[], Sample]]:
@@ -455,7 +455,7 @@ def three_mf(resources: str, items: str, parts: Mapping[str, str] = MappingProxy
             f"<resources>{resources}</resources><build>{items}</build></model>"
         )
         return re.sub(
-            r'(id|index)="(\d+)"', lambda found: f'{found[1]}="{int(found[2]) + (found[1] == "id")}"', text
+            r'(id|index)="(\d+)"', lambda match: f'{match[1]}="{int(match[2]) + (match[1] == "id")}"', text
         ).encode()
 
     def related(names: list[str]) -> bytes:
@@ -487,14 +487,14 @@ def chained_objects(count: int) -> str:
 
 
 def _grown_3mf(size: int) -> dict[str, Callable[[], Sample]]:
-    def made(resources: str, items: str) -> Sample:
+    def make_sample(resources: str, items: str) -> Sample:
         return Sample("3mf", three_mf(resources, items))
 
     item = '<item objectid="{}"/>'
     return {
-        "3mf, some components": lambda: made(chained_objects(10), item.format(10)),
-        "3mf, components": lambda: made(chained_objects(40), item.format(40)),
-        "3mf, a chain": lambda: made(chained_objects(size // 90), item.format(size // 90)),
+        "3mf, some components": lambda: make_sample(chained_objects(10), item.format(10)),
+        "3mf, components": lambda: make_sample(chained_objects(40), item.format(40)),
+        "3mf, a chain": lambda: make_sample(chained_objects(size // 90), item.format(size // 90)),
     }
 
 
@@ -534,8 +534,8 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
             {key: value for key, value in t["accessors"][place].items() if key != "bufferView"} | {"count": count},
         )
 
-    def nodes(t: Tree, found: list[dict[str, Any]]) -> None:
-        t["nodes"], t["scenes"] = found, [{"nodes": list(range(len(found)))}]
+    def nodes(t: Tree, entries: list[dict[str, Any]]) -> None:
+        t["nodes"], t["scenes"] = entries, [{"nodes": list(range(len(entries)))}]
 
     def chained(t: Tree) -> None:
         t["nodes"] = [{"children": [number + 1]} for number in range(size // 40)] + [{"mesh": 0}]
@@ -568,7 +568,7 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
     def empty(t: Tree) -> None:
         nodes(t, [{"mesh": 0}] + [{}] * (size // 8))
 
-    def made(change: Change, until: float | None) -> Sample:
+    def make_sample(change: Change, until: float | None) -> Sample:
         scene = Scene(72)
         if until is not None:
             scene.move(until)
@@ -584,10 +584,14 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
         "targets": targets,
     }
     moving: dict[str, Change] = {"curves of no bytes": channels, "samplers": partial(channels, samplers=True)}
-    found = {f"glb, {name}": partial(made, change, None) for name, change in (both | {"sparse": sparse}).items()}
-    found |= {f"moving glb, {name}": partial(made, change, 1.0) for name, change in (both | moving).items()}
-    found |= {f"long glb, {name}": partial(made, both[name], 30_000.0) for name in ("nodes of nothing", "targets")}
-    return found | {"glb, nested": lambda: Sample("gltf", b'{"asset":{"version":"2.0"},"a":' + b"[" * size)}
+    entries = {
+        f"glb, {name}": partial(make_sample, change, None) for name, change in (both | {"sparse": sparse}).items()
+    }
+    entries |= {f"moving glb, {name}": partial(make_sample, change, 1.0) for name, change in (both | moving).items()}
+    entries |= {
+        f"long glb, {name}": partial(make_sample, both[name], 30_000.0) for name in ("nodes of nothing", "targets")
+    }
+    return entries | {"glb, nested": lambda: Sample("gltf", b'{"asset":{"version":"2.0"},"a":' + b"[" * size)}
 
 
 def _grown_usd(size: int) -> dict[str, Callable[[], Sample]]:
@@ -616,7 +620,7 @@ def _grown_usd(size: int) -> dict[str, Callable[[], Sample]]:
 
 def read_all(path: Path, limits: Limits) -> Taken:
     """Read a file as whatever it is, and say what came of it."""
-    kind, vertices, shown = path.suffix[1:], 0, 0
+    kind, vertices, shown_vertices = path.suffix[1:], 0, 0
     try:
         if kind in SEQUENCES_READ:
             try:
@@ -624,15 +628,15 @@ def read_all(path: Path, limits: Limits) -> Taken:
                 if sequence is not None:
                     for frame in sequence.frames:
                         vertices = len(frame)
-                        shown += vertices
-                    return Taken("read", vertices=vertices, shown=shown)
+                        shown_vertices += vertices
+                    return Taken("read", vertices=vertices, shown=shown_vertices)
             except BsmError:
-                if kind not in ("glb", "gltf") or shown:
+                if kind not in ("glb", "gltf") or shown_vertices:
                     raise
         vertices = len(read_mesh(path, limits=limits).mesh.positions)
         return Taken("read", vertices=vertices)
     except BsmError as error:
-        return Taken(f"{type(error).__name__}: {error}", vertices=vertices, shown=shown)
+        return Taken(f"{type(error).__name__}: {error}", vertices=vertices, shown=shown_vertices)
 
 
 def problems(cases: list[Case], limits: str, most: float = 1.0) -> Iterator[str]:
@@ -656,14 +660,14 @@ def reading(make: Callable[[], Sample], folder: Path, limits: Limits) -> Callabl
     def read() -> Taken:
         ends: list[Any] = []
 
-        def noted(*given: Any) -> Any:
-            ends.append(end_of_child(*given))
+        def noted(*arguments: Any) -> Any:
+            ends.append(end_of_child(*arguments))
             return ends[-1]
 
         with mock.patch("bsm.files.isolation.end_of_child", noted):
-            taken = read_all(path, limits)
+            cost = read_all(path, limits)
         memory, seconds = max((end[1] for end in ends), default=0), sum(end[2] for end in ends)
-        return replace(taken, size=size, memory=memory, seconds=seconds)
+        return replace(cost, size=size, memory=memory, seconds=seconds)
 
     return read
 
@@ -682,9 +686,9 @@ def warm_up() -> None:
     """Load every library and start the server once, so that no case is charged for it."""
     with tempfile.TemporaryDirectory() as folder:
         for sample in samples().values():
-            taken = read_all(written(sample, Path(folder))[0], Limits())
-            if taken.outcome != "read":
-                raise AssertionError(f"the sample {sample.suffix} is not sound: {taken.outcome}")
+            cost = read_all(written(sample, Path(folder))[0], Limits())
+            if cost.outcome != "read":
+                raise AssertionError(f"the sample {sample.suffix} is not sound: {cost.outcome}")
     read_mesh(written_mesh(torus(3, 3), "ply").data, limits=Limits.service())
 
 
@@ -703,5 +707,5 @@ def main() -> int:
     if args.list:
         print("\n".join(case.name for case in cases))
         return 0
-    found = chain.from_iterable(problems(cases, limits) for limits in args.limits)
-    return report(found, f"{len(cases)} files of {len(samples())} kinds, {len(args.limits) * len(cases)} readings")
+    findings = chain.from_iterable(problems(cases, limits) for limits in args.limits)
+    return report(findings, f"{len(cases)} files of {len(samples())} kinds, {len(args.limits) * len(cases)} readings")

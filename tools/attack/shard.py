@@ -113,10 +113,10 @@ def browser(shard: Shard, number: int, size: int) -> None:
     """Mutants by the browser's decoder, in Node: whole, in pieces, or in tolerant mode."""
     seeds = shard.seeds()
     streams = [mutant(shard.random, seeds) for _ in range(size)]
-    given = b"".join(len(stream).to_bytes(4, "little") + stream for stream in streams)
+    data = b"".join(len(stream).to_bytes(4, "little") + stream for stream in streams)
     command = ["node", str(WEB / "scripts" / "mutants.mjs"), json.dumps(limits_there(LIMITS))]
-    done = subprocess.run(command, input=given, capture_output=True, check=True)
-    report = json.loads(done.stdout)
+    process = subprocess.run(command, input=data, capture_output=True, check=True)
+    report = json.loads(process.stdout)
     shard.tally.inputs += size
     shard.tally.decoded += (decoded := report["outcomes"].get("decoded", 0))
     shard.tally.refused += size - decoded
@@ -169,20 +169,22 @@ def _elsewhere(shard: Shard, size: int, places: tuple[Place, ...]) -> None:
         streams = _streams(shard, seed, size, Path(folder))
         for number, place in enumerate(places):
             there = Path(folder) / str(number)
-            done = place.run("tools.attack.encodes", seed, str(size), str(there), "--streams", folder)
-            if done.returncode:
+            process = place.run("tools.attack.encodes", seed, str(size), str(there), "--streams", folder)
+            if process.returncode:
                 shard.tally.escapes += 1
-                shard.tally.findings.append(f"{place.name}, seed {seed}: code {done.returncode}, {done.stderr[-600:]}")
+                shard.tally.findings.append(
+                    f"{place.name}, seed {seed}: code {process.returncode}, {process.stderr[-600:]}"
+                )
                 continue
             for k, stream in streams.items():
-                other = (there / f"{k}.bsm").read_bytes()
-                found = shard.tally.hold(stream, _stored(there / f"{k}"), whole(stream))
-                shard.found(stream, found and f"{place.name}: {found}")
-                if other != stream:
+                other_stream = (there / f"{k}.bsm").read_bytes()
+                difference = shard.tally.hold(stream, _stored(there / f"{k}"), whole(stream))
+                shard.found(stream, difference and f"{place.name}: {difference}")
+                if other_stream != stream:
                     # An encoder may choose otherwise there; what it writes must mean the same everywhere.
                     shard.tally.otherwise += 1
-                    found = shard.tally.hold(other, whole(other), by_release(other))
-                    shard.found(other, found and f"encoded by {place.name}: {found}")
+                    difference = shard.tally.hold(other_stream, whole(other_stream), by_release(other_stream))
+                    shard.found(other_stream, difference and f"encoded by {place.name}: {difference}")
 
 
 def _streams(shard: Shard, seed: str, size: int, folder: Path) -> dict[int, bytes]:

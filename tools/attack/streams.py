@@ -67,10 +67,14 @@ def _wheels(hubs: int, rim: int) -> Faces:
 def _soup(vertices: int, faces: int) -> Faces:
     """Triangles between any vertices: nothing separates a part of them from the rest."""
     random = np.random.default_rng(5)
-    found = random.integers(0, vertices, (faces, 3))
-    found[: vertices // 3, :] = np.arange(vertices // 3 * 3).reshape(-1, 3)
-    proper = (found[:, 0] != found[:, 1]) & (found[:, 1] != found[:, 2]) & (found[:, 2] != found[:, 0])
-    return np.asarray(found[proper], np.int32)
+    triangles = random.integers(0, vertices, (faces, 3))
+    triangles[: vertices // 3, :] = np.arange(vertices // 3 * 3).reshape(-1, 3)
+    proper = (
+        (triangles[:, 0] != triangles[:, 1])
+        & (triangles[:, 1] != triangles[:, 2])
+        & (triangles[:, 2] != triangles[:, 0])
+    )
+    return np.asarray(triangles[proper], np.int32)
 
 
 def _repeated(times: int) -> Faces:
@@ -119,12 +123,16 @@ PACKED = {"bits": 1, "springs": 0}
 
 
 def _blocky(
-    shape: tuple[Any, ...], *before: tuple[int, bytes], sent: int | None = None, columns: int = 1, **fields: Any
+    shape: tuple[Any, ...],
+    *before: tuple[int, bytes],
+    declared_count: int | None = None,
+    columns: int = 1,
+    **fields: Any,
 ) -> bytes:
     """Blocks, the first of them at least, all alike."""
     coded, count = _coded(*shape), fields["blocks"]
     fields = PACKED | {"coefficients": columns} | fields
-    count = count if sent is None else sent
+    count = count if declared_count is None else declared_count
     return stream_of([_header(coded, **fields), _faces(coded), *before, *_blocks(count, columns)])
 
 
@@ -272,8 +280,8 @@ def _learnt_gop(frames: int, components: int, levels: bytes = b"", attributes: i
 def _key_gops(count: int, levels: bytes, *attributes: bytes) -> list[GopBody]:
     """Frames one by one; of positions, and of attributes of four numbers."""
     fields = [
-        GopField(width, 1.0, width, np.empty(0, np.int32), b"", own)
-        for width, own in zip((3, *[4] * len(attributes)), (levels, *attributes))
+        GopField(width, 1.0, width, np.empty(0, np.int32), b"", attribute_levels)
+        for width, attribute_levels in zip((3, *[4] * len(attributes)), (levels, *attributes))
     ]
     return [GopBody(GopMethod.KEY_FRAME, 1, tuple(fields))] * count
 
@@ -332,8 +340,8 @@ def _valued(
     blocks = {"blocks": 1 + rows * columns // 4000, "block_size": min(rows * columns, 8000), "power": 1}
     frames = frames_of(_blocky(("torus", rows, columns), attributes=count, swift=swift, **blocks))
     size = rows * columns if coded is None else coded
-    given = {"origin": OTHERWISE, **fields}
-    declared, chunks = _attributes(rows, columns, count, chunk, size, swift=swift, **given)
+    fields_of_values = {"origin": OTHERWISE, **fields}
+    declared, chunks = _attributes(rows, columns, count, chunk, size, swift=swift, **fields_of_values)
     return stream_of([*frames[:2], *declared, *frames[2:], *chunks])
 
 
@@ -356,8 +364,8 @@ def _attributes(
         levels = np.full((size, len(declaration.largest)), level, np.int32)
         encoder = field_of(declaration, surface, levels, None, swift)
         for first in range(0, size, chunk):
-            some = min(chunk, size - first)
-            chunks.append(_written(packets.Values(index, first, some, write_values(encoder, some))))
+            rows_of_chunk = min(chunk, size - first)
+            chunks.append(_written(packets.Values(index, first, rows_of_chunk, write_values(encoder, rows_of_chunk))))
     return declared, chunks
 
 
@@ -384,10 +392,10 @@ def _seamed(rows: int, columns: int, count: int) -> bytes:
     place.join(True, False)
     place.code()
     values, exact = np.arange(2, dtype=np.uint8)[:, None], Quality("exact")
-    own = [(np.arange(faces.size, dtype=np.int32) == corner).reshape(-1, 3).astype(np.int32) for corner in range(3)]
-    wanted = [(Attribute("0", values, "corner", indices=at), exact) for at in own]
+    seams = [(np.arange(faces.size, dtype=np.int32) == corner).reshape(-1, 3).astype(np.int32) for corner in range(3)]
+    coded_attributes = [(Attribute("0", values, "corner", indices=at), exact) for at in seams]
     # Three in turn, of which each follows the other two.
-    turns = [carry(place, faces, wanted[turn:] + wanted[:turn], 0) for turn in range(3)]
+    turns = [carry(place, faces, coded_attributes[turn:] + coded_attributes[:turn], 0) for turn in range(3)]
     carried = [*turns[0], *(turns[(index + 1) % 3][2] for index in range(3, count))][:count]
     declared = [
         _written(packets.Declared(index, replace(one.declaration, name=f"{index}"), one.seams))
@@ -448,8 +456,10 @@ ONCE = {"power": 1, "key_iterations": 1}
 NOTHING = _learnt_gop(1, 0)
 BACK_AND_FORTH = np.arange(1024) % 2
 BOMBS: dict[str, Callable[[], bytes]] = {
-    "members": lambda: _tiny_blocks(ring(256, 256), 4096, sent=0),  # blocks that overlap as much as they may
-    "members-illegal": lambda: _blocky(ring(256, 256), sent=0, blocks=65536, block_size=4096),  # 65,536 blocks of 4,096
+    "members": lambda: _tiny_blocks(ring(256, 256), 4096, declared_count=0),  # blocks that overlap as much as they may
+    "members-illegal": lambda: _blocky(
+        ring(256, 256), declared_count=0, blocks=65536, block_size=4096
+    ),  # 65,536 blocks of 4,096
     "narrow": lambda: one_block(91, 90, 1, power=64, key_iterations=1024),  # one column, power 64, 1,024 iterations
     # The same in tiny blocks
     "narrow-small": lambda: _blocky(
@@ -484,7 +494,9 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "faces": lambda: _blocky(("repeated", 250000), blocks=1, block_size=4),  # a million faces of four vertices
     "glued": lambda: _blocky(("glued", 999, 999), blocks=1, block_size=3),  # two million faces of three vertices
     "pieces": lambda: _blocky(("pieces", 100000), blocks=2000, block_size=160, smoothing=1.0),  # triangles apart
-    "mesh": lambda: _blocky(ring(1024, 1024), sent=0, blocks=160, block_size=8192),  # a million vertices and no block
+    "mesh": lambda: _blocky(
+        ring(1024, 1024), declared_count=0, blocks=160, block_size=8192
+    ),  # a million vertices and no block
     # A million vertices in large blocks
     "mesh-blocks": lambda: _blocky(ring(1024, 1024), blocks=160, block_size=8192, power=2, columns=8),
     "copies": lambda: _copies(64, 64, 20_000),  # copies of one vertex in many blocks

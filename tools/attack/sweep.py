@@ -43,14 +43,14 @@ def main() -> int:
 def attack(name: str, seconds: float) -> int:
     """Try every seed, then mutations of them for some seconds; return the number of inputs."""
     random = Random(name)
-    found = seeds(name)
+    inputs = seeds(name)
     count = 0
     begin = time.monotonic()
-    for data in found:
+    for data in inputs:
         run(TARGETS[name], data)
         count += 1
     while time.monotonic() - begin < seconds:
-        run(TARGETS[name], mutate(random, random.choice(found)) if name == MESH_FILE else mutant(random, found))
+        run(TARGETS[name], mutate(random, random.choice(inputs)) if name == MESH_FILE else mutant(random, inputs))
         count += 1
     return count
 

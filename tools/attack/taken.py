@@ -84,9 +84,9 @@ def problems_of(
     names: Iterable[str], works: Sequence[Prepared], limits: str, most: float = 1.0, seconds: int = MOST_SECONDS
 ) -> Iterator[str]:
     """Yield which works take more than `most` of what limits allow, or end in something else than a result."""
-    for name, taken in zip(names, taken_by_each(works, seconds), strict=True):
-        memory, time_allowed = bounds(limits, taken)
-        if problem := taken.problem(most * memory, most * time_allowed):
+    for name, cost in zip(names, taken_by_each(works, seconds), strict=True):
+        memory, time_allowed = bounds(limits, cost)
+        if problem := cost.problem(most * memory, most * time_allowed):
             yield f"{name} ({limits}): {problem}"
 
 
@@ -100,18 +100,18 @@ def report(problems: Iterable[str], inputs: str) -> int:
     return 1 if count else 0
 
 
-def bounds(limits: str, taken: Taken) -> tuple[float, float]:
+def bounds(limits: str, cost: Taken) -> tuple[float, float]:
     """Bytes and seconds that what was taken may take (M 14.8, M 14.9)."""
     if limits == "service":
         return float(1 << 30), 10.0
-    vertices, size = taken.vertices, taken.size
-    return (1 << 26) + 1024.0 * vertices + 64.0 * size, 1.0 + 4e-5 * (vertices + taken.shown) + 2e-5 * size
+    vertices, size = cost.vertices, cost.size
+    return (1 << 26) + 1024.0 * vertices + 64.0 * size, 1.0 + 4e-5 * (vertices + cost.shown) + 2e-5 * size
 
 
-def browser_bounds(taken: Taken, stream: bytes) -> tuple[float, float]:
+def browser_bounds(cost: Taken, stream: bytes) -> tuple[float, float]:
     """Bytes and seconds of the decoder for browsers: 64 MiB and what sequences keep more, and longer by `BROWSER`."""
-    memory, seconds = bounds("default", taken)
-    return memory + (1 << 26) + sequence_memory(stream, taken.vertices), BROWSER * seconds
+    memory, seconds = bounds("default", cost)
+    return memory + (1 << 26) + sequence_memory(stream, cost.vertices), BROWSER * seconds
 
 
 def sequence_memory(stream: bytes, vertices: int) -> float:
@@ -148,7 +148,7 @@ def decode_all(data: bytes, how: str, limits: Limits) -> Taken:
     header, _ = peek_header(iter([data]))
     sequence = header is not None and header.gop_frames > 0
     tolerant, threads = how == "tolerant", 1 if how == "events" else 2
-    size = shown = 0
+    size = shown_vertices = 0
     losses = []  # a caller may keep them
     kind = SequenceDecoder if sequence else Decoder
     with kind(limits, threads, tolerant=tolerant) as decoder:
@@ -164,11 +164,11 @@ def decode_all(data: bytes, how: str, limits: Limits) -> Taken:
                     case LossEvent():
                         losses.append(event)
                     case FrameEvent():
-                        shown += size
+                        shown_vertices += size
             outcome = "decoded"
         except BsmError as error:
             outcome = f"{type(error).__name__}: {error}"
-        return Taken(outcome, len(data), decoder.vertices, shown, decoder.work)
+        return Taken(outcome, len(data), decoder.vertices, shown_vertices, decoder.work)
 
 
 def taken_by(stream: bytes, how: str, limits: str) -> Taken:
@@ -184,23 +184,23 @@ def taken_by_browser(streams: Sequence[bytes]) -> list[Taken]:
         for number, stream in enumerate(streams):
             Path(folder, f"{number}.bsm").write_bytes(stream)
         command = ["node", "--expose-gc", str(WEB), folder]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=MOST_SECONDS, check=True)
-    found = []
-    for line, stream in zip(done.stdout.splitlines(), streams, strict=True):
+        process = subprocess.run(command, capture_output=True, text=True, timeout=MOST_SECONDS, check=True)
+    costs = []
+    for line, stream in zip(process.stdout.splitlines(), streams, strict=True):
         report = json.loads(line)
         if problem := report.pop("escaped"):
             report["outcome"] = f"escaped: {problem}"
-        found.append(Taken(size=len(stream), **report))
-    return found
+        costs.append(Taken(size=len(stream), **report))
+    return costs
 
 
 def taken_by_each(works: Sequence[Prepared], seconds: int = MOST_SECONDS) -> Iterator[Taken]:
     """What each work takes, in processes forked for some of them; `works` prepare it, which is not counted."""
-    done = 0
-    while done < len(works):
-        reports = _reported_by_child(works[done:], seconds)
+    count = 0
+    while count < len(works):
+        reports = _reported_by_child(works[count:], seconds)
         yield from reports or [Taken()]
-        done += max(1, len(reports))
+        count += max(1, len(reports))
 
 
 def _reported_by_child(works: Sequence[Prepared], seconds: int) -> list[Taken]:
@@ -219,9 +219,9 @@ def _reported_by_child(works: Sequence[Prepared], seconds: int) -> list[Taken]:
         for prepare in works:
             signal.setitimer(signal.ITIMER_PROF, 2 * seconds)  # processor time: a busy machine is not a finding
             signal.alarm(_PATIENCE * seconds)
-            taken = _measured(prepare())
-            os.write(writing, json.dumps(vars(taken)).encode() + b"\n")
-            if taken.memory > 1 << 24:
+            cost = _measured(prepare())
+            os.write(writing, json.dumps(vars(cost)).encode() + b"\n")
+            if cost.memory > 1 << 24:
                 break
         os._exit(0)
     os.close(writing)
@@ -235,11 +235,11 @@ def _measured(work: Work) -> Taken:
     Path("/proc/self/clear_refs").write_text("5")  # the peak begins with what there is now
     seconds, memory = time.process_time(), resident("VmRSS")
     try:
-        taken = work()
+        cost = work()
     except BaseException as error:
-        taken = Taken(f"escaped: {type(error).__name__}: {error}"[:1000])
+        cost = Taken(f"escaped: {type(error).__name__}: {error}"[:1000])
     own_seconds, own_memory = time.process_time() - seconds, resident("VmHWM") - memory
-    return replace(taken, seconds=taken.seconds + own_seconds, memory=max(taken.memory, own_memory))
+    return replace(cost, seconds=cost.seconds + own_seconds, memory=max(cost.memory, own_memory))
 
 
 def resident(name: str) -> int:

@@ -45,17 +45,17 @@ def main() -> int:
     parser.add_argument("count", type=int, help="streams")
     parser.add_argument("--seed", type=int, default=0, help="default: %(default)s")
     args = parser.parse_args()
-    found = ((stream, difference(stream)) for stream in streams(args.count, args.seed))
-    return report((f"{problem}: {stream.hex()}" for stream, problem in found if problem), f"{args.count} streams")
+    differences = ((stream, difference(stream)) for stream in streams(args.count, args.seed))
+    return report((f"{problem}: {stream.hex()}" for stream, problem in differences if problem), f"{args.count} streams")
 
 
 def difference(stream: bytes) -> str:
     """Return how one thread and several differ for a stream; "" if they do not."""
     for tolerant in (False, True):
         one, many = (decoded(stream, threads, tolerant) for threads in (1, MANY))
-        for place, (event, other) in enumerate(zip(one, many)):
-            if event != other:
-                return f"{'tolerant' if tolerant else 'strict'}, event {place}: {event[:80]!r} and {other[:80]!r}"
+        for place, (event, other_event) in enumerate(zip(one, many)):
+            if event != other_event:
+                return f"{'tolerant' if tolerant else 'strict'}, event {place}: {event[:80]!r} and {other_event[:80]!r}"
         if len(one) != len(many):
             return f"{len(one)} and {len(many)} events"
     return ""
@@ -78,8 +78,8 @@ def plain(value: Any) -> bytes:
     if isinstance(value, np.ndarray):
         return value.tobytes()
     if is_dataclass(value):
-        held = (plain(getattr(value, field.name)) for field in fields(value))
-        return type(value).__name__.encode() + b" ".join(held)
+        parts = (plain(getattr(value, field.name)) for field in fields(value))
+        return type(value).__name__.encode() + b" ".join(parts)
     return str(value).encode()
 
 
@@ -107,11 +107,13 @@ def cut_levels(random: Random) -> bytes:
     chunks = list[tuple[int, int, bytes]]()
     first = 0
     for faces, levels in parts:
-        field, left = levels_field(faces, levels), len(levels)
-        while left:
-            size = random.choice((min(left, random.randint(1, 6)), left, random.randint(1, left), max(left - 1, 1)))
+        field, remaining = levels_field(faces, levels), len(levels)
+        while remaining:
+            size = random.choice(
+                (min(remaining, random.randint(1, 6)), remaining, random.randint(1, remaining), max(remaining - 1, 1))
+            )
             chunks.append((first, size, b"".join(field.write(size))))
-            first, left = first + size, left - size
+            first, remaining = first + size, remaining - size
     for _ in range(random.choice((0, 1, 1, 2, 3))):
         _spoil(chunks, random, len(parts[0][1]), first)
     written = ((FrameType.REFINEMENT, write_varint(at) + write_varint(size) + data) for at, size, data in chunks)
@@ -121,25 +123,25 @@ def cut_levels(random: Random) -> bytes:
 def _spoil(chunks: list[tuple[int, int, bytes]], random: Random, cells: int, end: int) -> None:
     """Make one chunk wrong; `cells` and `end` are where the levels of cells and all levels end."""
     place = random.randrange(len(chunks)) if chunks else 0
-    other = bytes(random.randrange(256) for _ in range(random.randrange(9)))
-    first, size, data = chunks[place] if chunks else (0, 1, other)
+    wrong_bytes = bytes(random.randrange(256) for _ in range(random.randrange(9)))
+    first, size, data = chunks[place] if chunks else (0, 1, wrong_bytes)
     choice = random.randrange(6)
     if choice == 0 and chunks:
         del chunks[place]
     elif choice == 1:
         chunks.insert(random.randint(0, len(chunks)), (first, size, data))
     elif choice == 2 and chunks:
-        chunks[place] = (first, size, other)
+        chunks[place] = (first, size, wrong_bytes)
     elif choice == 3:  # the last chunk of cells goes on among the vertices, and another chunk follows it to the end
         of_cells = [number for number, chunk in enumerate(chunks) if chunk[0] < cells]
         last = of_cells[-1] if of_cells else 0
         begin = chunks[last][0] if of_cells else 0
         rest = random.choice((random.randint(1, 8), random.randint(1, end - cells - 1)))
         into = end - cells - rest
-        across = [(begin, cells + into - begin, data), (cells + into, rest, random.choice((b"", other)))]
+        across = [(begin, cells + into - begin, data), (cells + into, rest, random.choice((b"", wrong_bytes)))]
         chunks[last : last + 1] = across
     elif choice == 4:
-        chunks.append((cells, random.randint(1, end - cells), random.choice((data, other))))
+        chunks.append((cells, random.randint(1, end - cells), random.choice((data, wrong_bytes))))
     elif chunks:
         chunks[place] = (max(first + random.choice((-1, 1, -size, size)), 0), size, data)
 
@@ -148,11 +150,13 @@ def _spoil(chunks: list[tuple[int, int, bytes]], random: Random, cells: int, end
 def levels_of(side: int) -> tuple[Frames, tuple[Part, Part]]:
     """The frames of a mesh before its levels; and the faces and levels of its cells, all zero, and of its vertices."""
     mesh = patch(side, 14)
-    made, faces, levels = draft(mesh, Spread(2, 1), 0.004)
+    stream_draft, faces, levels = draft(mesh, Spread(2, 1), 0.004)
     prepared = prepare(join(mesh, keep=False), Parts(256, 1.0), keep_order=False)
     cells = cells_of(prepared.graph, prepared.mesh.faces, 2)
-    flat = np.zeros((made.header.base[0], 3), np.int32)
+    flat = np.zeros((stream_draft.header.base[0], 3), np.int32)
     frames = [
-        frame for frame in frames_of(b"".join(made.frames)) if frame[0] not in (FrameType.REFINEMENT, FrameType.END)
+        frame
+        for frame in frames_of(b"".join(stream_draft.frames))
+        if frame[0] not in (FrameType.REFINEMENT, FrameType.END)
     ]
     return frames, ((cells.faces, flat), (faces, levels))

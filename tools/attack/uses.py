@@ -163,8 +163,8 @@ def _components(size: int, uses: int) -> Sample:
     """As many components of one object, and items of that."""
     root = max(1, int(uses**0.5))
     components = '<component objectid="1"/>' * root
-    whole = f'<object id="2"><components>{components}</components></object>'
-    return Sample("3mf", three_mf(_mesh_3mf(size) + whole, '<item objectid="2"/>' * root))
+    assembly = f'<object id="2"><components>{components}</components></object>'
+    return Sample("3mf", three_mf(_mesh_3mf(size) + assembly, '<item objectid="2"/>' * root))
 
 
 def _mesh_usd(size: int, name: str = "m", more: str = "") -> str:
@@ -292,10 +292,10 @@ class Model:
 
     def made(self, size: int, uses: int) -> Sample:
         filled = self.unit * max(1, size // max(len(self.unit), 1))
-        said = self.between.join(self.use.replace("{0}", str(number)) for number in range(uses))
+        uses_text = self.between.join(self.use.replace("{0}", str(number)) for number in range(uses))
         beside = (("b.obj", (TRIANGLE + filled).encode()),) if self.beside else ()
         used = "" if self.beside else filled
-        return Sample(self.suffix, (self.head + used + self.middle + said + self.tail).encode(), beside)
+        return Sample(self.suffix, (self.head + used + self.middle + uses_text + self.tail).encode(), beside)
 
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -334,30 +334,32 @@ MODELS = {
 """By format and its word for the uses."""
 
 
-def _views(own: bool, size: int, uses: int) -> Sample:
+def _views(has_own_views: bool, size: int, uses: int) -> Sample:
     """Accessors of one view, or each with a view of its own over the same bytes."""
     scene = Scene(size)
     first, view = scene.tree["accessors"][0], scene.tree["bufferViews"][0]
     for number in range(uses):
-        if own:
+        if has_own_views:
             scene.tree["bufferViews"].append(view)
-        scene.tree["accessors"].append(first | {"bufferView": len(scene.tree["bufferViews"]) - 1 if own else 0})
+        scene.tree["accessors"].append(
+            first | {"bufferView": len(scene.tree["bufferViews"]) - 1 if has_own_views else 0}
+        )
         scene.attributes[f"_A{number}"] = len(scene.tree["accessors"]) - 1
     return scene.sample()
 
 
-def _streams(own: bool, size: int, uses: int) -> Sample:
+def _streams(has_own_streams: bool, size: int, uses: int) -> Sample:
     """One BSM stream, in as many views, or as many streams over the same bytes."""
     side = max(3, int(size**0.5))  # a plane takes few bytes
     mesh = patch(side, side)
     stream = encode(TriangleMesh(mesh.positions * (1.0, 1.0, 0.0), mesh.faces), preset="small", effort="quick")
     count = len(mesh.positions)
-    views: list[Tree] = [{"buffer": 0, "byteLength": len(stream)}] * (uses if own else 1)
+    views: list[Tree] = [{"buffer": 0, "byteLength": len(stream)}] * (uses if has_own_streams else 1)
     for number in range(uses):
-        coded = {"stream": number if own else 0, "attribute": "POSITION"}
+        coded = {"stream": number if has_own_streams else 0, "attribute": "POSITION"}
         views.append({"buffer": 1, "byteLength": 12 * count, "extensions": {"EXT_bsm_compression": coded}})
-    found = {"componentType": 5126, "type": "VEC3", "count": 3}
-    accessors = [{**found, "bufferView": len(views) - uses + number} for number in range(uses)]
+    accessor = {"componentType": 5126, "type": "VEC3", "count": 3}
+    accessors = [{**accessor, "bufferView": len(views) - uses + number} for number in range(uses)]
     names = {("POSITION" if not number else f"_A{number}"): number for number in range(uses)}
     missing = {"byteLength": 12 * count, "extensions": {"EXT_bsm_compression": {"fallback": True}}}
     tree: Tree = {
@@ -370,12 +372,12 @@ def _streams(own: bool, size: int, uses: int) -> Sample:
 
 def _members(size: int, uses: int) -> Sample:
     """An npz whose directory names the same bytes again and again."""
-    array, found = io.BytesIO(), io.BytesIO()
+    array, archive_file = io.BytesIO(), io.BytesIO()
     write_npy(array, np.zeros((size, 1), np.int8))
-    with zipfile.ZipFile(found, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, given in (("positions", np.eye(3)), ("faces", np.array([[0, 1, 2]]))):
+    with zipfile.ZipFile(archive_file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, array_of_member in (("positions", np.eye(3)), ("faces", np.array([[0, 1, 2]]))):
             plain = io.BytesIO()
-            write_npy(plain, given)
+            write_npy(plain, array_of_member)
             archive.writestr(f"{name}.npy", plain.getvalue())
         archive.writestr("x.npy", array.getvalue())
         entry = archive.getinfo("x.npy")
@@ -383,7 +385,7 @@ def _members(size: int, uses: int) -> Sample:
             again = copy.copy(entry)
             again.filename = f"{number}.npy"
             archive.filelist.append(again)
-    return Sample("npz", found.getvalue())
+    return Sample("npz", archive_file.getvalue())
 
 
 def uses() -> Iterator[tuple[str, Use]]:
@@ -440,6 +442,6 @@ def main() -> int:
     args = parser.parse_args()
     warm_up()
     sizes, splits = (args.bytes[:1], SPLITS[:1]) if args.short else (args.bytes, SPLITS)
-    found = [case for size in sizes for case in cases(size, splits) if case.name.startswith(args.only)]
-    both = chain.from_iterable(problems(found, limits, MOST) for limits in ("default", "service"))
-    return report(both, f"{len(found)} files of {len(list(uses()))} kinds of uses")
+    cases_of_uses = [case for size in sizes for case in cases(size, splits) if case.name.startswith(args.only)]
+    both = chain.from_iterable(problems(cases_of_uses, limits, MOST) for limits in ("default", "service"))
+    return report(both, f"{len(cases_of_uses)} files of {len(list(uses()))} kinds of uses")

@@ -42,7 +42,7 @@ def bases() -> dict[str, bytes]:
 def _framed(base: str, kind: str) -> tuple[Frames, int]:
     """The frames of a stream, and the place of the last one of a type."""
     frames = frames_of(_good()[base])
-    return frames, max(i for i, (found, _) in enumerate(frames) if found == FrameType[kind])
+    return frames, max(i for i, (frame_kind, _) in enumerate(frames) if frame_kind == FrameType[kind])
 
 
 def _longer(base: str, kind: str, fill: bytes) -> bytes:
@@ -123,8 +123,8 @@ def cases(size: int) -> Iterator[Case]:
         for what, payload in _maps(size):
             yield Case(f"{kind.name} map of {what}", partial(_mapped, kind, payload))
     for what, payload in _maps(size):
-        whole = write_varint(0) + write_varint(len(payload)) + payload
-        yield Case(f"ATTRIBUTE map of {what}", partial(_mapped, FrameType.ATTRIBUTE, whole))
+        attribute_payload = write_varint(0) + write_varint(len(payload)) + payload
+        yield Case(f"ATTRIBUTE map of {what}", partial(_mapped, FrameType.ATTRIBUTE, attribute_payload))
     for number in SKIPPABLE_TYPES:
         yield Case(f"skippable {number}, many", partial(_skipped, number, b"", size // 3))
         yield Case(f"skippable {number}, long", partial(_skipped, number, bytes(size), 1))
@@ -134,7 +134,7 @@ def _mapped(kind: FrameType, payload: bytes) -> bytes:
     frames = frames_of(_good()["BLOCK" if kind is not FrameType.ATTRIBUTE else "ATTRIBUTE"])
     if kind is FrameType.METADATA:
         return stream_of([frames[0], (kind, payload), *frames[1:]])
-    place = next(i for i, (found, _) in enumerate(frames) if found == kind)
+    place = next(i for i, (frame_kind, _) in enumerate(frames) if frame_kind == kind)
     return stream_of([*frames[:place], (kind, payload), *frames[place + 1 :]])
 
 
