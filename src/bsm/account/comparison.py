@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import ArgumentError, FormatError, MeshError, public
-from bsm.codec.arrays import Faces, Mask, Order, Positions
+from bsm.codec.arrays import Faces, Integers, Mask, Order, Positions
 from bsm.codec.geometry.attributes import Attribute, AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.graph import canonical, canonical_order
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
@@ -220,7 +220,7 @@ class Pair:
 def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = None) -> Pair:
     """Find which vertices of meshes, all of whose vertices are in faces, are the same; if need be by their places."""
     attributed = bool(original.attributes)
-    kept = [np.arange(len(mesh.faces)) for mesh in (original, decoded)]
+    kept: list[Integers] = [np.arange(len(mesh.faces)) for mesh in (original, decoded)]
     merged = order is None
     with suppress(MeshError):  # they may have the same vertices, in an order that is known
         if merged and len(original.positions) == len(decoded.positions):

@@ -143,11 +143,13 @@ class _PlainLines:
 
     def __init__(self, text: bytes, counts: Ints, counts_before: Ints) -> None:
         *shapes, faces, corners, others, words, with_texcoords, with_normals = counts.tolist()
-        tables = tuple(np.empty((rows, numbers)) for rows, numbers in zip(shapes[::2], shapes[1::2], strict=True))
+        positions, texcoords, normals = map(np.empty, zip(shapes[::2], shapes[1::2], strict=True))
+        tables = positions, texcoords, normals
         self.sizes: Ints = np.empty(faces, np.int64)
         self._corners = corners
-        lengths = [corners if count else 0 for count in (corners, with_texcoords, with_normals)]
-        self._places = tuple(np.empty(length, np.int64) for length in lengths)
+        places_of_texcoords = np.empty(corners if with_texcoords else 0, np.int64)
+        places_of_normals = np.empty(corners if with_normals else 0, np.int64)
+        self._places = np.empty(corners, np.int64), places_of_texcoords, places_of_normals
         lines, hard = np.empty((others, 3), np.int64), np.empty((words, 4), np.int64)
         arrays = (*tables, self.sizes, *self._places, lines, hard)
         _kernels.scan_obj(np.frombuffer(text, np.uint8), counts_before, True, np.empty_like(counts), arrays)
