@@ -210,6 +210,10 @@ function checkPriors(clang, object, priors, target) {
  * ask for make them slower.
  */
 const FAST = /basis\/cholesky|codec\/blocks|conquest|fields\/(layer|expectation|grid)/;
+
+/** Those of the decoder of everything and of the encoder of pages, which would be too large with all of them. */
+const FAST_OF_ALL = /conquest|fields\/(layer|expectation|grid)/;
+const FAST_TO_ENCODE = /fields\/(layer|expectation|grid)/;
 const NOTHING = /^$/;
 const SPEED = ["-fno-vectorize", "-fno-slp-vectorize"];
 
@@ -244,7 +248,7 @@ function still(more, lacks) {
  * `light`: for light grids alone, 2: with congruent parts, too; `writes`: the encoder; `long`: without brief streams.
  */
 export const KERNEL_BUILDS = {
-    "built/kernels.wasm": {},
+    "built/kernels.wasm": { fast: FAST_OF_ALL },
     "built/small.wasm": still(NOTHING, "false"),
     "built/grid.wasm": still(/^codec(?!\/basis\/structure)/, "!header->on_grid"),
     "built/blocks.wasm": { ...still(/payloads\/grid\.c/, "header->on_grid"), long: true },
@@ -256,6 +260,7 @@ export const KERNEL_BUILDS = {
     },
     "built/encode.wasm": {
         exported: ENCODE,
+        fast: FAST_TO_ENCODE,
         writes: true,
         without:
             /^codec(?!\/basis\/structure)|fields\/(twins|images)|payloads\/zstd\.c|library\/(sequence|split|whole|changes)\.c|library\/encode\/moving\.c|library\/wasm\/(page|light)\.c/,

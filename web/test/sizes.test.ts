@@ -12,13 +12,13 @@ import { VIEWER, WEB } from "./shared";
  */
 const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [20900, ["small-worker.js", "quick.wasm"]],
-    "light grids of parts": [24000, ["small-worker.js", "parts.wasm"]],
+    "light grids of parts": [24100, ["small-worker.js", "parts.wasm"]],
     grids: [55500, ["small-worker.js", "grid.wasm"]],
     blocks: [71800, ["small-worker.js", "blocks.wasm"]],
     "static meshes": [89600, ["small-worker.js", "small.wasm"]],
     sequences: [80900, ["small-worker.js", "moving.wasm"]],
-    everything: [127500, ["worker.js", "kernels.wasm"]],
-    encoding: [83800, ["encode-worker.js", "encode.js", "encode.wasm"]],
+    everything: [125000, ["worker.js", "kernels.wasm"]],
+    encoding: [82100, ["encode-worker.js", "encode.js", "encode.wasm"]],
     "the page": [8800, ["three.js"]],
 };
 
