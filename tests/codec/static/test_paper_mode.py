@@ -194,3 +194,9 @@ def test_an_exact_basis_is_made_once_and_is_the_same_at_any_width():
     again.commit(30, np.ascontiguousarray(prepared.positions[vertices]))
     again.begin(1)
     assert not again.is_exact  # a block of the same size follows
+
+
+def test_bytes_do_not_depend_on_what_is_kept(monkeypatch):
+    expected = bsm.encode(MESH, preset="paper", **SMALL)
+    monkeypatch.setattr("bsm.codec.signal.chain.HELD", 0)
+    assert bsm.encode(MESH, preset="paper", **SMALL) == expected
