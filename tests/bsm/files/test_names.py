@@ -2,6 +2,7 @@
 
 import csv
 import importlib
+import locale
 import warnings
 from pathlib import Path
 
@@ -443,7 +444,9 @@ def scene_of_3mf(path):
         doubled = ((2, 0, 0), (0, 2, 0), (0, 0, 2), (place, 0, 0))
         rows = [(lib3mf.ctypes.c_float * 3)(*row) for row in doubled]
         model.AddBuildItem(shape, lib3mf.Transform((lib3mf.ctypes.c_float * 3 * 4)(*rows)))
+    own_locale = locale.setlocale(locale.LC_ALL)
     model.QueryWriter("3mf").WriteToFile(str(path))
+    locale.setlocale(locale.LC_ALL, own_locale)  # lib3mf leaves that of C, in which files are read as ASCII
 
 
 def scene_of_gltf(path):
