@@ -11,7 +11,7 @@ from bsm.codec.geometry.metrics import Reference
 from bsm.evaluation.sample import knot
 from tools.vectors.meshes import grid_faces, patch, tetrahedron, together, torus
 
-__all__ = ["grid_faces", "knot", "patch", "tetrahedron", "together", "torus"]  # besides what is here
+__all__ = ["grid_faces", "knot", "patch", "tetrahedron", "together", "torus"]  # names of other modules, for tests
 Faces = NDArray[np.int32]
 
 
