@@ -115,7 +115,7 @@ const MEANINGS: Record<string, (page: Page, row: Row, surface: Surface) => Promi
         const metrics = { width: 800, height: 600, deviceScaleFactor: 2, mobile: false };
         await session.send("Emulation.setDeviceMetricsOverride", metrics);
         const isFiner = async (): Promise<boolean> => (await wide(page)) >= 2 * before;
-        for (let i = 0; i < 100 && !(await isFiner()); i++) await page.waitForTimeout(100);
+        for (let i = 0; i < 400 && !(await isFiner()); i++) await page.waitForTimeout(100);
         assert.ok(await isFiner(), `${before} pixels stay ${await wide(page)}`);
     },
     async fits(page) {
