@@ -1,6 +1,6 @@
 /* Memory of the C library: pieces of regions of huge pages, once a decoder asks for so much that this pays.
  *
- * Large pieces are pages of their own, which the system has back at once: regions would keep what was freed. */
+ * A large piece is mapped by itself and goes back to the system when it is freed. A region would keep it. */
 #include "bitstream/pool.h"
 
 #if __STDC_HOSTED__
