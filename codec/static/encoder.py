@@ -21,7 +21,7 @@ from bsm.codec.geometry.metrics import Comparison, Reference, decibel
 from bsm.codec.progress import Nearing, Progress
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.attributes.encoding import with_turns
-from bsm.codec.static.choice.attributes import Sent, smallest
+from bsm.codec.static.choice.attributes import Sent, complete, smallest
 from bsm.codec.static.choice.bounds import LEAST
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
 from bsm.codec.static.choice.trace import Event
@@ -200,7 +200,8 @@ class Encoder:
         _ = self._input.carried  # raises errors of attributes first
         promise, near = self.options.promise, self._begun(progress)
         if promise is None:
-            return self._verified(self._input.completed(self._bare(near)), near)
+            self._input, draft = complete(self._input, self._bare(near))
+            return self._verified(draft, near)
         self._input, draft = smallest(self._input, promise, near)
         return self._verified(draft, near, promise)
 

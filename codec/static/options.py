@@ -15,7 +15,7 @@ from bsm.codec.static.targets import TARGETS, Contract, Target
 CHOICES = {
     "key_seed": KEY_SEEDS,
     "partition": ("derived", "metis"),
-    "normals": ("look", "keep", "recompute"),
+    "normals": ("look", "keep", "near", "recompute"),
     "effort": ("quick", "normal", "best"),
     "limits": tuple(NAMED_LIMITS),
 }
@@ -156,7 +156,8 @@ class EncodeOptions:
         exact, and floats get the bits that their kind and the promise of positions need; notes report them.
     normals : str
         Default quality of normals. "look": as few bits as the promised look needs. "keep": as many as the promise of
-        positions needs. "recompute": the decoder computes them.
+        positions needs. "near": the decoder computes them if all come within 1 degree of the given ones, otherwise as
+        "keep"; a requested quality counts only otherwise. "recompute": the decoder computes them.
     grid_cell : float, optional
         Round every position to a grid with cells of this length, in the unit of the mesh. Parts that are encoded
         separately on the same grid fit bit for bit.

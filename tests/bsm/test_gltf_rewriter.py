@@ -291,6 +291,47 @@ def test_qualities_are_those_that_are_asked_for(tmp_path, capsys):
     assert "--attribute" in capsys.readouterr().err
 
 
+def normals_of(shape, tilt):
+    """Normals by area, one of which is tilted by some degrees."""
+    a, b, c = shape.positions[shape.faces.T]
+    normals = np.zeros_like(shape.positions)
+    np.add.at(normals, shape.faces, np.cross(b - a, c - a)[:, None])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    across = np.cross(normals[7], [0.0, 0.0, 1.0])
+    across /= np.linalg.norm(across)
+    normals[7] = np.cos(np.radians(tilt)) * normals[7] + np.sin(np.radians(tilt)) * across
+    return normals.astype(np.float32)
+
+
+@pytest.mark.parametrize(
+    ("tilt", "asked", "preset", "is_stored"),
+    [
+        (0.0, {}, "grid14", False),
+        (0.0, {}, "near-lossless", False),
+        (2.0, {}, "grid14", True),
+        (0.0, {"NORMAL": "12bits"}, "grid14", True),
+        (0.0, {"*": "10bits"}, "grid14", True),
+        (0.0, {}, "lossless", True),
+    ],
+)
+def test_normals_are_left_out_where_all_are_within_a_degree(tilt, asked, preset, is_stored):
+    shape = torus(48, 32)
+    normals = normals_of(shape, tilt)
+    built = Built()
+    attributes = {"POSITION": built.array(shape.positions.astype(np.float32)), "NORMAL": built.array(normals)}
+    faces = built.array(shape.faces.astype(np.uint16).reshape(-1))
+    built.nodes({"mesh": built.mesh({"attributes": attributes, "indices": faces})})
+    found, after = rewritten(built, {"preset": preset, "attributes": asked})
+    assert any(note.startswith("normals are not stored") for note in found.notes) != is_stored
+    plain = Document(restore(after))
+    accessors = first(plain)["attributes"]
+    positions, restored = plain.array(accessors["POSITION"]), plain.array(accessors["NORMAL"])
+    apart = np.linalg.norm(positions[:, None] - shape.positions.astype(np.float32), axis=2)
+    nearest = apart.argmin(axis=1)
+    cosines = (restored * normals[nearest]).sum(axis=1)
+    assert np.degrees(np.arccos(cosines.clip(-1.0, 1.0))).max() <= 1.0
+
+
 def test_lossless_scenes_have_all_numbers(tmp_path):
     random = np.random.default_rng(1).random((384, 3)).astype(np.float32)
     built, _ = ring({"NORMAL": random, "TEXCOORD_0": random[:, :2], "TANGENT": np.hstack([random, random[:, :1]])})

@@ -31,6 +31,7 @@ from bsm.codec.static.targets import SLACK, Contract
 
 SWIFT = {"quick": 1, "normal": 2, "best": 0}
 """How values of attributes are coded, `swift` of the header, by the effort: decoders of more bytes are quicker."""
+NEAR = 1.0  # degrees by which computed normals may differ from the given ones that they replace
 ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
 
 
@@ -153,6 +154,18 @@ class Sent:
         asked = attribute.name in dict(options.attributes) or not np.isfinite(self.normals).all()
         return None if asked or quality.way != "bits" else first
 
+    def computes_near_normals(self, decoded: Positions, computed: PreparedAttribute) -> bool:
+        """Whether each normal that a decoder computes is within `NEAR` of the given one."""
+        if self.normals is None:
+            return False
+        given = self.normals.reshape(-1, 3).astype(np.float64)
+        # A normal without a length has no angle to any other.
+        if not given.any(axis=1).all():
+            return False
+        apart = np.linalg.norm(computed.normals(decoded).reshape(-1, 3) - given, axis=1)
+        farthest = 2.0 * math.sin(math.radians(NEAR) / 2.0)
+        return bool(apart.max(initial=0.0) <= farthest)
+
     def measured(self, draft: Draft, contract: Contract) -> tuple[str, float | None, str]:
         """Return the bounds that a draft with its attributes breaks, its look distance, and the bound that binds."""
         bounds, decoded = Bounds(self.measures, contract), draft.decoded
@@ -221,11 +234,31 @@ def _roughen(given: Sent, at: int, attribute: Attribute, most: float) -> Sent:
     return given.but(looks=(*given.looks, (at, look_of)))
 
 
+def complete(given: Sent, bare: Draft, most: float = math.inf) -> tuple[Sent, Draft]:
+    """Return the input as it is sent, and the draft with attributes; `most`: the look that is promised.
+
+    With the option "near", it leaves out normals that the decoder computes well enough, if that saves bytes.
+    """
+    kept = given.completed(bare)
+    number = given.shown_normals
+    if given.options.normals != "near" or number is None or given.wanted[number][0].values.dtype.kind != "f":
+        return given, kept
+    spared = given.but(carried=given.carry_with(number, Quality("recompute")))
+    computed = spared.carried[number]
+    if not given.computes_near_normals(bare.decoded, computed):
+        return given, kept
+    metric = given.measures.look if most < math.inf else None
+    if metric is not None and max(metric.shaded(bare.decoded, computed.normals(bare.decoded))) > most:
+        return given, kept
+    smaller = spared.completed(bare)
+    return (spared, smaller) if smaller.size < kept.size else (given, kept)
+
+
 def _shaded(given: Sent, contract: Contract) -> tuple[Sent, Draft]:
     """The smallest stream that keeps a contract; normals without a quality get as many bits as the look needs."""
     bare, metric, free = given.search.smallest(contract), given.measures.look, given.free_normals
     if free is None or metric is None or contract.look == math.inf:
-        return given, given.completed(bare)
+        return complete(given, bare, contract.look)
     decoded, asked = bare.decoded, contract.look
 
     def seen(carried: tuple[PreparedAttribute, ...], positions: Positions) -> float:

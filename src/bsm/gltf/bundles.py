@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.container.header import RECOMPUTED
+from bsm.bitstream.container.packets import Declared
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import decode
@@ -48,6 +50,7 @@ _COARSEST, _FINEST = 12, 22  # bits of texture coordinates; with more, they are 
 _TEXELS, _SIDE = 0.25, 2048  # how many texels they may be off, and pixels of the side of an image that is not known
 # Below, an accessor of its own type takes more JSON than it saves.
 _SHORT = 1 << 10  # indices from which on 16 bits of each are worth their words
+COMPUTED = "normals are not stored: decoders compute them, within 1 degree"
 # Beyond this, an identifier that is stored as a float has already lost its last digit.
 WHOLE = 2**24  # up to which single precision has all whole numbers
 
@@ -291,6 +294,8 @@ def code_bundle(carried: Carried | str, pieces: int, options: Mapping[str, Any])
     requests = {name: quality for name, quality in options.get("attributes", {}).items() if name in names}
     qualities = requests if "*" in requests else {**carried.qualities, **requests}
     part_options = {"threads": 1, **options, "attributes": qualities}
+    if not requests.keys() & {"*", "NORMAL"}:
+        part_options["normals"] = "near"
     if carried.opens:
         part_options["keep_order"] = True
     try:
@@ -308,7 +313,11 @@ def code_bundle(carried: Carried | str, pieces: int, options: Mapping[str, Any])
     accessors = {name: carried.accessors[name] for name in shape.arrays}
     if len(shape.index) >= _SHORT and shape.index.max() < 65535:
         accessors["indices"] = (COMPONENTS["uint16"], False)
-    return BundleStream(stream, shape, accessors, error_of_positions, encoder.losses)
+    notes = encoder.losses
+    codings = [packet.declaration.coding for packet in coded.attempt.draft.body if isinstance(packet, Declared)]
+    if RECOMPUTED in codings:
+        notes = (*notes, COMPUTED)
+    return BundleStream(stream, shape, accessors, error_of_positions, notes)
 
 
 def accessors_of(primitive: Tree) -> dict[str, int]:

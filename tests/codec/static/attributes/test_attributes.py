@@ -265,6 +265,24 @@ def test_the_look_chooses_normals(outwards, wild):
     assert look(mesh, bsm.decode(streams["look"])).distance <= 1.0
 
 
+@pytest.mark.parametrize("preset", ["near-lossless", "grid14"])
+@pytest.mark.parametrize(("tilt", "computed"), [(0.0, True), (0.9, True), (1.2, False), (None, False)])
+def test_near_normals_are_computed(preset, tilt, computed):
+    """One vertex is tilted by some degrees, or has no length."""
+    mesh = torus(60, 40)
+    given = smooth_normals(mesh)
+    if tilt is None:
+        given[7] = 0.0
+    elif tilt:
+        across = np.cross(given[7], [0.0, 0.0, 1.0])
+        across /= np.linalg.norm(across)
+        given[7] = np.cos(np.radians(tilt)) * given[7] + np.sin(np.radians(tilt)) * across
+    normal = bsm.Attribute("normal", given, "vertex", "normal")
+    encoded = bsm.encode(replace(mesh, attributes=(normal,)), replace(bsm.PRESETS[preset], normals="near"))
+    declared = of_kind(encoded, packets.Declared)[0].declaration
+    assert (declared.coding == RECOMPUTED) == computed
+
+
 @pytest.mark.parametrize("preset", ["small", "balanced", "fine"])
 def test_texture_coordinates_and_shapes_keep_the_look_under_a_checker(preset):
     mesh = replace(torus(30, 20), attributes=())
