@@ -50,40 +50,51 @@ WEIGHTS = Path(__file__).with_suffix(".npz")
 
 
 def descriptions(
-    positions: Positions, topology: Topology, near: Lists, noisy: Mask | None = None
+    positions: Positions, topology: Topology, nearby_faces: Lists, noisy: Mask | None = None
 ) -> Iterator[tuple[Singles, Floats]]:
     """Yield numbers and frames of the faces in batches; `noisy`, shape (n,), marks noisy vertices (default: all)."""
     if len(topology.faces) == 0:
         return
     geometry = face_geometry(positions, topology.faces)
-    _, areas, normals = geometry
+    areas, normals = geometry.areas, geometry.normals
     distance = mean_centroid_distance(geometry.centroids, topology.pairs)
     guide = patch_guidance(geometry, topology)
-    ways = product(SCALES, [*product((normals, guide), RANGES), (normals, np.inf)])
-    sums = np.stack([weighed_normals(geometry, by, near, scale * distance, r) for scale, (by, r) in ways], axis=1)
-    filtered, last = (unit(sums[:, :, :3], normals[:, None]), FILTERED // len(SCALES) - 1)
+    averages = []
+    for scale in SCALES:
+        for compared, sigma_r in [*product((normals, guide), RANGES), (normals, np.inf)]:
+            averages.append(weighed_normals(geometry, compared, nearby_faces, scale * distance, sigma_r))
+    sums = np.stack(averages, axis=1)
+    filtered = unit(sums[:, :, :3], normals[:, None])
+    # The last average of each scale compares nothing.
+    last = FILTERED // len(SCALES) - 1
     alike = sums[:, :, 3].reshape(len(areas), len(SCALES), -1)
-    whole = np.where(alike[:, :, -1:] > 0.0, alike[:, :, -1:], 1.0)
+    total = np.where(alike[:, :, -1:] > 0.0, alike[:, :, -1:], 1.0)
     alike[:, :, -1] = np.linalg.norm(sums[:, last :: last + 1, :3], axis=2)
-    smooth, base = filtered[:, last], filtered[:, BASE.start // 3 - 1]
-    frames = _frames(geometry, near, smooth, filtered[:, -1], base)
-    vectors = np.concatenate([normals[:, None], filtered, *_repeated(geometry, topology.patches, distance)], axis=1)
+    smooth = filtered[:, last]
+    base = filtered[:, BASE.start // 3 - 1]
+    frames = _frames(geometry, nearby_faces, smooth, filtered[:, -1], base)
+    repeated_normals = _repeated(geometry, topology.patches, distance)
+    vectors = np.concatenate([normals[:, None], filtered, *repeated_normals], axis=1)
     local = (vectors @ frames.transpose(0, 2, 1)).reshape(len(areas), -1)
-    counted = np.ones(len(smooth), bool) if noisy is None else noisy[topology.faces].any(axis=1)
-    rough = np.linalg.norm(normals - smooth, axis=1)[counted].sum() / max(np.count_nonzero(counted), 1)
+    counted = np.ones(len(smooth), bool)
+    if noisy is not None:
+        counted = noisy[topology.faces].any(axis=1)
+    roughness = np.linalg.norm(normals - smooth, axis=1)[counted].sum() / max(np.count_nonzero(counted), 1)
     covered = areas / (areas + distance * distance)
     for begin in range(0, len(areas), BATCH):
-        some = slice(begin, min(begin + BATCH, len(areas)))
-        own, repeated = np.split(local[some], [3 * (1 + FILTERED)], axis=1)
-        circles = _circles(geometry, near, frames, distance, some)
-        likeness = (alike[some] / whole[some]).reshape(len(own), -1)
-        rest = likeness, covered[some, None], repeated, np.full((len(own), 1), rough)
-        yield np.concatenate([own, circles, *rest], axis=1).astype(np.float32), frames[some]
+        batch = slice(begin, min(begin + BATCH, len(areas)))
+        averaged, repeated = np.split(local[batch], [3 * (1 + FILTERED)], axis=1)
+        circles = _circles(geometry, nearby_faces, frames, distance, batch)
+        likeness = (alike[batch] / total[batch]).reshape(len(averaged), -1)
+        same = np.full((len(averaged), 1), roughness)
+        numbers = [averaged, circles, likeness, covered[batch, None], repeated, same]
+        yield np.concatenate(numbers, axis=1).astype(np.float32), frames[batch]
 
 
-def _frames(geometry: FaceGeometry, near: Lists, smooth: Floats, axes: Floats, base: Floats) -> Floats:
+def _frames(geometry: FaceGeometry, nearby_faces: Lists, smooth: Floats, axes: Floats, base: Floats) -> Floats:
     """Frames of the faces, shape (m, 3, 3): z is where the surface looks at large, x where normals about vary most."""
-    around = sparse.csr_matrix((np.ones(len(near.members)), near.members, near.starts))
+    members = nearby_faces.members
+    around = sparse.csr_matrix((np.ones(len(members)), members, nearby_faces.starts))
     outer = geometry.areas[:, None, None] * smooth[:, :, None] * smooth[:, None, :]
     z = np.where(axes.any(axis=1, keepdims=True), axes, [0.0, 0.0, 1.0])
     along = z[:, :, None] * z[:, None, :]
@@ -91,39 +102,47 @@ def _frames(geometry: FaceGeometry, near: Lists, smooth: Floats, axes: Floats, b
     varied = across @ (around @ outer.reshape(-1, 9)).reshape(-1, 3, 3) @ across
     x = np.linalg.eigh(varied - along)[1][:, :, 2]
     # Nothing tells the two ends of an axis apart but the normal that the network starts from.
-    x *= np.where(np.einsum("ij,ij->i", x, base) < 0.0, -1.0, 1.0)[:, None]
+    backward = np.einsum("ij,ij->i", x, base) < 0.0
+    x *= np.where(backward, -1.0, 1.0)[:, None]
     return np.stack([x, np.cross(z, x), z], axis=1)
 
 
-def _circles(geometry: FaceGeometry, near: Lists, frames: Floats, distance: float, some: slice) -> Floats:
-    """Mean normals and heights, in frames, of the sectors of the circles about some faces, shape (k, 4 * sectors)."""
+def _circles(geometry: FaceGeometry, nearby_faces: Lists, frames: Floats, distance: float, batch: slice) -> Floats:
+    """Mean normals and heights, in frames, of the sectors of the circles about a batch, shape (k, 4 * sectors)."""
     centroids, areas, normals = geometry
-    starts = near.starts[some.start : some.stop + 1]
-    owner, other = np.repeat(np.arange(len(starts) - 1), np.diff(starts)), near.members[starts[0] : starts[-1]]
-    axes, way = frames[some], (centroids[other] - centroids[some][owner]) / distance
-    x, y, height = np.einsum("kij,kj->ik", axes[owner], way)
-    place = np.arctan2(y, x) * (SECTORS / (2.0 * np.pi))
-    sector = np.floor(place).astype(np.int64)
-    part, aside = place - sector, np.where((x != 0.0) | (y != 0.0), areas[other], 0.0)
-    ring = SECTORS * (RINGS * owner + (x * x + y * y + height * height >= BETWEEN**2))
+    starts = nearby_faces.starts[batch.start : batch.stop + 1]
+    neighbors = nearby_faces.members[starts[0] : starts[-1]]
+    owners = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    axes = frames[batch]
+    ways = (centroids[neighbors] - centroids[batch][owners]) / distance
+    x, y, height = np.einsum("kij,kj->ik", axes[owners], ways)
+    turn = np.arctan2(y, x) * (SECTORS / (2.0 * np.pi))
+    sector = np.floor(turn).astype(np.int64)
+    part = turn - sector
+    # The direction of a face straight above the middle is not defined.
+    aside = np.where((x != 0.0) | (y != 0.0), areas[neighbors], 0.0)
+    outer = x * x + y * y + height * height >= BETWEEN**2
+    ring = SECTORS * (RINGS * owners + outer)
     # A face between the middles of two sectors counts in both.
-    weights, cells = np.stack([aside * (1.0 - part), aside * part]), ring + np.stack([sector, sector + 1]) % SECTORS
-    columns = np.broadcast_to(np.arange(len(other)), cells.shape)
-    shape = (SECTORS * RINGS * (len(starts) - 1), len(other))
+    weights = np.stack([aside * (1.0 - part), aside * part])
+    cells = ring + np.stack([sector, sector + 1]) % SECTORS
+    columns = np.broadcast_to(np.arange(len(neighbors)), cells.shape)
+    shape = (SECTORS * RINGS * (len(starts) - 1), len(neighbors))
     spread = sparse.csr_matrix((weights.ravel(), (cells.ravel(), columns.ravel())), shape)
-    seen = spread @ np.column_stack([np.ones(len(other)), normals[other], height])
-    covered, facing, above = np.split(seen.reshape(len(axes), SECTORS * RINGS, 5), [1, 4], axis=2)
-    seen = np.concatenate([facing @ axes.transpose(0, 2, 1), above], axis=2) / np.where(covered > 0.0, covered, 1.0)
+    sums = spread @ np.column_stack([np.ones(len(neighbors)), normals[neighbors], height])
+    covered, facing, above = np.split(sums.reshape(len(axes), SECTORS * RINGS, 5), [1, 4], axis=2)
+    local = np.concatenate([facing @ axes.transpose(0, 2, 1), above], axis=2)
+    means = local / np.where(covered > 0.0, covered, 1.0)
     # A circle that leaves the mesh goes on as the surface does at large.
-    return np.where(covered > 0.0, seen, [0.0, 0.0, 1.0, 0.0]).reshape(len(axes), -1)
+    return np.where(covered > 0.0, means, [0.0, 0.0, 1.0, 0.0]).reshape(len(axes), -1)
 
 
-def _repeated(geometry: FaceGeometry, near: Lists, distance: float) -> Iterator[Floats]:
+def _repeated(geometry: FaceGeometry, patches: Lists, distance: float) -> Iterator[Floats]:
     """Filter the normals again and again; yield shape (m, 1, 3)."""
     for sigma_r in WIDTHS:
         normals = geometry.normals
         for time in range(1, TIMES[-1] + 1):
-            normals = filter_normals(geometry._replace(normals=normals), normals, near, distance, sigma_r)
+            normals = filter_normals(geometry._replace(normals=normals), normals, patches, distance, sigma_r)
             if time in TIMES:
                 yield normals[:, None]
 
@@ -164,8 +183,10 @@ def read_networks(path: Path = WEIGHTS) -> tuple[Network, ...]:
 
 def regressed_normals(described: Iterable[tuple[Singles, Floats]], network: Network) -> Floats:
     """Normals by one network, shape (m, 3), whichever way the mesh is turned."""
-    found = [np.einsum("kij,ki->kj", frames, network(numbers)) for numbers, frames in described]
-    return unit(np.concatenate(found) if found else np.zeros((0, 3)))
+    batches = [np.zeros((0, 3))]
+    for numbers, frames in described:
+        batches.append(np.einsum("kij,ki->kj", frames, network(numbers)))
+    return unit(np.concatenate(batches))
 
 
 class Learnt(NamedTuple):
@@ -175,18 +196,21 @@ class Learnt(NamedTuple):
 
 def learnt(positions: Positions, topology: Topology, noisy: Mask | None = None) -> Learnt:
     """Denoise `positions`, shape (n, 3), by all networks in turn; `noisy`, shape (n,), marks those with noise."""
-    normals, near = np.zeros((len(topology.faces), 3)), surroundings(positions, topology, RADIUS)
+    normals = np.zeros((len(topology.faces), 3))
+    nearby_faces = surroundings(positions, topology, RADIUS)
     for network in read_networks():
-        normals = regressed_normals(descriptions(positions, topology, near, noisy), network)
+        described = descriptions(positions, topology, nearby_faces, noisy)
+        normals = regressed_normals(described, network)
         # Each stage sees the mesh that the one before it left, as it did in training.
         positions = follow_normals(positions, topology, normals, VERTEX_ITERATIONS)
     return Learnt(positions, normals)
 
 
-def joined(positions: Positions, other: Learnt, share: float, topology: Topology) -> Positions:
+def joined(positions: Positions, result: Learnt, share: float, topology: Topology) -> Positions:
     """Positions, shape (n, 3), that follow the mean of their own normals and the learnt ones, whose part is `share`."""
-    normals = unit((1.0 - share) * face_normals(positions, topology.faces) + share * other.normals)
+    normals = unit((1.0 - share) * face_normals(positions, topology.faces) + share * result.normals)
     # Only along the normals: the networks leave vertices where noise has put them along the surface.
     up = unit(topology.incidence @ normals)
-    start = positions + share * np.einsum("ij,ij->i", other.positions - positions, up)[:, None] * up
+    heights = np.einsum("ij,ij->i", result.positions - positions, up)
+    start = positions + share * heights[:, None] * up
     return follow_normals(start, topology, normals, VERTEX_ITERATIONS)
