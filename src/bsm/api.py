@@ -20,9 +20,9 @@ from bsm.files.formats.metadata import Written
 from bsm.files.inspection import inspect_stream, summarize_stream
 from bsm.files.libraries import as_mesh, read_any, warn
 from bsm.files.mesh import save_written, unknown_suffix, written_mesh
-from bsm.files.partial import decode_blocks, decode_what_is_left
+from bsm.files.partial import blocks_in_words, decode_blocks, decode_what_is_left
 from bsm.files.pipes import Input, Source, as_input, named, read_chunks
-from bsm.files.stream import SequenceStream, decode_whole, refuse_mesh_file
+from bsm.files.stream import SequenceStream, decode_whole, peek_header, refuse_mesh_file
 from bsm.files.table import format_of_name
 from bsm.ground.console import Console, watched
 from bsm.ground.synonyms import advice_on_keyword
@@ -269,7 +269,7 @@ def decode(
     Warns
     -----
     BsmWarning
-        For each loss, if `tolerant`.
+        For each loss, if `tolerant`; if the stream has fewer than `blocks`.
 
     Raises
     ------
@@ -291,7 +291,11 @@ def decode(
     limits, chunks = as_limits(limits), source.chunks()
     with watched("decoding", progress) as reported:
         if blocks is not None:
-            return decode_blocks(chunks, checked_whole("blocks", blocks, 1), reported, limits)
+            header, chunks = peek_header(chunks)
+            mesh = decode_blocks(chunks, checked_whole("blocks", blocks, 1), reported, limits)
+            if header is not None and (fewer := blocks_in_words(blocks, header)):
+                warn([f"blocks={blocks}: {fewer}"])
+            return mesh
         if tolerant:
             losses: list[str] = []
             mesh = decode_what_is_left(chunks, losses.append, limits)

@@ -92,6 +92,18 @@ def test_decoded_blocks_are_counted(folder, capsys):
     assert f"ring.bsm: the first 2 of {count} blocks\n" in capsys.readouterr().err
     assert run("decode", "ring.bsm", "-o", "b.ply", "--blocks", 999) == 0
     assert f"--blocks 999: the stream has {count}, and all were decoded" in capsys.readouterr().err
+    with pytest.warns(bsm.BsmWarning, match=f"blocks=999: the stream has {count}, and all were decoded"):
+        bsm.decode("ring.bsm", blocks=999)
+
+
+def test_a_part_of_a_stream_without_parts_is_all_of_it_and_said(folder, capsys):
+    Path("whole.bsm").write_bytes(bsm.encode(bsm.load("ring.ply"), preset="lossless"))
+    assert run("decode", "whole.bsm", "--blocks", 1) == 0
+    assert "whole.bsm: --blocks 1: the stream has no blocks, and all of it was decoded\n" in capsys.readouterr().err
+    with pytest.warns(bsm.BsmWarning, match="blocks=1: the stream has no blocks"):
+        bsm.decode("whole.bsm", blocks=1)
+    assert run("decode", "whole.bsm", "--layers", 1, "-f") == 0
+    assert "whole.bsm: --layers 1: the stream has 1, and all of it was decoded\n" in capsys.readouterr().err
 
 
 def test_frames_are_told_by_number_and_name(folder, capsys):

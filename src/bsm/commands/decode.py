@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import BsmError, OptionError, counted
 from bsm.bitstream.limits import as_limits
 from bsm.codec.arrays import Faces, Order
@@ -23,7 +24,7 @@ from bsm.files.libraries import as_decoded
 from bsm.files.mesh import save_written, unheard, unknown_suffix, written_mesh
 from bsm.files.output import default_output, no_link, output_inside, refuse_collisions, refuse_to_overwrite
 from bsm.files.parsing import PRECISION
-from bsm.files.partial import decode_blocks, decode_what_is_left
+from bsm.files.partial import blocks_in_words, decode_blocks, decode_what_is_left
 from bsm.files.pipes import about, read_chunks, size_of
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
 from bsm.files.table import MESH_SUFFIXES, ONE_FILE, SEQUENCE_FORMATS, WRITTEN_FORMATS, by_name, format_of_name
@@ -149,8 +150,9 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     if not args.tolerant and header is not None and header.attributes > len(mesh.attributes):
         missing = f"{header.attributes - len(mesh.attributes)} of {header.attributes} attributes"
         console.note(f"{args.input}: left out: {missing}, whose values are missing")
-    if args.blocks is not None and header is not None and not header.grid:
-        console.note(f"{args.input}: {_part_in_words(args.blocks, header.blocks)}")
+    if header is not None:
+        for note in _notes_on_part(args, header):
+            console.note(f"{args.input}: {note}")
     counts = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
     with console.progress("writing"):
         file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
@@ -158,11 +160,18 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         return counts | _saved(args, console, output, kind, file, f"{counted(**counts)}, ", seconds)
 
 
-def _part_in_words(asked: int, blocks: int) -> str:
-    """Say which of the blocks of a stream were decoded."""
-    if asked > blocks:
-        return f"--blocks {asked}: the stream has {blocks}, and all were decoded"
-    return f"the first {asked} of {counted(blocks=blocks)}"
+def _notes_on_part(args: DecodeJob, header: Header) -> Iterator[str]:
+    """Say which of the blocks and layers of a stream were decoded, where some were asked for."""
+    if args.blocks is not None:
+        fewer = blocks_in_words(args.blocks, header)
+        yield (
+            f"--blocks {args.blocks}: {fewer}"
+            if fewer
+            else f"the first {args.blocks} of {counted(blocks=header.blocks)}"
+        )
+    layers = 2 if header.refinement else 1
+    if args.layers is not None and (layers == 1 or args.layers > layers):
+        yield f"--layers {args.layers}: the stream has {layers}, and all of it was decoded"
 
 
 def _note_unheard(args: DecodeJob, console: Console, metadata: Metadata, kind: str) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 import msgpack
 import numpy as np
 
+from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.wire import MAX_ENTRIES, FrameType, Section, read_varint, sections_of
 from bsm.bitstream.errors import MeshError, OptionError
 from bsm.bitstream.limits import Limits
@@ -26,6 +27,15 @@ _IMAGE_DATA = re.compile(r"image\.(\d{1,9})\.data")
 _MOST_NAMED = 3  # images in one note
 _UNKNOWN = "metadata (names, materials or images)"
 """The contents of a section of metadata that cannot be read."""
+
+
+def blocks_in_words(count: int, header: Header) -> str:
+    """Say why a stream has fewer blocks than `count`; nothing if it has as many."""
+    if header.grid:
+        return "the stream has no blocks, and all of it was decoded"
+    if count > header.blocks:
+        return f"the stream has {header.blocks}, and all were decoded"
+    return ""
 
 
 def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress, limits: Limits) -> TriangleMesh:

@@ -116,8 +116,9 @@ class _Scene(Growing):
         if extras:
             self.tree["scenes"][0]["extras"] = extras
         # Extras come back, but no other program looks for a material there.
-        unseen = [name for name in rest if name not in extras or name.startswith("material.")]
-        self.left_out += formats.left_out(mesh, [*vertex_attributes, material, part], unseen)
+        in_extras = [name for name in extras if name.startswith("material.")]
+        lost = [name for name in rest if name not in extras]
+        self.left_out += formats.left_out(mesh, [*vertex_attributes, material, part], lost, in_extras)
 
     def _materials(self, metadata: Metadata, numbers: list[int], written: set[str]) -> dict[int, int]:
         """Add the materials of a mesh and, for faces without one, a matte one; return their places by number."""

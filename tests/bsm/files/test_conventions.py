@@ -193,7 +193,7 @@ def test_what_gltf_says_of_a_texture_comes_back():
     assert moved["offset"] + np.array([cos * x + sin * y, cos * y - sin * x]) == pytest.approx(expected)
     assert written.left_out == again.dropped == () and SAID.items() <= again.mesh.metadata.items()
     one = replace(with_two_sets(), attributes=with_two_sets().attributes[:1])
-    assert written_mesh(one, "glb").left_out == ("baseColorTexture.set of material 0",)
+    assert written_mesh(one, "glb").left_out == ("baseColorTexture.set of material 0 (for programs other than bsm)",)
     swapped = re.sub(rb"TEXCOORD_(.)", lambda found: b"TEXCOORD_%d" % (1 - int(found[1])), written.data)
     assert [a.values.max() for a in read_mesh(swapped, "glb").mesh.attributes] == [2, 1]  # sets have numbers
 
@@ -217,7 +217,7 @@ def test_what_usd_says_of_a_texture_comes_back(tmp_path):
 
 def test_what_mtl_says_of_a_texture_comes_back(tmp_path):
     lost = "baseColorTexture.rotation, baseColorTexture.wrap, baseColorTexture.set, unlit of material 0"
-    assert save(with_two_sets(), tmp_path / "a.obj") == ("b", lost)
+    assert save(with_two_sets(), tmp_path / "a.obj") == ("b", f"{lost} (for programs other than bsm)")
     assert b"map_Kd -s 2 3 1 -o 0.5 0.25 0 " in (tmp_path / "a.mtl").read_bytes()
     data = written_mesh(with_two_sets({"material.0.map_Kd": 0, "material.0.map_Kd.options": "-clamp on"}), "glb").data
     assert unpack(data)[0]["samplers"] == [{"wrapS": 33071, "wrapT": 33071}]

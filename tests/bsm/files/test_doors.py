@@ -854,13 +854,13 @@ def test_factors_stay_in_range_and_far_meshes_go_by_a_node(tmp_path):
     metadata = {"material.0.Kd": "1.5 0 0", "material.0.Ke": "10 10 10", "material.0.d": "1.0"}
     positions = np.add([[0, 0, 0], [1, 0, 0], [0, 1, 0.1]], [500123.25, 100.5, -4649776.75])
     left = bsm.save(TriangleMesh(positions, [[0, 1, 2]], (), metadata), tmp_path / "a.glb")
-    assert left == ("Kd of material 0",)
+    assert left == ("Kd of material 0 (for programs other than bsm)",)
     again = read_mesh(tmp_path / "a.glb").mesh
     assert again.positions == pytest.approx(positions, abs=1e-6)
     assert again.metadata["material.0.emissiveFactor"] == "223.826 223.826 223.826"
     assert again.metadata["material.0.baseColorFactor"] == "1 0 0 1"
     beyond = TriangleMesh(SQUARE, [[0, 1, 2]], (), {"material.0.baseColorFactor": "2 -1 0 1"})
-    assert bsm.save(beyond, tmp_path / "b.obj") == ("baseColorFactor of material 0",)
+    assert bsm.save(beyond, tmp_path / "b.obj") == ("baseColorFactor of material 0 (for programs other than bsm)",)
     assert (tmp_path / "b.mtl").read_text().splitlines()[1:] == ["Kd 1 0 0"]
 
 
@@ -886,9 +886,11 @@ def test_bodies_that_touch_stay_bodies_and_are_objects_of_a_3mf(way, tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["ply", "off", "vtp"])
-def test_formats_without_materials_say_so(kind, tmp_path):
+def test_formats_without_materials_say_so_though_bsm_reads_them_back(kind, tmp_path):
     mesh = TriangleMesh(SQUARE, [[0, 1, 2]], (), {"material.0.baseColorFactor": "1 0 0 1"})
-    assert "baseColorFactor of material 0" in bsm.save(mesh, tmp_path / f"a.{kind}")
+    lost = bsm.save(mesh, tmp_path / f"a.{kind}")
+    assert lost == ("baseColorFactor of material 0 (for programs other than bsm)",)
+    assert bsm.load(tmp_path / f"a.{kind}").metadata["material.0.baseColorFactor"] == "1 0 0 1"
     assert bsm.save(mesh, tmp_path / "a.obj") == () and "Kd 1 0 0" in (tmp_path / "a.mtl").read_text()
 
 

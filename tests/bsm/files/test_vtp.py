@@ -28,7 +28,7 @@ def equal(first, second):
 
 def test_vtk_sees_what_is_written(tmp_path):
     pyvista = pytest.importorskip("pyvista")
-    assert bsm.save(painted(), tmp_path / "a.vtp") == ("map_Kd of material skin",)
+    assert bsm.save(painted(), tmp_path / "a.vtp") == ("map_Kd of material skin (for programs other than bsm)",)
     seen = pyvista.read(tmp_path / "a.vtp")
     assert seen.point_data.active_scalars_name == "height" and seen.cell_data.active_scalars_name == "label"
     assert seen.point_data.active_texture_coordinates_name == "texcoord"

@@ -336,14 +336,24 @@ class Written:
 
 
 def unsaid(metadata: Metadata, kind: str) -> list[str]:
-    """The names of the words of materials that say more than a format holds."""
+    """The names of the words of materials that say more to other programs than a format holds."""
     return [f"material.{n}.{word}" for n, m in materials_in(metadata).items() for word in lost(m, held_by(kind))]
 
 
-def left_out(mesh: TriangleMesh, attributes: Iterable[Attribute | None], metadata: Collection[str]) -> tuple[str, ...]:
-    """The names of the attributes that are not among those held, and metadata in words."""
+def left_out(
+    mesh: TriangleMesh,
+    attributes: Iterable[Attribute | None],
+    metadata: Collection[str],
+    in_remarks: Collection[str] = (),
+) -> tuple[str, ...]:
+    """The names of the attributes that are not among those held, and metadata in words.
+
+    `in_remarks`: metadata that this library reads back, from remarks or extras, and no other program.
+    """
     names = {attribute.name for attribute in attributes if attribute is not None}
-    return (*(a.name for a in mesh.attributes if a.name not in names), *in_words(metadata, mesh.metadata))
+    missing_attributes = [attribute.name for attribute in mesh.attributes if attribute.name not in names]
+    for_others = [f"{phrase} (for programs other than bsm)" for phrase in in_words(in_remarks, mesh.metadata)]
+    return (*missing_attributes, *in_words(metadata, mesh.metadata), *for_others)
 
 
 _IN_WORDS = {"d": "opacity", "Tr": "opacity", "map_d": "opacity map", "alphaMode": "kind of opacity"}

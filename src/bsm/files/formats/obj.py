@@ -362,7 +362,8 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     parts += chain.from_iterable(zip(before.tolist(), faces))
     renamed = [key for key, name in group_metadata.items() if mesh.metadata.get(key, name) != name]
     written_attributes = (color, texcoord, normal, *numbers.values())
-    lost = materials.left_out(original, written_attributes, (*dict.fromkeys((*omitted, *unsaid)), *renamed))
+    in_remarks = [word for word in unsaid if word not in omitted]
+    lost = materials.left_out(original, written_attributes, (*omitted, *renamed), in_remarks)
     if color is not None and color.components > _COLORS:
         lost = (f"alpha of {color.name}", *lost)
     return materials.Written("".join(parts).encode(), lost, library.beside)

@@ -105,7 +105,8 @@ def write_off(mesh: TriangleMesh, stem: str) -> Written:
     columns = [*mesh.faces.T.tolist(), *(column for table in behind for column in table.T.tolist())]
     faces = "".join(map(("3 {} {} {}" + face).format, *columns))
     attributes_held = (normal, color, texcoord, of_faces)
-    lost = left_out(original, attributes_held, dict.fromkeys((*omitted, *unsaid(mesh.metadata, "OFF"))))
+    in_remarks = [word for word in unsaid(mesh.metadata, "OFF") if word not in omitted]
+    lost = left_out(original, attributes_held, omitted, in_remarks)
     return Written((head + counts).encode() + points + faces.encode(), lost)
 
 

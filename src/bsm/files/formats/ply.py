@@ -458,8 +458,8 @@ def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
         lines += [f"element {element} {len(rows)}", *properties]
         body.append(rows.tobytes())
     header = "\n".join([*lines, "end_header", ""])
-    unsaid_words = formats.unsaid(metadata, "PLY")
-    lost = formats.left_out(original, mesh.attributes, dict.fromkeys((*omitted, *unsaid_words)))
+    in_remarks = [word for word in formats.unsaid(metadata, "PLY") if word not in omitted]
+    lost = formats.left_out(original, mesh.attributes, omitted, in_remarks)
     return formats.Written(header.encode() + b"".join(body), lost, library.beside)
 
 

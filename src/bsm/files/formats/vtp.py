@@ -26,7 +26,7 @@ from bsm.files.formats.metadata import (
     Written,
     components_in_file,
     first,
-    in_words,
+    left_out,
     name_in_file,
     plain_fields,
     split_at_seams,
@@ -363,7 +363,7 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
         f"<Points>{points}</Points>\n<Polys>{corners}{ends}</Polys>\n"
         '</Piece></PolyData>\n<AppendedData encoding="raw">_'
     )
-    lost = tuple(in_words(unsaid(mesh.metadata, "VTP"), mesh.metadata))
+    lost = left_out(mesh, mesh.attributes, (), unsaid(mesh.metadata, "VTP"))
     return Written(b"".join((text.encode(), *appended.blocks, b"</AppendedData></VTKFile>\n")), lost)
 
 
