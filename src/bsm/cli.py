@@ -7,13 +7,14 @@ import re
 import shlex
 import sys
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, NoReturn
 
 from bsm import __version__
 from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.codec.choices import suggestion
-from bsm.commands.synonyms import advice_on_command, refuse_misplaced
+from bsm.commands.synonyms import NUMBER, advice_on_command, refuse_misplaced
 from bsm.files.output import refuse_collisions
 from bsm.ground.console import Console
 from bsm.ground.exits import EXITS, USAGE, Terminated, behind, exit_of, is_expected, report_error
@@ -211,7 +212,12 @@ class Parser(argparse.ArgumentParser):
         return " COMMAND ..." if commands else f"{names} [options]"
 
     def parse_command(self, words: Sequence[str]) -> argparse.Namespace:
-        for word in words[: words.index("--") if "--" in words else None]:
+        words_before_dashes = words[: words.index("--") if "--" in words else None]
+        for option, value in pairwise(words_before_dashes):
+            action = self._option_string_actions.get(option)
+            if action is not None and action.nargs == 0 and NUMBER.fullmatch(value) and not os.path.exists(value):
+                self.error(f"{option} takes no value, and there is no file {value}")
+        for word in words_before_dashes:
             known = {word[:2], word.partition("=")[0]} & self._option_string_actions.keys()
             # A glob such as *.ply may give a file that begins with a dash.
             if word.startswith("-") and not known and os.path.exists(word):

@@ -37,7 +37,10 @@ encode ring.ply --block-size 50 | instead: --set block_size=
 encode ring.ply --scale 0.001 | instead: --meta unit=mm | bsm decode --unit-out m scales
 encode ring.ply --textures keep | instead: --images keep
 glb ring.glb -o out.glb -cc | instead: --preset small
-glb ring.glb -o out.glb --max-error 0.1% | instead: --preset fine
+glb ring.glb -o out.glb --max-error 0.1% | instead: --preset near-lossless
+encode frames --start 1 --end 10 | instead: --frames 1:10 (frames 1 to 9, where 0 is the first)
+encode frames --size 10kB | for single meshes | instead: bpvf=2, as an option --bpvf 2
+decode ring.bsm -o no/where.ply | the folder no of the output does not exist; create it first
 view -r frames | FOLDER/*.bsm | bsm view also takes a folder
 info -r frames | FOLDER/*.bsm
 verify -r frames --report check.json | instead: --json > report.json
@@ -54,7 +57,6 @@ decode -r . -o all.ply | -o all/ | -o all.ply/
 encode ring.jpg | it is a picture
 encode walk.bvh | it moves a skeleton
 encode ring.ply -o x.bsm --images webp:101 | from 1 to 100, not 101
-encode frames -o x.bsm --size 10kB | for single meshes | instead: bpvf
 encode ring.ply -o x.bsm --kg 1 | nmsve_db
 info frames | is a folder without streams
 info . | bsm info ./*.bsm | bsm verify -r

@@ -232,3 +232,10 @@ def test_limits_have_names_everywhere(mesh, stream, tmp_path):
             assert any(isinstance(event, bsm.EndEvent) for event in decoder.events([stream]))
     with pytest.raises(bsm.ArgumentError, match="'service'"):
         bsm.decode(stream, limits="services")
+
+
+def test_a_missing_folder_is_named_and_nothing_else(mesh, tmp_path):
+    path = tmp_path / "no" / "where.ply"
+    with pytest.raises(FileNotFoundError) as caught:
+        bsm.save(mesh, path)
+    assert str(caught.value).endswith(f"the folder {path.parent} of the output does not exist; create it first: '{path}'")

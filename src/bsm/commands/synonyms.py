@@ -10,8 +10,8 @@ from bsm.bitstream.errors import OptionError
 from bsm.files.table import MESH_FORMATS, MESH_SUFFIXES
 from bsm.ground.synonyms import COMMANDS
 
-# A word like 0.1 or mm among the inputs comes from an option that takes no value, or from a space inside of one.
-_NUMBER = re.compile(r"[-+]?[\d.]+(?:e[-+]?\d+)?%?")
+NUMBER = re.compile(r"[-+]?[\d.]+(?:e[-+]?\d+)?%?")
+# A word like mm among the inputs comes from a space inside of a value.
 _UNIT = re.compile(r"mm|cm|m|in|inch|%|[kMG]i?B|KB|bytes|dB|deg(?:rees)?|bpv", re.IGNORECASE)
 
 
@@ -40,10 +40,6 @@ def refuse_misplaced(command: str, inputs: Sequence[str], *, recursive: bool) ->
         if _UNIT.fullmatch(name) and not os.path.dirname(name):
             example = "20" if name.lower().endswith(("b", "bytes")) and name != "dB" else "0.1"
             raise OptionError(f"{name}: no such file; if it is a unit, write it without a space: {example}{name}")
-        if _NUMBER.fullmatch(name):
-            raise OptionError(
-                f"{name}: no such file, and the option before it takes no value; see bsm {command} --help"
-            )
     if len(inputs) != 2 or inputs[0] in missing:
         return
     outputs = {"encode": (".bsm",), "decode": tuple(f".{kind}" for kind in MESH_FORMATS)}

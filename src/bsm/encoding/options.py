@@ -114,8 +114,8 @@ def _names(*kinds: Any) -> set[str]:
     return {item.name for kind in kinds for item in fields(kind)}
 
 
-_COUNTERPARTS = {"size": "bpvf", "bpv": "bpvf", "bpvf": "bpv", "kg": "nmsve_db"}
-"""Options that a mesh or a sequence has for an option of the other."""
+_COUNTERPARTS = {"size": ("bpvf", "2"), "bpv": ("bpvf", "2"), "bpvf": ("bpv", "8"), "kg": ("nmsve_db", "-50")}
+"""Options that a mesh or a sequence has for an option of the other, with a usual value."""
 _OF_MESHES = {*_names(EncodeOptions, Paper), *TARGETS, *BOUNDS, "preset"}
 _OF_SEQUENCES = {*_names(SequenceOptions), *SEQUENCE_TARGETS, "preset"}
 
@@ -139,8 +139,9 @@ def _fields(what: str, known: set[str], keywords: Mapping[str, Any], targets: Ma
         # An option of the other kind is the usual mistake, and "unknown" would be wrong.
         for others, names in (("single meshes", {*_OF_MESHES, "simplify"}), ("sequences", _OF_SEQUENCES)):
             if name in names and what != "denoising":
-                instead = _COUNTERPARTS.get(name, "")
-                advice = f"; instead: {instead}" if instead in known else ""
+                counterpart, value = _COUNTERPARTS.get(name, ("", ""))
+                as_option = f"--{counterpart.replace('_', '-')} {value}"
+                advice = f"; instead: {counterpart}={value}, as an option {as_option}" if counterpart in known else ""
                 raise ArgumentError(f"{name} is for {others}, not for {what}{advice}")
         raise ArgumentError(f"unknown option {name} for {what}{_advice_on(name, known)}")
     wanted = [name for name, value in keywords.items() if name in (*targets, "target") and value is not None]

@@ -339,7 +339,7 @@ def read_points(path: str, meshes: Mapping[str, Result]) -> list[Result]:
                 _POINT | {"bpv_total": float(row["bpv"])} | {name: float(row[name]) for name in measures if row[name]}
             )
         except (TypeError, ValueError) as error:
-            raise FormatError(f"{where}: a number is missing or wrong: {error}") from error
+            raise FormatError(f"{where}: a number is missing or wrong: {error}; it has a point: 3.5") from error
         if not point["bpv_total"] > 0.0 or not all(math.isfinite(point[name] or 0.0) for name in measures):
             raise FormatError(f"{where}: bits per vertex must be above 0, and errors finite")
         _refuse_impossible_errors(point, where)

@@ -259,9 +259,11 @@ def by_its_own_name(path: str | os.PathLike[str]) -> Iterator[None]:
             or str(error.filename).endswith(_TEMPORARY)
             or (error.filename is None and error.errno in _FULL)
         ):
-            error.filename, error.filename2 = os.fspath(path), None
-            if isinstance(error, FileNotFoundError) and not os.path.isdir(os.path.dirname(os.fspath(path))):
-                error.strerror = "the folder of the output does not exist; create it first"
+            error.filename = os.fspath(path)
+            del error.filename2  # None would be printed as a name
+            folder = os.path.dirname(os.fspath(path))
+            if isinstance(error, FileNotFoundError) and not os.path.isdir(folder):
+                error.strerror = f"the folder {folder} of the output does not exist; create it first"
         raise
 
 
