@@ -4,6 +4,7 @@ import types
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import fields
+from functools import cache
 from numbers import Integral, Real
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
@@ -45,7 +46,7 @@ def check_options(
 ) -> None:
     """Give the fields of a dataclass their types, and check those with choices or a closed range; None is legal."""
     # Types are checked at run time, since most callers have no type checker, and a kernel in C would take anything.
-    hints = get_type_hints(type(options))  # fields may have their annotations as text
+    hints = _hints_of(type(options))
     for name in (item.name for item in fields(options)):
         value = checked(name, getattr(options, name), hints[name])
         object.__setattr__(options, name, value)
@@ -55,6 +56,12 @@ def check_options(
             raise OptionError(f"{name} must be one of {', '.join(choices[name])}, not {value!r}")
         if name in ranges and not ranges[name][0] <= value <= ranges[name][1]:
             raise OptionError(f"{name} = {value!r:.20} is outside {ranges[name][0]:.7g}..{ranges[name][1]:.7g}")
+
+
+@cache
+def _hints_of(kind: type) -> dict[str, Any]:
+    """Return the types of the fields of a class, whose annotations may be text."""
+    return get_type_hints(kind)
 
 
 def checked(name: str, value: Any, hint: Any) -> Any:
