@@ -46,7 +46,8 @@ def check_options(
 ) -> None:
     """Give the fields of a dataclass their types, and check those with choices or a closed range; None is legal."""
     # Types are checked at run time, since most callers have no type checker, and a kernel in C would take anything.
-    hints = _hints_of(type(options))
+    kind: type = type(options)
+    hints = _hints_of(kind)
     for name in (item.name for item in fields(options)):
         value = checked(name, getattr(options, name), hints[name])
         object.__setattr__(options, name, value)

@@ -78,7 +78,7 @@ def descriptions(
     local = (vectors @ frames.transpose(0, 2, 1)).reshape(len(areas), -1)
     counted = np.ones(len(smooth), bool)
     if noisy is not None:
-        counted = noisy[topology.faces].any(axis=1)
+        counted &= noisy[topology.faces].any(axis=1)
     roughness = np.linalg.norm(normals - smooth, axis=1)[counted].sum() / max(np.count_nonzero(counted), 1)
     covered = areas / (areas + distance * distance)
     for begin in range(0, len(areas), BATCH):

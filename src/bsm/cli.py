@@ -216,7 +216,7 @@ class Parser(argparse.ArgumentParser):
         for option, value in pairwise(words_before_dashes):
             action = self._option_string_actions.get(option)
             if action is not None and action.nargs == 0 and NUMBER.fullmatch(value) and not os.path.exists(value):
-                self.error(f"{option} takes no value, and there is no file {value}")
+                self.error(f"{option} takes no value, and {value} is not a file")
         for word in words_before_dashes:
             known = {word[:2], word.partition("=")[0]} & self._option_string_actions.keys()
             # A glob such as *.ply may give a file that begins with a dash.

@@ -238,4 +238,4 @@ def test_a_missing_folder_is_named_and_nothing_else(mesh, tmp_path):
     path = tmp_path / "no" / "where.ply"
     with pytest.raises(FileNotFoundError) as caught:
         bsm.save(mesh, path)
-    assert str(caught.value).endswith(f"the folder {path.parent} of the output does not exist; create it first: '{path}'")
+    assert str(caught.value).endswith(f"folder {path.parent} of the output does not exist; create it first: '{path}'")

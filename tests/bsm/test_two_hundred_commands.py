@@ -171,7 +171,7 @@ encode ring.ply --quality 80 | --preset fine
 encode ring.ply -qp 11 | --preset fine
 encode ring.ply -cl 10 | --preset fine
 encode ring.ply --level 10 | --preset fine
-encode ring.ply -q 90 | -q takes no value, and there is no file 90
+encode ring.ply -q 90 | -q takes no value, and 90 is not a file
 encode ring.ply --lossless | --preset lossless
 encode ring.ply --fine | --preset
 encode ring.ply --preset high | small, balanced, fine
@@ -198,7 +198,7 @@ encode ring.ply --look 0 | look must be above 0
 encode ring.ply --theta 5deg | a number is expected, not '5deg'
 encode ring.ply --theta | expected one argument
 encode ring.ply --theta 3 --size 2kB | not allowed with argument
-encode ring.ply --simplify 0.5 | --simplify takes no value, and there is no file 0.5
+encode ring.ply --simplify 0.5 | --simplify takes no value, and 0.5 is not a file
 encode 0.5 --preset fine | 0.5: no such file
 encode ring.ply --decimate 0.5 | --simplify
 encode ring.ply --fast | --quick
