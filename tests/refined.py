@@ -50,7 +50,7 @@ def refined(mesh: TriangleMesh, layer: Layer, counts: tuple[int, ...]) -> bytes:
     made = base(mesh)
     header = replace(made.draft.header, refinement=(layer.step, layer.ratio))
     packets: list[Packet] = [header, *made.draft.body]
-    levels, first = made.wanted(made.expected_steps(layer))[0], 0
+    levels, first = made.best_levels(made.expected_steps(layer))[0], 0
     coder = levels_field(made.prepared.mesh.faces, levels)
     for count in counts:
         packets.append(Refinement(first, count, coder.write(count)[0]))

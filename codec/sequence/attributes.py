@@ -67,22 +67,22 @@ class Bound:
         extent = float((high - low).max())
         if not max(-low.min(), high.max()) < LARGEST:
             raise OptionError(f"{name!r} moves, and values beyond {LARGEST:g} cannot")
-        whole = values.dtype.kind != "f"
+        is_integer = values.dtype.kind != "f"
         way, amount = self.quality.way, self.quality.amount
         # Differences of floats are coded in steps, which no step makes exact.
-        if way in ("angle", "recompute") or (way == "exact" and not whole):
+        if way in ("angle", "recompute") or (way == "exact" and not is_integer):
             raise OptionError(
                 f"{name!r} moves, and cannot be kept {self.quality}: ask for a bound, 0.01, 1% or 1%rms, or for bits"
             )
         if way == "exact":
             bound = 0.0
         elif way == "bits":
-            unit = not whole and self.attribute.semantic == "color" and low.min() >= 0.0 and high.max() <= 1.0
+            unit = not is_integer and self.attribute.semantic == "color" and low.min() >= 0.0 and high.max() <= 1.0
             step = (1.0 if unit else extent) / (2 ** int(amount) - 1)
-            bound = float(-(-step // 1) // 2) if whole else step / 2.0
+            bound = float(-(-step // 1) // 2) if is_integer else step / 2.0
         else:
             bound = amount if way == "bound" else amount / 100.0 * extent
-        return replace(self, amount=float(int(bound)) if whole and way != "rms" else bound)
+        return replace(self, amount=float(int(bound)) if is_integer and way != "rms" else bound)
 
     @property
     def of_first(self) -> Quality:
@@ -95,9 +95,9 @@ class Bound:
     def reach(self) -> float:
         """The bound of what `off` tells."""
         assert self.amount is not None
-        whole = self.attribute.values.dtype.kind != "f" and not self._is_rms
+        is_integer = self.attribute.values.dtype.kind != "f" and not self._is_rms
         # Before rounding, an integer may be off by almost a half more.
-        return self.amount + 0.5 - MARGIN if whole else self.amount
+        return self.amount + 0.5 - MARGIN if is_integer else self.amount
 
     @property
     def first_step(self) -> float:
@@ -116,15 +116,15 @@ class Bound:
         off = float(np.abs(wide - now).max(initial=0.0))
         return off if math.isfinite(off) else math.inf
 
-    def between(self, decoded: Matrix, given: Matrix) -> float:
+    def between(self, decoded: Matrix, original: Matrix) -> float:
         """Return the error of decoded values, shape (k, c), as a share of the bound."""
-        apart = np.abs(decoded - given)
+        apart = np.abs(decoded - original)
         most = float(apart.max(initial=0.0))
         if self._is_rms:
             most = max(float(np.sqrt(np.square(apart).mean())), most / OUTLIER)
         # Decoded floats are rounded once more.
         # The check has only decoded values, which were rounded to their kind.
-        rounding = float(np.finfo(np.float32).eps) * float(np.abs(given).max(initial=0.0))
+        rounding = float(np.finfo(np.float32).eps) * float(np.abs(original).max(initial=0.0))
         allowed = (self.amount or 0.0) * (1.0 + MARGIN) + rounding
         return float(most / allowed) if most > 0.0 else 0.0
 
@@ -150,12 +150,12 @@ class Expected:
 class MovingAttributeEncoder:
     """Encodes one attribute in the GOPs of a run."""
 
-    def __init__(self, number: int, carried: PreparedAttribute, given: Values, bound: Bound) -> None:
+    def __init__(self, number: int, carried: PreparedAttribute, first_values: Values, bound: Bound) -> None:
         self.number = number
         self.name, self.bound = carried.declaration.name, bound
         self.first: Values = carried.values
         self._carried = carried
-        self._given = given
+        self._given = first_values
         self._encoder: GopEncoder | None = None
         self._step: float | None = None
         self._latest: Values = self.first
@@ -186,8 +186,8 @@ class MovingAttributeEncoder:
         # An attribute that stood still until now begins to move. Its bound follows from what is known of it here, as a
         # live stream cannot wait for its end.
         if self.bound.amount is None and (values != self._given).any():
-            known = np.concatenate([self._given[None], values])
-            self.bound = self.bound.over(known)
+            all_values = np.concatenate([self._given[None], values])
+            self.bound = self.bound.over(all_values)
         ends = np.cumsum([body.frames for body in bodies])
         return [self._field(body, values[end - body.frames : end]) for body, end in zip(bodies, ends, strict=True)]
 
@@ -197,31 +197,31 @@ class MovingAttributeEncoder:
         nothing = np.zeros(before.shape)
         if (
             self.bound.amount is None
-            or max(self.bound.off(own, before, nothing) for own in values) <= self.bound.amount
+            or max(self.bound.off(row, before, nothing) for row in values) <= self.bound.amount
         ):
             self._encoder.stay(body.frames, body.method)
             self._latest = before
             return still(values.shape[2])
         reach, encoder = self.bound.reach, self._encoder
-        kept: tuple[GopEncoder, GopField, Values] | None = None
+        best: tuple[GopEncoder, GopField, Values] | None = None
 
         # Each attempt codes on a copy of the state: the models learn from what they code.
         def excess(step: float) -> float:
-            nonlocal kept
+            nonlocal best
             twin = encoder.copy()
             twin.step = single(step)
             field, changes = self._attempt(twin, body, values)
-            off = max(self.bound.off(own, self.first, change) for own, change in zip(values, changes, strict=True))
+            off = max(self.bound.off(frame, self.first, change) for frame, change in zip(values, changes, strict=True))
             # The widest step that holds is kept, whatever order they are tried in.
-            if off <= reach and (kept is None or twin.step > kept[0].step):
-                kept = twin, field, changed(self.first, changes[-1])
+            if off <= reach and (best is None or twin.step > best[0].step):
+                best = twin, field, changed(self.first, changes[-1])
             return math.log(max(off / reach, LEAST))
 
         first = self._step or self.bound.first_step
         secant(excess, first, LEAST * first, first / LEAST, slack=SLACK)
-        if kept is None:
+        if best is None:
             raise self._refusal("ask for less")
-        self._encoder, field, self._latest = kept
+        self._encoder, field, self._latest = best
         self._step = self._encoder.step
         return field
 
@@ -230,16 +230,16 @@ class MovingAttributeEncoder:
 
     def _attempt(self, encoder: GopEncoder, body: GopBody, values: Values) -> tuple[GopField, list[Matrix]]:
         """A field, and its decoded form: the changes of each frame, shape (n, d)."""
-        wanted = values.astype(np.float64) - self.first
+        changes = values.astype(np.float64) - self.first
         try:
             if not body.method.has_basis:
                 key = body.method is GopMethod.KEY_FRAME
-                field = encoder.encode_next(wanted, silent, key=key)
+                field = encoder.encode_next(changes, silent, key=key)
                 assert encoder.latest is not None
                 return field, list(encoder.latest)
             # Positions decide how frames are grouped and repeated. An attribute follows, so that one table tells both.
             distinct, places = distinct_frames(body.places)
-            frames, weights = wanted[distinct], np.sqrt(np.bincount(places))
+            frames, weights = changes[distinct], np.sqrt(np.bincount(places))
             motion = Decomposition(frames).motion(encoder.step)
             learnt = encoder.encode_learnt(motion.fields, motion.shapes, weights, body.method, silent)
         except OptionError as error:

@@ -190,8 +190,8 @@ class SequenceEncoder:
         if target is None:
             raise OptionError("no target to search for")
         # A target is for the whole sequence, so it is coded several times, and an iterator gives its frames once.
-        found = list(frames)
-        for run in RunSplitter(found, self._faces, allowed=self.options.runs).runs():
+        given_frames = list(frames)
+        for run in RunSplitter(given_frames, self._faces, allowed=self.options.runs).runs():
             # The bits of runs depend on their meshes, of which no step is a function.
             if run.first:
                 raise OptionError(
@@ -200,20 +200,20 @@ class SequenceEncoder:
                 )
             # The splitter moves on only when the frames of a run have been taken.
             deque(run.frames, maxlen=0)
-        finest = finest_step([_positions(frame) for frame in found], self.options)
+        finest = finest_step([_positions(frame) for frame in given_frames], self.options)
         first, rise = self.options.step, RISES.get(target.kind, 1.0)
-        best = search_step(lambda step: self.attempt(found, step, progress), target, first, finest, rise)
+        best = search_step(lambda step: self.attempt(given_frames, step, progress), target, first, finest, rise)
         self._verifier, self._drawn = best.verifier, best.drawn
         return best
 
     def attempt(self, frames: Sequence[Frame], step: float, progress: Progress | None = None) -> SequenceAttempt:
         """Encode frames, each of shape (n, 3), or meshes, with a given step, and compare the decoded ones."""
-        shown: list[Measured] = []
-        chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress, shown))
+        pairs: list[Measured] = []
+        chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress, pairs))
         if len(self.run_starts) > 1:
             raise MeshError(f"joined vertices part at frame {self.run_starts[1]}: a target is for frames of one run")
-        original, decoded = (np.array([frame[side] for frame in shown]) for side in (0, 1))
-        compared = compare_sequences(original, decoded, shown[0][2])
+        original, decoded = (np.array([frame[side] for frame in pairs]) for side in (0, 1))
+        compared = compare_sequences(original, decoded, pairs[0][2])
         return SequenceAttempt(chunks, self.samples, compared, self._verifier, self._drawn)
 
     def _chunks(
@@ -221,10 +221,10 @@ class SequenceEncoder:
         frames: Iterable[Frame],
         options: SequenceOptions,
         progress: Progress | None,
-        shown: list[Measured] | None = None,
+        pairs: list[Measured] | None = None,
     ) -> Iterator[bytes]:
         steps: _Rounds | None = None
-        self._verifier = verifier = SequenceVerifier(options, self._metadata, shown)
+        self._verifier = verifier = SequenceVerifier(options, self._metadata, pairs)
         meshes = Meshes()
         writer = SectionWriter()
         number = 0
@@ -265,34 +265,34 @@ class SequenceEncoder:
         for run in splitter.runs():
             attributes = tuple(attribute for attribute in run.mesh.attributes if attribute.semantic != "normal")
             # The caller's attributes belong to the first run; later meshes bring their own.
-            own = attributes if run.first or not self._attributes else self._attributes
-            yield replace(run, mesh=replace(run.mesh, attributes=own))
+            current = attributes if run.first or not self._attributes else self._attributes
+            yield replace(run, mesh=replace(run.mesh, attributes=current))
 
     def _run(
         self, run: JoinedRun, index: int, meshes: Meshes, options: SequenceOptions, progress: Progress
     ) -> Iterator[packets.Packet]:
         """The packets of a run; `_done` grows by its frames."""
         self.run_starts.append(run.first)
-        self._done, known = 0, meshes.find(run)
-        prepared = known.prepared if known else _prepared(run.joined, options)
+        self._done, earlier = 0, meshes.find(run)
+        prepared = earlier.prepared if earlier else _prepared(run.joined, options)
         original = AsGiven(run.mesh, run.joined, prepared)
         self.vertex_order = original.vertex_order
-        self.face_order = run.joined.kept[prepared.face_order].astype(np.int64)
+        self.face_order = run.joined.coded_faces[prepared.face_order].astype(np.int64)
         frames = (frame[prepared.coding_order] for frame in run.frames)
         longest = options.together(len(prepared.positions))
         group = next_group(frames, longest, prepared, run.moving)
         encoder = RunEncoder(prepared, options, self._count, progress)
-        if known is None:
+        if earlier is None:
             more = len(group) == longest and run.first + longest != self._count
             carried, coders = self._carried(run, prepared, options, group, more=more)
             resting = tuple(attribute for attribute in carried if not attribute.declaration.moves)
-            gops = encoder.first(group, meshes.kept, [coder.start for coder in coders])
+            gops = encoder.first(group, meshes.costs, [coder.start for coder in coders])
             mesh = OpenedMesh(index, prepared, gops, coders, resting)
             begun = self._opened(run, index, prepared, gops.first_frame, carried)
         else:
-            mesh = replace(known, gops=encoder.again(group, known.gops))
-            own, again = mesh.gops.first_frame.header, (index, known.run)
-            begun = iter([Header(vertices=own.vertices, faces=own.faces, sequence=(self._count, longest), run=again)])
+            mesh = replace(earlier, gops=encoder.again(group, earlier.gops))
+            head, again = mesh.gops.first_frame.header, (index, earlier.run)
+            begun = iter([Header(vertices=head.vertices, faces=head.faces, sequence=(self._count, longest), run=again)])
         self._verifier.expect_mesh(original, mesh.resting)
         yield from begun
         for track, coder in enumerate(mesh.coders, 1):
@@ -328,7 +328,7 @@ class SequenceEncoder:
             if 0 < self._count < run.first + self._done + body.frames:
                 raise OptionError(f"{self._count} frames were announced and more came")
             # Decoders grant memory by the bytes that have arrived, so the encoder keeps the same account.
-            gops.first_frame.kept.received += body.size
+            gops.first_frame.costs.received += body.size
             yield packets.Gop(run.first + self._done, write_gop_body(body, index, [coder.number for coder in coders]))
             self._done += body.frames
             self.samples += body.frames * len(self.vertex_order)
@@ -337,16 +337,16 @@ class SequenceEncoder:
         self, run: JoinedRun, prepared: Prepared, options: SequenceOptions, group: Group, *, more: bool
     ) -> tuple[tuple[PreparedAttribute, ...], tuple[MovingAttributeEncoder, ...]]:
         """Return the attributes of a run with its own mesh, and encoders of those that move, or may if `more` comes."""
-        given, asked = run.mesh, dict(options.attributes)
+        mesh, chosen = run.mesh, dict(options.attributes)
         move = {name for name, values in group.moving.items() if (values != values[:1]).any()}
         # Whether an attribute ever moves is unknown while more frames may come. It is declared as moving, and costs
         # nothing while it rests.
         may = move | (set(group.moving) if more else set())
         bounds = {
-            a.name: Bound(quality, a) for a, quality in qualities(given.attributes, asked, "balanced", moving=may)
+            a.name: Bound(quality, a) for a, quality in qualities(mesh.attributes, chosen, "balanced", moving=may)
         }
-        wanted = []
-        for attribute, quality in qualities(given.attributes, asked, "balanced", moving=move):
+        pairs = []
+        for attribute, quality in qualities(mesh.attributes, chosen, "balanced", moving=move):
             if attribute.name in move:
                 bounds[attribute.name] = bounds[attribute.name].over(group.moving[attribute.name])
                 quality = bounds[attribute.name].of_first
@@ -356,8 +356,8 @@ class SequenceEncoder:
                 )
             elif attribute.name not in may or (quality.way == "exact" and attribute.values.dtype.kind == "f"):
                 del bounds[attribute.name]
-            wanted.append((attribute, quality))
-        carried = carry(run.joined.coding, prepared.mesh.faces, wanted, 0)
+            pairs.append((attribute, quality))
+        carried = carry(run.joined.coding, prepared.mesh.faces, pairs, 0)
         carried = tuple(
             replace(a, declaration=replace(a.declaration, moves=1)) if a.declaration.name in bounds else a
             for a in carried
@@ -400,7 +400,7 @@ class Meshes:
     """The meshes that decoders keep, those that runs have had last: a run can have one of them again."""
 
     def __init__(self) -> None:
-        self.kept = Kept()
+        self.costs = Kept()
         self._opened: dict[int, OpenedMesh] = {}  # by the run that brought them, the one used last at the end
         self._known: dict[bytes, tuple[int, TriangleMesh]] = {}  # the run that brought a mesh, and that, by its faces
 
@@ -413,36 +413,36 @@ class Meshes:
             others = (attribute for attribute in before.attributes if attribute.name not in moving)
             if all(has(begun.mesh.attributes, attribute) for attribute in others):
                 # The mesh comes back, but what decoders keep has changed since.
-                opened.gops.first_frame.kept = replace(self.kept)
+                opened.gops.first_frame.costs = replace(self.costs)
                 return opened
         # The least recently used one goes, by the same rule as in decoders, to the mesh.
         if len(self._opened) == KEPT_MESHES:
             oldest = self._opened.pop(next(iter(self._opened))).gops.first_frame
-            self.kept.vertices -= oldest.header.vertices
-            self.kept.memory -= oldest.memory
+            self.costs.vertices -= oldest.header.vertices
+            self.costs.memory -= oldest.memory
         return None
 
     def keep(self, opened: OpenedMesh, ended: JoinedRun) -> None:
         """Take note that a run of this mesh has ended."""
-        self.kept = replace(opened.gops.first_frame.kept)
+        self.costs = replace(opened.gops.first_frame.costs)
         # Taken out and put in again: a dictionary keeps the order of insertion, and this one is by last use.
         self._opened.pop(opened.run, None)
         self._opened[opened.run] = opened
-        given = TriangleMesh(ended.mesh.positions, ended.mesh.faces, ended.mesh.attributes)
-        self._known[_digest(ended)] = opened.run, given
+        bare = TriangleMesh(ended.mesh.positions, ended.mesh.faces, ended.mesh.attributes)
+        self._known[_digest(ended)] = opened.run, bare
 
 
 def _digest(run: JoinedRun) -> bytes:
     """Return a digest that runs of the same faces, joins and resting attributes share."""
     mesh, moving = run.mesh, {attribute.name for attribute in run.moving}
     # A digest, since comparing a mesh with all earlier ones would need all their faces.
-    found = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes() + run.joined.index.tobytes())
+    digest = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes() + run.joined.index.tobytes())
     for attribute in mesh.attributes:
-        found.update(repr(kind_of(attribute)).encode())
-        found.update(b"" if attribute.name in moving else attribute.values.tobytes())
+        digest.update(repr(kind_of(attribute)).encode())
+        digest.update(b"" if attribute.name in moving else attribute.values.tobytes())
         if attribute.indices is not None:
-            found.update(attribute.indices.tobytes())
-    return found.digest()
+            digest.update(attribute.indices.tobytes())
+    return digest.digest()
 
 
 def _prepared(joined: JoinedMesh, options: SequenceOptions) -> Prepared:
@@ -462,15 +462,15 @@ class _Rounds:
         self._stages = Stages(progress, {"preparing": preparing, "coding": coding, "finishing": finishing})
         self._rounds, self._done, self._searches = rounds, 0, searches
 
-    def __call__(self, done: int, blocks: int) -> None:
+    def __call__(self, finished: int, blocks: int) -> None:
         # There may be more rounds than were foreseen, since GOPs can be cut.
         rounds = max(self._rounds, self._done + 1)
-        share = done / blocks
+        share = finished / blocks
         # A search counts attempts, each as a part of the rest, but later ones take longer.
         share = share**_LATER if self._searches else share
         self._stages.report("preparing", 1.0)
         self._stages.report("coding", (self._done + share) / rounds)
-        self._done += done == blocks
+        self._done += finished == blocks
 
     def finish(self) -> None:
         """Report that all is done."""

@@ -41,19 +41,21 @@ def next_group(frames: Iterator[Matrix], longest: int, prepared: Prepared, movin
     """Return the next frames, shapes (n, 3 + ...), as many as a GOP may have; none after the last."""
     widths = [attribute.components for attribute in moving]
     ends = np.cumsum([3, *widths])[:-1]
-    found: list[list[Values]] = [[] for _ in moving]
+    columns: list[list[Values]] = [[] for _ in moving]
 
     def positions() -> Iterator[Matrix]:
         for frame in islice(frames, longest):
             first, *others = np.split(frame, ends, axis=1) if moving else [frame]
-            for own, attribute, values in zip(found, moving, others, strict=True):
-                own.append(values.astype(attribute.values.dtype))
+            for column, attribute, values in zip(columns, moving, others, strict=True):
+                column.append(values.astype(attribute.values.dtype))
             yield prepared.units.into(first)
 
     # Not a list first, which would hold them twice.
     kind = np.dtype((np.float64, (len(prepared.positions), 3)))
     group: Positions = np.fromiter(positions(), kind)
-    return Group(group, {attribute.name: np.array(own) for attribute, own in zip(moving, found, strict=True)})
+    return Group(
+        group, {attribute.name: np.array(column_of) for attribute, column_of in zip(moving, columns, strict=True)}
+    )
 
 
 def same_frames(frames: Positions, moving: Sequence[Values], step: float) -> Order:
@@ -63,9 +65,11 @@ def same_frames(frames: Positions, moving: Sequence[Values], step: float) -> Ord
     same = np.arange(len(frames))
     for number in range(1, len(frames)):
         alike = np.abs(glimpses[:number] - glimpses[number]).max(axis=1) <= SAME[1] * step
-        for other in np.flatnonzero(alike & (same[:number] == np.arange(number))):
-            if _same(rows[other] - rows[number], step) and all((own[other] == own[number]).all() for own in moving):
-                same[number] = other
+        for later in np.flatnonzero(alike & (same[:number] == np.arange(number))):
+            if _same(rows[later] - rows[number], step) and all(
+                (column[later] == column[number]).all() for column in moving
+            ):
+                same[number] = later
                 break
     return same
 

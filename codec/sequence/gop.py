@@ -55,7 +55,7 @@ class GopEncoder:
     def copy(self) -> GopEncoder:
         """One that goes on from the same state."""
         twin = copy(self)
-        twin._track = Track(self._track, self._setting.whole)
+        twin._track = Track(self._track, self._setting.chain)
         return twin
 
     def beside(self, number: int) -> GopEncoder:
@@ -97,9 +97,9 @@ class GopEncoder:
         # With few frames there is nothing to learn a basis from, and cosines need not be sent.
         rows = np.kron(time_cosines(len(frames)), np.eye(width))  # each cosine in one number after the other
         basis = np.ascontiguousarray(rows.reshape(len(frames), width, -1).transpose(1, 0, 2))
-        wanted = temporal.trajectories(frames) @ basis.reshape(-1, columns)
+        targets = temporal.trajectories(frames) @ basis.reshape(-1, columns)
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
-        payload, field = self._track.code(method, len(frames), self.step, back, wanted)
+        payload, field = self._track.code(method, len(frames), self.step, back, targets)
         progress(1, 1)
         self._depth = -1
         self.latest = np.array(list(temporal.frames_of(field, 0, basis)))
@@ -120,10 +120,10 @@ class GopEncoder:
         # The basis was rounded, so its columns are not quite orthogonal. The pseudo-inverse fits motion to what
         # decoders have.
         fit = basis @ np.linalg.pinv(basis.T @ basis, hermitian=True)
-        wanted = fields @ (motion @ fit)
+        targets = fields @ (motion @ fit)
         # Coded and decoded in one: what follows must build on the decoded coefficients.
-        levels, coefficients = self._track.code(method, frames, self.step, 0, wanted)
-        field = coefficients.reshape(wanted.shape)  # which may have no columns
+        levels, coefficients = self._track.code(method, frames, self.step, 0, targets)
+        field = coefficients.reshape(targets.shape)  # which may have no columns
         progress(2, 2)
         self._depth = self._follow(method)
         bases = columns.reshape(self._width, frames, body.components)

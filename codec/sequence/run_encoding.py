@@ -62,7 +62,7 @@ class FirstFrame:
     blocks: list[CodedBlock]
     setting: Setting
     memory: float
-    kept: Kept
+    costs: Kept
     limits: Limits
 
     def has_room(self, body: GopBody) -> bool:
@@ -72,8 +72,8 @@ class FirstFrame:
             replace(positions, width=width, components=-(-positions.components * width // 3))
             for width in self.setting.widths[1:]
         )
-        needed = self.kept.memory + self.setting.memory_for(replace(body, fields=(positions, *others)))
-        return needed <= self.limits.memory_for(self.kept.vertices, self.kept.received + body.size)
+        needed = self.costs.memory + self.setting.memory_for(replace(body, fields=(positions, *others)))
+        return needed <= self.limits.memory_for(self.costs.vertices, self.costs.received + body.size)
 
 
 def encode_first_frame(
@@ -110,8 +110,8 @@ def encode_first_frame(
     setting = make_setting(scheme, prepared.mesh.faces, positions, moving)
     memory = mesh_memory(header.vertices, header.faces) + setting.memory
     received = len(prepared.connectivity.data) + sum(len(block.packet.data) + FRAME for block in blocks)
-    kept = Kept(before.vertices + header.vertices, before.memory + memory, before.received + received)
-    return FirstFrame(header, blocks, setting, memory, kept, NAMED_LIMITS[options.limits]())
+    costs = Kept(before.vertices + header.vertices, before.memory + memory, before.received + received)
+    return FirstFrame(header, blocks, setting, memory, costs, NAMED_LIMITS[options.limits]())
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,16 +182,16 @@ class RunEncoder:
             with one_blas_thread():
                 return _encoded(begun(step, self._progress), step, every, (), group, number, self._progress)
         lengths: tuple[int, ...] = ()
-        near = Nearing(self._progress)
+        nearing = Nearing(self._progress)
 
         def attempt(step: float, weights: Matrix) -> EncodedGops:
             nonlocal lengths
-            heard = near.within(PASS * LEVELS)
-            found = _encoded(begun(step, heard), step, weights, lengths, group, number, heard)
-            near.by(PASS * (1.0 - LEVELS))
+            heard = nearing.within(PASS * LEVELS)
+            gops = _encoded(begun(step, heard), step, weights, lengths, group, number, heard)
+            nearing.by(PASS * (1.0 - LEVELS))
             # Where to cut depends little on the step, and finding it takes time.
-            lengths = tuple(body.frames for body in found.bodies)  # as the first attempt was cut, so are the others
-            return found
+            lengths = tuple(body.frames for body in gops.bodies)  # as the first attempt was cut, so are the others
+            return gops
 
         search = StepSearch(group.positions, self._prepared.mesh.faces, promise, units, options.threads)
         bound = 0.01 if promise.absolute else promise.farthest
@@ -199,9 +199,9 @@ class RunEncoder:
         first = step or min(0.45 * bound, 4.5e-3 * min(promise.look, 1e3))
         finest = finest_step(group.positions, options)
         with one_blas_thread():
-            found = search.run(attempt, first, finest, weighed=not options.low_delay)
-        near.to(1.0)
-        return replace(found, worst_look=search.worst_look)
+            best = search.run(attempt, first, finest, weighed=not options.low_delay)
+        nearing.to(1.0)
+        return replace(best, worst_look=search.worst_look)
 
 
 def finest_step(frames: Sequence[Matrix] | Positions, options: SequenceOptions) -> float:
@@ -239,32 +239,32 @@ def _encoded(
     motion = group.motion(encoder.step)
 
     def in_parts(lengths: Sequence[int], progress: Progress) -> EncodedGops:
-        found = before
+        gops = before
         for begin, length in zip(np.cumsum([0, *lengths]), lengths):
-            found = _with_basis(found, motion, slice(begin, begin + length), weights, same, progress)
-        return found
+            gops = _with_basis(gops, motion, slice(begin, begin + length), weights, same, progress)
+        return gops
 
-    def cost(found: EncodedGops) -> float:
-        wrong = sum(float(squares_of(own - shown).sum()) for own, shown in zip(frames, found.decoded_frames()))
-        return wrong / encoder.step**2 + BYTE * sum(body.size for body in found.bodies)
+    def cost(gops: EncodedGops) -> float:
+        wrong = sum(float(squares_of(frame - decoded).sum()) for frame, decoded in zip(frames, gops.decoded_frames()))
+        return wrong / encoder.step**2 + BYTE * sum(body.size for body in gops.bodies)
 
     if lengths:
         return in_parts(lengths, progress)
-    whole, lengths = in_parts([len(frames)], progress), lengths_of(motion, encoder.step)
+    unbroken, lengths = in_parts([len(frames)], progress), lengths_of(motion, encoder.step)
     # The lengths are an estimate, so both ways are coded once and weighed by what they really cost.
-    return whole if len(lengths) == 1 else min(whole, in_parts(lengths, silent), key=cost)
+    return unbroken if len(lengths) == 1 else min(unbroken, in_parts(lengths, silent), key=cost)
 
 
 def _with_basis(
     before: EncodedGops, motion: Motion, part: slice, weights: Matrix, same: Order, progress: Progress
 ) -> EncodedGops:
     """Append some of the frames as a GOP with a basis, or as two where decoders lack the memory; repeated ones once."""
-    kept, places = distinct_frames(same[part])
+    distinct, places = distinct_frames(same[part])
     shapes = motion.shapes[..., part]
     encoder = before.encoder.copy()
     method = encoder.method_with_basis(TOGETHER)
-    repeats, once = len(kept) < len(places), np.sqrt(np.bincount(places, weights[part] ** 2))
-    learnt = encoder.encode_learnt(motion.fields, shapes[..., kept], once, method, progress)
+    repeats, once = len(distinct) < len(places), np.sqrt(np.bincount(places, weights[part] ** 2))
+    learnt = encoder.encode_learnt(motion.fields, shapes[..., distinct], once, method, progress)
     body = GopBody(method, len(places), (learnt.field,), places if repeats else None)
     # A decoder needs memory for the components of a GOP. Halves need half.
     if len(places) > 1 and not before.first_frame.has_room(body):

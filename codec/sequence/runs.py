@@ -133,15 +133,18 @@ def kind_of(attribute: Attribute) -> tuple[object, ...]:
     return attribute.name, attribute.domain, attribute.semantic, attribute.values.dtype, attribute.values.shape
 
 
-def other_faces(mesh: TriangleMesh, other: TriangleMesh) -> str:
+def other_faces(mesh: TriangleMesh, following: TriangleMesh) -> str:
     """How the faces of two meshes differ; nothing if they do not."""
-    for what, own, others in (("vertices", mesh.positions, other.positions), ("faces", mesh.faces, other.faces)):
-        if len(own) != len(others):
-            return f"{len(others)} {what} where there were {len(own)}"
-    if np.array_equal(mesh.faces, other.faces):
+    for what, ours, others in (
+        ("vertices", mesh.positions, following.positions),
+        ("faces", mesh.faces, following.faces),
+    ):
+        if len(ours) != len(others):
+            return f"{len(others)} {what} where there were {len(ours)}"
+    if np.array_equal(mesh.faces, following.faces):
         return ""
-    row = int(np.argmax((mesh.faces != other.faces).any(axis=1)))
-    return f"face {row} is {other.faces[row].tolist()} where it was {mesh.faces[row].tolist()}"
+    row = int(np.argmax((mesh.faces != following.faces).any(axis=1)))
+    return f"face {row} is {following.faces[row].tolist()} where it was {mesh.faces[row].tolist()}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,9 +197,11 @@ class _Frames:
         used = np.flatnonzero(mesh.index >= 0)
         merged = len(used) > len(mesh.first)
         for positions in self:
-            found = positions[mesh.first]
+            merged_positions = positions[mesh.first]
             # Joined vertices may part later. Then a run ends, and the next one has them apart.
-            apart = (positions[used] != found[mesh.index[used]]).any(axis=1) if merged else np.zeros(0, np.bool_)
+            apart = (
+                (positions[used] != merged_positions[mesh.index[used]]).any(axis=1) if merged else np.zeros(0, np.bool_)
+            )
             if apart.any():
                 if not may_part:
                     vertex = used[np.argmax(apart)]
@@ -208,7 +213,7 @@ class _Frames:
                 # The frame that showed it is the first of the next run.
                 self._ahead = positions
                 return
-            yield found
+            yield merged_positions
 
     def _checked(self, frame: npt.ArrayLike) -> Matrix:
         positions = np.asarray(frame, np.float64)

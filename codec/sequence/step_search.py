@@ -99,7 +99,7 @@ class StepSearch:
     def run(self, encode: Callable[[float, Matrix], Found], first: float, finest: float, *, weighed: bool) -> Found:
         """Return the smallest encoding that keeps the promise in every frame; `encode` takes step and weights."""
         weighed = weighed and len(self._frames) > 1 and bool(self._knots)
-        kept: list[Tried[Found]] = []  # the smallest that seem to keep the promise
+        candidates: list[Tried[Found]] = []  # the smallest that seem to keep the promise
         step, evened, missed, above, spare = first, np.zeros(len(self._frames)), 0, math.inf, SPARE
         for attempt in range(1, TRIES + 1):
             price = PRICE * attempt if len(self._frames) > 1 else PRICE_OF_ONE
@@ -113,36 +113,36 @@ class StepSearch:
             if missed and not weighed:  # weights may make good what missed
                 above = min(above, step)
             # By bytes and not by steps: with weights, a finer step may give the smaller stream.
-            kept = self._by_size([latest, *kept])
+            candidates = self._by_size([latest, *candidates])
             while True:
                 margin = spare if weighed else spare * (1 + missed)
                 step, evened = self._following(latest, attempt if weighed else 0, margin)
                 step = min(step, math.sqrt(latest.step * above))
                 last = latest.step == (COARSEST_STEP if latest.excess <= 0.0 else finest)
                 # What the next attempt would take, about. It is made only if it can save more than its price.
-                likely = latest.found.size * (latest.step / step) ** SLOPE
-                if not kept or not (last or attempt == TRIES or likely > (1.0 - price) * kept[0].found.size):
+                likely = latest.gops.size * (latest.step / step) ** SLOPE
+                if not candidates or not (last or attempt == TRIES or likely > (1.0 - price) * candidates[0].gops.size):
                     break
                 # Only here are all doubtful frames drawn: once, for the stream that would be returned.
-                if self._is_certain(kept[0]):
-                    return kept[0].found
+                if self._is_certain(candidates[0]):
+                    return candidates[0].gops
                 # Expected looks were too low once, and may be again; the others are expected anew.
-                latest, missed, spare = kept[0], 1, spare + SPARE
-                kept = self._by_size(kept[1:])
+                latest, missed, spare = candidates[0], 1, spare + SPARE
+                candidates = self._by_size(candidates[1:])
             if last:
                 break
-        certain = (tried.found for tried in kept if self._is_certain(tried))
+        certain = (tried.gops for tried in candidates if self._is_certain(tried))
         return next(certain, None) or self._finer(encode, min(max(step, finest), COARSEST_STEP))
 
     def _tried(self, encode: Callable[[float, Matrix], Found], step: float, evened: Matrix) -> Tried[Found]:
-        found = encode(step, np.exp(evened))
-        return Tried(found, step, evened, self._measure(list(found.decoded_frames())))
+        gops = encode(step, np.exp(evened))
+        return Tried(gops, step, evened, self._measure(list(gops.decoded_frames())))
 
-    def _by_size(self, some: list[Tried[Found]]) -> list[Tried[Found]]:
+    def _by_size(self, attempts: list[Tried[Found]]) -> list[Tried[Found]]:
         """Return those that seem to keep the promise, by the looks known now; the smallest first."""
-        for tried in some:
+        for tried in attempts:
             tried.measured.before = tried.measured.before | self._ratios
-        return sorted((tried for tried in some if tried.excess <= 0.0), key=lambda tried: tried.found.size)[:HELD]
+        return sorted((tried for tried in attempts if tried.excess <= 0.0), key=lambda tried: tried.gops.size)[:HELD]
 
     def _finer(self, encode: Callable[[float, Matrix], Found], step: float) -> Found:
         """Return the first encoding, with finer and finer steps, that keeps the promise."""
@@ -150,7 +150,7 @@ class StepSearch:
             while step >= LEAST_STEP:
                 tried = self._tried(encode, step, np.zeros(len(self._frames)))
                 if self._is_certain(tried):
-                    return tried.found
+                    return tried.gops
                 step *= min(FINER, math.exp(-tried.excess / POWER))
         raise TargetError(f"{self._promise} cannot be kept in every frame, even with step {step:.2g}")
 
@@ -170,7 +170,7 @@ class StepSearch:
     def _measure(self, decoded: Sequence[Matrix]) -> Measured:
         """Measure all frames, and draw those that may be the worst."""
         pairs = list(zip(self._frames, decoded, strict=True))
-        distances = np.sqrt([squares_of(one - other).max() for one, other in pairs]) / self._reach
+        distances = np.sqrt([squares_of(one - two).max() for one, two in pairs]) / self._reach
         if not self._knots:
             return Measured(distances, np.zeros(0), {})
         # Foreseen looks follow the drawn ones closely and cost a twentieth of them.
@@ -188,7 +188,7 @@ class StepSearch:
         """Whether an encoding keeps the promise; frames that may exceed the bound are drawn until one does."""
         # Frames that earlier attempts drew tell where to look; they prove nothing of this one, which has another step.
         measured = replace(tried.measured, before={})
-        decoded = list(tried.found.decoded_frames())
+        decoded = list(tried.gops.decoded_frames())
         for knot in sorted(self._knots - measured.drawn.keys()):
             if measured.largest <= 1.0:
                 measured.drawn[knot] = self._look(knot, decoded)
@@ -210,10 +210,10 @@ class StepSearch:
         metric = self._metrics.get(index) or metric_of(original, self._faces, self._threads)
         if metric is None:
             return 0.0
-        held = int(_PIXEL * metric.pixels**2)
+        size = int(_PIXEL * metric.pixels**2)
         # Pictures of originals take megabytes each; the first ones are the knots, which every attempt draws.
-        if index not in self._metrics and held <= self._room:
-            self._room -= held
+        if index not in self._metrics and size <= self._room:
+            self._room -= size
             self._metrics[index] = metric
         return metric.look(self._units.back(decoded[index])).moving / self._promise.look
 
@@ -222,7 +222,7 @@ class StepSearch:
 class Tried(Generic[Found]):
     """Frames encoded with a step, and with weights of which these are the logarithms, and measured."""
 
-    found: Found
+    gops: Found
     step: float
     evened: Matrix
     measured: Measured
@@ -274,28 +274,28 @@ class Measured:
 
     def looks(self, deviations: float = 0.0) -> Matrix:
         """Return the looks of all frames, shape (T,), expected ones of those not drawn plus standard deviations."""
-        if not (known := sorted(self.ratios.items())):
+        if not (drawn := sorted(self.ratios.items())):
             return np.zeros(len(self.foreseen))
-        seen, ratios = (np.array(column) for column in zip(*known))
-        doubts = np.where(np.isin(seen, list(self.drawn)), 0.0, DRIFT**2)
-        mean, variance = _foretold(seen, ratios, doubts, len(self.foreseen))
+        numbers, ratios = (np.array(column) for column in zip(*drawn))
+        doubts = np.where(np.isin(numbers, list(self.drawn)), 0.0, DRIFT**2)
+        mean, variance = _foretold(numbers, ratios, doubts, len(self.foreseen))
         looks = self.foreseen * np.exp(mean + deviations * np.sqrt(variance))
         looks[list(self.drawn)] = list(self.drawn.values())
         return np.asarray(looks)
 
 
-def _foretold(seen: Matrix, ratios: Matrix, doubts: Matrix, count: int) -> tuple[Matrix, Matrix]:
+def _foretold(numbers: Matrix, ratios: Matrix, doubts: Matrix, count: int) -> tuple[Matrix, Matrix]:
     """The mean and variance of a series of numbers, shape (T,), of which some were seen, each with a variance of its
     own: noise on a random walk (kriging)."""
-    steps, frames = np.diff(seen), np.arange(count)
+    steps, frames = np.diff(numbers), np.arange(count)
     # By maximum likelihood of the differences of neighbors.
     size, jumps = len(steps), np.diff(ratios)
     spreads = np.diag(2.0 + PACE * steps) - np.eye(size, k=1) - np.eye(size, k=-1)
     noise = (LIKE_SEEN * NOISE**2 + jumps @ np.linalg.solve(spreads, jumps)) / (LIKE_SEEN + size)
-    apart = np.abs(seen[:, None] - frames)
+    apart = np.abs(numbers[:, None] - frames)
     # Generalized covariances of a walk that begins anywhere; the last row is of its unknown mean.
     shared = np.vstack([noise * ((apart == 0) - PACE * apart), np.ones(count)])
-    system = np.pad(shared[:-1, seen] + np.diag(doubts), (0, 1), constant_values=1.0)
+    system = np.pad(shared[:-1, numbers] + np.diag(doubts), (0, 1), constant_values=1.0)
     system[-1, -1] = 0.0
     weights = np.linalg.solve(system, shared)
     return ratios @ weights[:-1], np.maximum(noise - (weights * shared).sum(axis=0), 0.0)

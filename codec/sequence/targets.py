@@ -37,14 +37,14 @@ Runs: TypeAlias = Sequence[tuple[Positions, Positions, Faces]]
 
 def compare_runs(runs: Runs) -> tuple[SequenceComparison, list[dict[str, float]]]:
     """Compare runs of frames, the decoded ones, and their faces; return also the errors of each frame."""
-    seen: list[Comparison] = []
+    comparisons: list[Comparison] = []
     each: list[dict[str, float]] = []
     wrong = extent = flicker = motion = 0.0
     for original, decoded, faces in runs:
-        found = [Reference(a, faces).compare(b) for a, b in zip(original, decoded, strict=True)]
+        of_run = [Reference(a, faces).compare(b) for a, b in zip(original, decoded, strict=True)]
         diagonal = float(np.linalg.norm(np.ptp(original[0], axis=0))) or 1.0
-        each += [{"rms_relative": f.rms / diagonal, "max_error_relative": f.max_error / diagonal} for f in found]
-        seen += found
+        each += [{"rms_relative": f.rms / diagonal, "max_error_relative": f.max_error / diagonal} for f in of_run]
+        comparisons += of_run
         wrong += float(np.square(original - decoded).sum())
         # Karni and Gotsman divide by the motion about the mean of each frame, so that a walk across the room counts
         # nothing.
@@ -52,24 +52,24 @@ def compare_runs(runs: Runs) -> tuple[SequenceComparison, list[dict[str, float]]
         # Second differences: an error that stays is not seen, and one that jumps is.
         flicker += float(np.square(np.diff(decoded - original, 2, axis=0)).sum())
         motion += float(np.square(np.diff(original, 2, axis=0)).sum())
-    nmsve = float(np.mean([frame.nmsve for frame in seen]))
+    nmsve = float(np.mean([frame.nmsve for frame in comparisons]))
     compared = SequenceComparison(
         kg=_percent(wrong, extent),
-        theta_deg=float(np.mean([frame.theta_deg for frame in seen])),
+        theta_deg=float(np.mean([frame.theta_deg for frame in comparisons])),
         nmsve_db=10.0 * math.log10(nmsve) if nmsve > 0.0 else -math.inf,
         rms_relative=math.sqrt(float(np.mean([frame["rms_relative"] ** 2 for frame in each]))),
-        max_error=max(frame.max_error for frame in seen),
+        max_error=max(frame.max_error for frame in comparisons),
         max_error_relative=max(frame["max_error_relative"] for frame in each),
         flicker=_percent(flicker, motion if motion > 1e-13 * extent else 0.0),  # less is a constant speed, rounded
     )
     return compared, each
 
 
-def _percent(part: float, whole: float) -> float:
+def _percent(part: float, total: float) -> float:
     if part == 0.0:
         return 0.0
     # Of a motionless original any error is infinitely large.
-    return 100.0 * math.sqrt(part / whole) if whole else math.inf
+    return 100.0 * math.sqrt(part / total) if total else math.inf
 
 
 SequenceTarget = Target

@@ -103,12 +103,12 @@ def lengths_of(motion: Motion, step: float) -> list[int]:
         part = shapes[..., begin:end]
         rows = part.reshape(len(part), part.shape[1] * part.shape[2])
         energies = np.linalg.eigvalsh(rows.T @ rows if len(rows) > rows.shape[1] else rows @ rows.T)
-        kept = energies[energies > least_energy(rows.shape[1], step)]
+        strong = energies[energies > least_energy(rows.shape[1], step)]
         # The spectrum of a cosine transform by an FFT, without a matrix of cosines.
         there_and_back = np.concatenate([part, part[..., ::-1]], axis=2)  # its sines vanish, and cosines remain
         smooth = np.square(np.abs(np.fft.rfft(there_and_back)[..., : end - begin])).sum(axis=0) / (2 * (end - begin))
-        fields = vertices * np.log2(1.0 + kept / (DENSE * vertices * step**2)).sum()
-        basis = len(kept) * np.log2(1.0 + smooth / (max(1, len(kept)) * step**2)).sum()
+        fields = vertices * np.log2(1.0 + strong / (DENSE * vertices * step**2)).sum()
+        basis = len(strong) * np.log2(1.0 + smooth / (max(1, len(strong)) * step**2)).sum()
         return float(fields + SENT * basis + BEGUN)
 
     def cheapest(places: list[int]) -> list[int]:
@@ -126,8 +126,8 @@ def lengths_of(motion: Motion, step: float) -> list[int]:
     while len(cuts) > 2 and (stride := stride // 2):
         for at in range(1, len(cuts) - 1):
             low, middle, high = cuts[at - 1 : at + 2]
-            near = (place for place in (middle, middle - stride, middle + stride) if low < place < high)
-            cuts[at] = min(near, key=lambda place: bits(low, place) + bits(place, high))
+            candidates = (place for place in (middle, middle - stride, middle + stride) if low < place < high)
+            cuts[at] = min(candidates, key=lambda place: bits(low, place) + bits(place, high))
         between = ((low + high) // 2 for low, high in pairwise(cuts))  # of two cuts beside a change, one is enough
         cuts = cheapest(sorted({*cuts, *between}))
     # An estimate that is nearly even is noise, and one GOP is simpler.
@@ -141,12 +141,12 @@ def learn_basis(motion: Matrix, step: float, limit: int) -> tuple[Matrix, npt.ND
     few = len(motion) < motion.shape[1]  # then vertices have the smaller matrix, of the same energies
     energies, vectors = np.linalg.eigh(motion @ motion.T if few else motion.T @ motion)
     count = int(np.count_nonzero(energies > least_energy(motion.shape[1], step)))
-    kept = energies[: -count - 1 : -1]
+    strongest = energies[: -count - 1 : -1]
     # A column that multiplies much energy must be finer, in proportion to the root of it.
-    exponents = np.round(OCTAVE * np.log2(np.sqrt(kept) / (PRECISION * step)))
+    exponents = np.round(OCTAVE * np.log2(np.sqrt(strongest) / (PRECISION * step)))
     columns = np.ascontiguousarray(vectors[:, : -count - 1 : -1])
     if few:
-        columns = motion.T @ columns / np.sqrt(kept)
+        columns = motion.T @ columns / np.sqrt(strongest)
     return columns, np.clip(exponents, 0, min(limit, FINEST_EXPONENT)).astype(np.int32)
 
 

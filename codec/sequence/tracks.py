@@ -17,7 +17,7 @@ from bsm.codec.static.coding import Scheme
 class Setting:
     """The base that all GOPs of a mesh share, in C."""
 
-    whole: Chain
+    chain: Chain
     vertices: int
     widths: tuple[int, ...]
     """Numbers of a vertex: of positions, then of each attribute that moves."""
@@ -26,7 +26,7 @@ class Setting:
 
     def track(self, number: int) -> Track:
         """Positions, or an attribute that moves, before the first frame."""
-        return Track(self.whole, number)
+        return Track(self.chain, number)
 
     def reach(self, number: int) -> int:
         """How many decoded frames low-delay frames of a track may refer to."""
@@ -35,14 +35,14 @@ class Setting:
     def memory_for(self, body: GopBody) -> float:
         """Bytes for decoding a GOP: levels, components, a few frames, and one part after the other."""
         fields = np.array([(field.width, field.components) for field in body.fields], np.int64)
-        return self.whole.gop_memory(body.method, body.frames, fields)
+        return self.chain.gop_memory(body.method, body.frames, fields)
 
 
 def make_setting(scheme: Scheme, faces: Faces, first_frame: Matrix, moving: Sequence[Matrix] = ()) -> Setting:
     """Make the dictionaries from the decoded first frame, shape (n, 3), and the first values of what moves, (n, d)."""
     # The dictionaries of a sequence are made once and kept, for every GOP uses all of them.
-    whole = Chain(scheme.rules, scheme.blocks)
+    chain = Chain(scheme.rules, scheme.blocks)
     widths = [values.shape[1] for values in moving]
     starts = np.ascontiguousarray(np.hstack([np.empty((len(first_frame), 0)), *moving]))
-    memory = whole.hang(faces, np.ascontiguousarray(first_frame), starts, np.array(widths, np.int32))
-    return Setting(whole, len(first_frame), (3, *widths), memory)
+    memory = chain.hang(faces, np.ascontiguousarray(first_frame), starts, np.array(widths, np.int32))
+    return Setting(chain, len(first_frame), (3, *widths), memory)

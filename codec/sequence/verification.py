@@ -43,9 +43,9 @@ def diagonal_of(positions: Positions) -> float:
 class SequenceVerifier:
     """Decodes a sequence chunk by chunk, measures the promise, and collects originals and results in `shown`."""
 
-    def __init__(self, options: SequenceOptions, metadata: Metadata, shown: list[Measured] | None = None) -> None:
+    def __init__(self, options: SequenceOptions, metadata: Metadata, pairs: list[Measured] | None = None) -> None:
         self._decoder = SequenceDecoder(NAMED_LIMITS[options.limits](), options.threads)
-        self._promise, self._metadata, self._shown = options.promise, metadata, shown
+        self._promise, self._metadata, self._shown = options.promise, metadata, pairs
         self._meshes: deque[tuple[AsGiven, tuple[PreparedAttribute, ...]]] = deque()
         # Frames wait only until their GOP is decoded, so memory stays that of a GOP.
         self._frames: deque[ExpectedFrame] = deque()

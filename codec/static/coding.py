@@ -95,8 +95,8 @@ ALIKE = ("exact", "power", "iterations", "key_iterations", "shift", "springs")
 """Constants that chains and headers call by the same name."""
 
 
-def rules_of(paper: Constants, key_interval: int = 0, whole: int = 0) -> ChainRules:
+def rules_of(paper: Constants, key_interval: int = 0, tail: int = 0) -> ChainRules:
     """Chains and dictionaries by some constants."""
-    given: dict[str, Any] = {name: getattr(paper, name) for name in ALIKE}
-    given |= {name: bool(given[name]) for name in ("exact", "springs")}
-    return ChainRules(**given, key_interval=key_interval, whole=whole)
+    values: dict[str, Any] = {name: getattr(paper, name) for name in ALIKE}
+    values |= {name: bool(values[name]) for name in ("exact", "springs")}
+    return ChainRules(**values, key_interval=key_interval, whole=tail)

@@ -127,12 +127,12 @@ class Encoder:
     @property
     def notes(self) -> tuple[str, ...]:
         """Changes of the input, and the coding of attributes."""
-        sent = {attribute.name for attribute, _ in self._input.wanted}
+        names = {attribute.name for attribute, _ in self._input.qualities}
         exact = [KEPT_EXACTLY] if self._kept_exactly else []
         one = [ONE_BLOCK] if self.options.paper.bits is not None and self._input.prepared.blocks.count == 1 else []
-        left = [attribute.name for attribute in self._input.given.attributes if attribute.name not in sent]
+        missing = [attribute.name for attribute in self._input.source.attributes if attribute.name not in names]
         carried = self._attribute_notes or tuple(attribute.note for attribute in self._input.carried)
-        notes = (*carried, *([f"left out: {', '.join(left)}"] if left else []))
+        notes = (*carried, *([f"left out: {', '.join(missing)}"] if missing else []))
         return (*self._input.joined.notes, *notes, *one, *exact, *self.losses[len(self._input.joined.losses) :])
 
     @property
@@ -142,8 +142,8 @@ class Encoder:
         unseen = [f"no look is promised: {self.unseen}"] if self.unseen else []
         missed = 0 if self.options.target or not self.options.paper.doi else self._spectral.missed
         over = [OVER.format(missed, self._input.prepared.blocks.count)] if missed else []
-        own = [OWN_RULE] if self.options.paper.partition == "metis" and not overlap.HAS_METIS else []
-        return (*self._input.joined.losses, *doubt, *unseen, *over, *own)
+        partition = [OWN_RULE] if self.options.paper.partition == "metis" and not overlap.HAS_METIS else []
+        return (*self._input.joined.losses, *doubt, *unseen, *over, *partition)
 
     @property
     def mesh(self) -> TriangleMesh:
@@ -153,7 +153,7 @@ class Encoder:
     @property
     def vertex_order(self) -> Order:
         """The decoder's vertex j is vertex `vertex_order[j]` of the given mesh, or merged with it; shape (k,)."""
-        return AsGiven(self._input.given, self._input.joined, self._input.prepared).vertex_order
+        return AsGiven(self._input.source, self._input.joined, self._input.prepared).vertex_order
 
     @property
     def vertex_index(self) -> Order:
@@ -162,7 +162,7 @@ class Encoder:
         int64, shape (n,), with n the vertices of the given mesh.
         """
         if self._input.joined.splits is not None:
-            return np.arange(len(self._input.given.positions))
+            return np.arange(len(self._input.source.positions))
         place = np.empty(len(self._input.joined.first) + 1, np.int64)
         place[self._input.prepared.vertex_order] = np.arange(len(self._input.joined.first))
         place[-1] = -1
@@ -171,7 +171,7 @@ class Encoder:
     @property
     def face_order(self) -> Order:
         """The decoder's face i is face `face_order[i]` of the given mesh; int64, shape (m,)."""
-        return self._input.joined.kept[self._input.prepared.face_order].astype(np.int64)
+        return self._input.joined.coded_faces[self._input.prepared.face_order].astype(np.int64)
 
     def encode(self) -> bytes:
         return b"".join(self.chunks())
@@ -198,21 +198,21 @@ class Encoder:
     def draft(self, progress: Progress | None = None) -> Draft:
         """Return the stream of the options, without a target."""
         _ = self._input.carried  # raises errors of attributes first
-        promise, near = self.options.promise, self._begun(progress)
+        promise, nearing = self.options.promise, self._begun(progress)
         if promise is None:
-            self._input, draft = complete(self._input, self._bare(near))
-            return self._verified(draft, near)
-        self._input, draft = smallest(self._input, promise, near)
-        return self._verified(draft, near, promise)
+            self._input, draft = complete(self._input, self._bare(nearing))
+            return self._verified(draft, nearing)
+        self._input, draft = smallest(self._input, promise, nearing)
+        return self._verified(draft, nearing, promise)
 
     def _begun(self, progress: Progress | None) -> Nearing:
         """Prepare, and return what reports the rest."""
-        near = Nearing(progress)
+        nearing = Nearing(progress)
         end_phase(self._input.prepared.graph.size)
-        near.by()
-        return near
+        nearing.by()
+        return nearing
 
-    def _bare(self, near: Nearing) -> Draft:
+    def _bare(self, nearing: Nearing) -> Draft:
         options = self.options
         if options.exact:
             return exact(self._input.prepared)
@@ -221,7 +221,7 @@ class Encoder:
         if options.grid_cell is not None:
             return rounded_to_cells(self._input.prepared, options.grid_cell, options.grid_origin or (0.0, 0.0, 0.0))
         with as_of_decoders(options.limits):
-            return self._spectral.base(self._spectral.first_step, near.within(0.8)).draft
+            return self._spectral.base(self._spectral.first_step, nearing.within(0.8)).draft
 
     def result(self, progress: Progress | None = None) -> Attempt:
         """Return the stream, with a comparison of the decoded mesh."""
@@ -239,18 +239,18 @@ class Encoder:
         if target is None:
             raise OptionError("no target to search for")
         _ = self._input.carried  # raises errors of attributes first
-        near, contract = self._begun(progress), self.options.promise
+        nearing, contract = self._begun(progress), self.options.promise
         if self.options.sets_coding:
-            found = self._at_step(target, near)
+            attempt = self._at_step(target, nearing)
         elif target.shrinks_with_step:
-            found = self._within_size(target, near)
+            attempt = self._within_size(target, nearing)
         else:
             contract = self._within_error(target)
-            self._input, draft = smallest(self._input, contract, near)
-            found = self._judged(draft)
-        self._verified(found.draft, near, contract)
-        require(target.excess(found) <= LEAST, f"the target is {target.value:g}, not {target.reached(found):g}")
-        return found
+            self._input, draft = smallest(self._input, contract, nearing)
+            attempt = self._judged(draft)
+        self._verified(attempt.draft, nearing, contract)
+        require(target.excess(attempt) <= LEAST, f"the target is {target.value:g}, not {target.reached(attempt):g}")
+        return attempt
 
     def _within_error(self, target: Target) -> Contract:
         """Return a bound on the error that is the target, and the promised bounds."""
@@ -259,35 +259,35 @@ class Encoder:
             return replace(promise, angle=target.value, alike=True)
         return replace(promise, visual=max(10.0 ** (target.value / 10.0), sys.float_info.min))
 
-    def _within_size(self, target: Target, near: Nearing) -> Attempt:
+    def _within_size(self, target: Target, nearing: Nearing) -> Attempt:
         """The best stream of a size, which keeps whatever is promised."""
         promise, anything = self.options.promise, Contract(WIDEST)
         most = target.value * (1.0 if target.kind == "size" else self._input.prepared.graph.size / 8.0)
-        given = self._input = self._input.measuring(near)
+        sender = self._input = self._input.measuring(nearing)
 
-        def best(sent: Sent) -> Draft | None:
-            found = sent.search.best(promise, most)
-            completed = None if found is None else sent.completed(found)
-            return None if completed and promise and sent.measured(completed, promise)[0] else completed
+        def best(candidate: Sent) -> Draft | None:
+            draft = candidate.search.best(promise, most)
+            completed = None if draft is None else candidate.completed(draft)
+            return None if completed and promise and candidate.measured(completed, promise)[0] else completed
 
-        if not given.carried and (found := best(given)) is not None:
-            return self._judged(found)
-        asked, kept = promise or anything, None
-        finer = [replace(asked, look=finer.look) for finer in reversed(LOOKS) if finer.look < asked.look]
-        for contract in [*filter(None, [promise]), *finer * bool(given.carried)]:
-            with suppress(TargetError) if kept else nullcontext():  # attributes as fine as leave room for the shape
-                sent, draft = smallest(given, contract, near)
-                if kept is None or draft.size <= most:
-                    self._input, smaller = sent, draft
+        if not sender.carried and (draft_within := best(sender)) is not None:
+            return self._judged(draft_within)
+        loosest, met = promise or anything, None
+        finer = [replace(loosest, look=finer.look) for finer in reversed(LOOKS) if finer.look < loosest.look]
+        for contract in [*filter(None, [promise]), *finer * bool(sender.carried)]:
+            with suppress(TargetError) if met else nullcontext():  # attributes as fine as leave room for the shape
+                sender_of_draft, draft = smallest(sender, contract, nearing)
+                if met is None or draft.size <= most:
+                    self._input, smaller = sender_of_draft, draft
                 if draft.size > most:
                     break
-                kept = contract
-        if kept is not None:
+                met = contract
+        if met is not None:
             fitting = filter(None, (best(self._input), smaller))
-            return self._judged(min(fitting, key=lambda draft: self._input.measured(draft, kept)[1] or 0.0))
+            return self._judged(min(fitting, key=lambda draft: self._input.measured(draft, met)[1] or 0.0))
         if promise is None:
-            if (found := best(self._input)) is not None:
-                return self._judged(found)
+            if (draft_within := best(self._input)) is not None:
+                return self._judged(draft_within)
             smaller = self._input.completed(self._input.search.smallest(anything))
             if smaller.size <= most:  # luck decides about bytes: no other step fits
                 return self._judged(smaller)
@@ -296,17 +296,21 @@ class Encoder:
         if promise is None:
             error = TargetError(f"{text} reached; the least possible is {had}")
         else:
-            loose, other = smallest(given, LOOKS[-1], near) if given.carried else (given, smaller)
-            seen = other if other.size <= most else loose.search.best(None, most)
-            advice = "does not reach it either" if seen is None else f"reaches it with {loose.search.seen(seen)}"
+            loose, loose_draft = smallest(sender, LOOKS[-1], nearing) if sender.carried else (sender, smaller)
+            smallest_look = loose_draft if loose_draft.size <= most else loose.search.best(None, most)
+            advice = (
+                "does not reach it either"
+                if smallest_look is None
+                else f"reaches it with {loose.search.seen(smallest_look)}"
+            )
             error = TargetError(f"{text} reached with {promise}: that takes {had}; preset none {advice}")
         error.best = target.reached(least)
         raise error
 
-    def _at_step(self, target: Target, near: Nearing) -> Attempt:
+    def _at_step(self, target: Target, nearing: Nearing) -> Attempt:
         """Blocks, coded as the options say, at the step that meets a target."""
         first, finest = self._spectral.first_step, smallest_step(self._input.prepared.size)
-        return search_step(lambda step: self.attempt(step, near.within()), target, first, finest)
+        return search_step(lambda step: self.attempt(step, nearing.within()), target, first, finest)
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
         """Encode blocks with a given quantization step, and compare the decoded mesh."""
@@ -322,29 +326,29 @@ class Encoder:
 
     def _compared(self, draft: Draft) -> Comparison:
         reference, unit = self._reference
-        found = reference.compare(draft.decoded / unit)
-        lengths = {"rms": found.rms * unit, "max_error": found.max_error * unit}
-        return replace(found, **lengths, nmsve_paper_db=decibel(found.nmsve * reference.scale * unit))
+        comparison = reference.compare(draft.decoded / unit)
+        lengths = {"rms": comparison.rms * unit, "max_error": comparison.max_error * unit}
+        return replace(comparison, **lengths, nmsve_paper_db=decibel(comparison.nmsve * reference.scale * unit))
 
-    def _verified(self, draft: Draft, near: Nearing, contract: Contract | None = None) -> Draft:
+    def _verified(self, draft: Draft, nearing: Nearing, contract: Contract | None = None) -> Draft:
         """Return the draft, after the decoder has returned the same mesh and it keeps the contract."""
-        near.by()
+        nearing.by()
         broken = ""
         if contract is not None:
             broken, self.look, self.binding = self._input.measured(draft, contract)
             if contract.look < math.inf:
                 self.unseen = self._input.measures.unseen
                 self._input = self._input.rested()  # pictures would lie beside the decoder
-        original = AsGiven(self._input.given, self._input.joined, self._input.prepared)
+        original = AsGiven(self._input.source, self._input.joined, self._input.prepared)
         end_phase(draft.header.vertices)
         with as_of_decoders(self.options.limits):
             limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
             carried = with_turns(self._input.carried, draft.places)
             self._attribute_notes = tuple(attribute.note for attribute in carried)
-            self.decoded = verify(draft, original, carried, self._input.given.metadata, limits, threads)
+            self.decoded = verify(draft, original, carried, self._input.source.metadata, limits, threads)
         require(not broken, f"{contract} was promised, and the decoded mesh has {broken}")
         self._kept_exactly = contract is not None and draft.header.light == EXACT
-        near.to(1.0)
+        nearing.to(1.0)
         return draft
 
     @cached_property
@@ -354,9 +358,9 @@ class Encoder:
     @cached_property
     def _reference(self) -> tuple[Reference, float]:
         """The mesh over a power of two, by which no face gets or loses an area; and the power."""
-        given, place = self._input.given, self._input.joined.first[self._input.prepared.coding_order]
+        original, place = self._input.source, self._input.joined.first[self._input.prepared.coding_order]
         unit = math.ldexp(0.5, math.frexp(self._input.prepared.units.scale)[1])
-        return Reference(given.positions[place] / unit, self.mesh.faces), unit
+        return Reference(original.positions[place] / unit, self.mesh.faces), unit
 
 
 def encode(mesh: TriangleMesh, options: EncodeOptions | None = None) -> bytes:

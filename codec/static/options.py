@@ -208,15 +208,15 @@ class EncodeOptions:
     # see the one that the decorator would write, with the types of all fields.
     if not TYPE_CHECKING:
 
-        def __init__(self, *, preset: str | None = None, **given: Any) -> None:
+        def __init__(self, *, preset: str | None = None, **values: Any) -> None:
             if preset is not None:
-                given = vars(changed(named("preset", PRESETS, preset), **given))
-            known = {item.name: item.default for item in fields(self)}
-            unknown = next((name for name in given if name not in known), None)
+                values = vars(changed(named("preset", PRESETS, preset), **values))
+            defaults = {item.name: item.default for item in fields(self)}
+            unknown = next((name for name in values if name not in defaults), None)
             if unknown is not None:
-                advice = suggestion(unknown, known) or f"; its options are {', '.join(known)}"
+                advice = suggestion(unknown, defaults) or f"; its options are {', '.join(defaults)}"
                 raise ArgumentError(f"EncodeOptions has no option {unknown}{advice}")
-            for name, value in (known | given).items():
+            for name, value in (defaults | values).items():
                 object.__setattr__(self, name, value)
             self._check()
 

@@ -38,11 +38,11 @@ class JoinedMesh:
     mesh: TriangleMesh
     index: Indices
     first: Order
-    kept: Indices  # the given faces that are coded
+    coded_faces: Indices  # the given faces that are coded
     splits: Order | None  # the given vertices that come back; None: the joined ones do
     notes: tuple[str, ...]
     coder: GivenMesh | None  # None: nothing is coded from it anymore
-    given: Positions
+    original_positions: Positions
 
     @property
     def coding(self) -> GivenMesh:
@@ -62,30 +62,34 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
     if exact:
         mesh, notes = _single(mesh)
     # Exact streams keep the sign of zero, so positions that differ only there stay two.
-    found = joined(mesh, group_rows(mesh.positions.view(np.int64) if exact else mesh.positions), keep=keep)
-    return replace(found, notes=(*notes, *found.notes))
+    mesh_of_joined = joined(mesh, group_rows(mesh.positions.view(np.int64) if exact else mesh.positions), keep=keep)
+    return replace(mesh_of_joined, notes=(*notes, *mesh_of_joined.notes))
 
 
 def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool = True) -> JoinedMesh:
     # The object in C keeps what joining finds. Connectivity, order and attributes are coded from it without another
     # pass.
     notes, splits, coder = [], None, GivenMesh(mesh.faces, index)
-    index, first, kept, merged, loose = coder.join(keep, keep and keep_loose)
+    index, first, coded_faces, merged, loose = coder.join(keep, keep and keep_loose)
     # A stream that keeps the order gives back the vertices as they were, copies included.
     if keep and (merged or (loose and keep_loose)):
         splits = np.flatnonzero((index >= 0) | keep_loose)
     if merged and not keep:
         notes.append(f"{MERGED} {counted(vertices=merged)} with others at the same position")
-    if collapsed := len(mesh.faces) - len(kept):
+    if collapsed := len(mesh.faces) - len(coded_faces):
         notes.append(f"left out {counted(faces=collapsed)} without area")
     if loose and not (keep and keep_loose):
         notes.append(f"left out {counted(vertices=loose)} that no face uses")
-    unchanged = len(first) == len(mesh.positions) and len(kept) == len(mesh.faces) and bool((np.diff(first) > 0).all())
+    unchanged = (
+        len(first) == len(mesh.positions) and len(coded_faces) == len(mesh.faces) and bool((np.diff(first) > 0).all())
+    )
     if unchanged:
-        whole = TriangleMesh(mesh.positions, mesh.faces)  # which share the arrays
+        coded_mesh = TriangleMesh(mesh.positions, mesh.faces)  # which share the arrays
     else:
-        whole = TriangleMesh(sealed(mesh.positions[first]), sealed(index[mesh.faces[kept]]))
-    return JoinedMesh(whole, index, first.astype(np.int64), kept, splits, tuple(notes), coder, mesh.positions)
+        coded_mesh = TriangleMesh(sealed(mesh.positions[first]), sealed(index[mesh.faces[coded_faces]]))
+    return JoinedMesh(
+        coded_mesh, index, first.astype(np.int64), coded_faces, splits, tuple(notes), coder, mesh.positions
+    )
 
 
 MOST_CELLS = 1 << 20  # along an axis of a grid
@@ -251,7 +255,7 @@ def prepare(
     coding_order = connectivity.vertex_order.astype(np.int64)
     coding_faces = np.ascontiguousarray(connectivity.face_order, np.int32)
     ordered = TriangleMesh(sealed(mesh.positions[coding_order]), sealed(connectivity.faces))
-    order = (packets.Order(joined.coding.order(joined.given)),) if keep_order else ()
+    order = (packets.Order(joined.coding.order(joined.original_positions)),) if keep_order else ()
     return Prepared(
         mesh=ordered,
         graph=graph_of_faces(ordered.faces, len(coding_order)),

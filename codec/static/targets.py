@@ -88,10 +88,8 @@ class Contract:
         """
         if not self.absolute or self.farthest <= WIDEST * diagonal or not diagonal > 0.0:
             return ""
-        named = f" {unit}" if unit else ""
-        text = (
-            f"{self.farthest:.3g}{named} is {self.farthest / diagonal:.0%} of this mesh's size ({diagonal:.3g}{named})"
-        )
+        noun = f" {unit}" if unit else ""
+        text = f"{self.farthest:.3g}{noun} is {self.farthest / diagonal:.0%} of this mesh's size ({diagonal:.3g}{noun})"
         text += f": is its unit {unit}?" if unit else ": is that its unit?"
         if math.isinf(self.by_part):
             raise OptionError(text)
@@ -239,20 +237,20 @@ def search_step(
     attempt: Callable[[float], Found], target: Target, first: float, finest: float, rise: float = 1.0
 ) -> Found:
     """Find a step whose outcome meets the target."""
-    seen: list[tuple[float, Found]] = []
+    outcomes: list[tuple[float, Found]] = []
 
     def tried(step: float) -> float:
         outcome = attempt(max(step, finest))
-        seen.append((target.excess(outcome), outcome))
-        return seen[-1][0]
+        outcomes.append((target.excess(outcome), outcome))
+        return outcomes[-1][0]
 
     power = -1.0 if target.shrinks_with_step else 1.0
     least, most = sorted((finest**power, WIDEST**power))
     secant(lambda tested: tried(tested**power), first**power, least, most, 2 * TRIES, rise)
-    met = [outcome for outcome in seen if outcome[0] <= 0.0]
+    met = [outcome for outcome in outcomes if outcome[0] <= 0.0]
     if met:
         return max(met, key=itemgetter(0))[1]
-    best = min(target.reached(outcome) for _, outcome in seen)
+    best = min(target.reached(outcome) for _, outcome in outcomes)
     error = TargetError(
         f"{target.worded(target.value)} at most cannot be reached; the best possible is {target.worded(best)}"
     )

@@ -25,7 +25,7 @@ ROUNDING = 1e-6
 class AsGiven:
     """The mesh that a stream must return: as given, joined, and in the order of coding."""
 
-    given: TriangleMesh
+    source: TriangleMesh
     joined: JoinedMesh
     prepared: Prepared
 
@@ -38,7 +38,7 @@ class AsGiven:
     @property
     def loose(self) -> Positions:
         """Positions of vertices that no face uses, where the stream has them, as it has all others."""
-        return self.joined.given[self.vertex_order[self.joined.index[self.vertex_order] < 0]]
+        return self.joined.original_positions[self.vertex_order[self.joined.index[self.vertex_order] < 0]]
 
     def matched(self, faces: Faces, vertices: int) -> Order:
         """Return the coded vertex of each of the decoder's, -1 for loose ones, whose faces are `faces`."""
@@ -46,28 +46,28 @@ class AsGiven:
         require(faces.shape == coded.shape, f"decoded {len(faces)} of {len(coded)} faces")
         require(vertices == len(self.vertex_order), f"decoded {vertices} of {len(self.vertex_order)} vertices")
         ordered = self.prepared.of_coded(faces) if self.prepared.order else faces
-        found = np.full(vertices, -1, np.int64)
+        coded_of = np.full(vertices, -1, np.int64)
         # If two faces disagreed about a vertex, the second would win; the next line finds that.
-        found[ordered] = coded
-        require(bool((found[ordered] == coded).all()), "the decoded faces differ")
+        coded_of[ordered] = coded
+        require(bool((coded_of[ordered] == coded).all()), "the decoded faces differ")
         self._require_order(faces)
-        return found
+        return coded_of
 
     def _require_order(self, faces: Faces) -> None:
         """Require that each face lies where the given one lies; turned, unless the order is kept."""
-        wanted: npt.NDArray[Any]
-        found: npt.NDArray[Any]
+        expected: npt.NDArray[Any]
+        actual: npt.NDArray[Any]
         if self.joined.splits is None:
-            wanted = self.joined.mesh.faces[self.prepared.face_order]
-            found = self.prepared.vertex_order[faces]
+            expected = self.joined.mesh.faces[self.prepared.face_order]
+            actual = self.prepared.vertex_order[faces]
         else:  # copies of a vertex lie at its place
-            given = self.given.faces[self.joined.kept][self.prepared.face_order]
-            wanted, found = self.given.positions[given], self.given.positions[self.vertex_order[faces]]
+            corners = self.source.faces[self.joined.coded_faces][self.prepared.face_order]
+            expected, actual = self.source.positions[corners], self.source.positions[self.vertex_order[faces]]
         # Without a kept order, a face may begin with any of its corners, but never be turned over.
         for turn in range(1 if self.prepared.order else 3):
-            other = (np.roll(found, turn, axis=1) != wanted).any(axis=tuple(range(1, found.ndim)))
-            wanted, found = wanted[other], found[other]
-        require(not len(wanted), "the decoded order of vertices or faces differs")
+            differs = (np.roll(actual, turn, axis=1) != expected).any(axis=tuple(range(1, actual.ndim)))
+            expected, actual = expected[differs], actual[differs]
+        require(not len(expected), "the decoded order of vertices or faces differs")
 
 
 def verify(
@@ -97,10 +97,10 @@ def verify(
 
 def require_positions(decoded: Positions, expected: Positions, matched: Order, loose: Positions) -> None:
     """Require positions of the closed loop, shape (n, 3), bit for bit, and those of vertices that no face uses."""
-    wanted, unused = expected[matched], matched < 0
+    in_order, unused = expected[matched], matched < 0
     require(int(unused.sum()) == len(loose), "the decoded vertices that no face uses differ")
-    wanted[unused] = loose
-    require(bool((decoded == wanted).all()), "the decoded positions differ")
+    in_order[unused] = loose
+    require(bool((decoded == in_order).all()), "the decoded positions differ")
 
 
 def require_attributes(
@@ -109,35 +109,38 @@ def require_attributes(
     """Require attributes of the closed loop at corners and faces, except for rounding."""
     require(len(decoded) == len(carried), f"decoded {len(decoded)} of {len(carried)} attributes")
     prepared = original.prepared
-    for found, wanted in zip(decoded, carried, strict=True):
-        declared = wanted.declaration
+    for attribute, prepared_attribute in zip(decoded, carried, strict=True):
+        declared = prepared_attribute.declaration
         name = f"attribute {declared.name!r}"
-        same = found.name == declared.name and found.semantic == SEMANTICS[declared.semantic]
+        same = attribute.name == declared.name and attribute.semantic == SEMANTICS[declared.semantic]
         require(
-            same and found.values.shape[1:] == (declared.components,),
+            same and attribute.values.shape[1:] == (declared.components,),
             f"{name} was decoded with a different name or type",
         )
         # Decoders compute these in their own ways, so that their last bits are open.
         if declared.coding == RECOMPUTED:
-            require(bool(np.isfinite(found.values).all()), f"{name} is not finite after decoding")
+            require(bool(np.isfinite(attribute.values).all()), f"{name} is not finite after decoding")
             continue
-        values = wanted.values
+        values = prepared_attribute.values
         if declared.domain == FACE:
-            at = found.values[prepared.coding_faces] if prepared.order else found.values
+            at = attribute.values[prepared.coding_faces] if prepared.order else attribute.values
             require(_alike(at, values), f"{name} has other values after decoding")
             continue
-        rows = found.indices if found.indices is not None else faces
+        rows = attribute.indices if attribute.indices is not None else faces
         rows = prepared.of_coded(rows) if prepared.order else rows
-        require(_alike(found.values[rows], values[wanted.surface.faces]), f"{name} has other values after decoding")
+        require(
+            _alike(attribute.values[rows], values[prepared_attribute.surface.faces]),
+            f"{name} has other values after decoding",
+        )
 
 
-def _alike(found: npt.NDArray[Any], wanted: npt.NDArray[Any]) -> bool:
-    if found.shape != wanted.shape or found.dtype != wanted.dtype:
+def _alike(actual: npt.NDArray[Any], expected: npt.NDArray[Any]) -> bool:
+    if actual.shape != expected.shape or actual.dtype != expected.dtype:
         return False
-    if found.dtype.kind != "f":
-        return bool((found == wanted).all())
+    if actual.dtype.kind != "f":
+        return bool((actual == expected).all())
     # Floats of attributes come from dequantization in double precision, where one rounding may differ.
-    return bool(np.allclose(found, wanted, rtol=ROUNDING, atol=ROUNDING * float(np.abs(wanted).max(initial=0.0))))
+    return bool(np.allclose(actual, expected, rtol=ROUNDING, atol=ROUNDING * float(np.abs(expected).max(initial=0.0))))
 
 
 def require(holds: bool, problem: str) -> None:

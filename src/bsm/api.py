@@ -130,10 +130,10 @@ def encode(
     # Before the mesh is read: a wrong keyword is said at once, and not after minutes of reading.
     wishes = _wishes(mesh, options, keywords, metadata, provenance, simplify=simplify)
     with watched("encoding", progress) as reported:
-        given = given_mesh(as_mesh(mesh), wishes)
-        found = given.encode(reported)
-    warn([*given.losses, *found.encoder.losses])
-    return b"".join(found.attempt.frames)
+        recipe = given_mesh(as_mesh(mesh), wishes)
+        encoding = recipe.encode(reported)
+    warn([*recipe.losses, *encoding.encoder.losses])
+    return b"".join(encoding.attempt.frames)
 
 
 def _wishes(
@@ -147,9 +147,9 @@ def _wishes(
     """Return the wishes of a caller, after a check of what does not depend on the mesh."""
     from bsm.encoding.given import Wishes
 
-    named = str(source) if isinstance(source, (str, os.PathLike)) else ""
-    given: dict[str, Any] = {"keywords": keywords, "options": options, "provenance": provenance, **more}
-    wishes = Wishes(source=named, metadata=checked_metadata(metadata), **given)
+    name = str(source) if isinstance(source, (str, os.PathLike)) else ""
+    shared: dict[str, Any] = {"keywords": keywords, "options": options, "provenance": provenance, **more}
+    wishes = Wishes(source=name, metadata=checked_metadata(metadata), **shared)
     wishes.check()
     return wishes
 
@@ -390,16 +390,16 @@ def encode_sequence(
     from bsm.files.motion.frames import Frames
 
     wishes, frames = _wishes(None, options, keywords, metadata, provenance), frames_of(positions)
-    shown = TriangleMesh(frames[0], faces)  # type: ignore[arg-type]
+    first = TriangleMesh(frames[0], faces)  # type: ignore[arg-type]
     moving: dict[str, Any] = {"attributes": mesh_attributes, "meshes": iter(frames)}
-    source = Frames(shown.faces, len(frames), iter(()), **moving)
-    return _joined(given_frames(source, wishes, shown), progress)
+    source = Frames(first.faces, len(frames), iter(()), **moving)
+    return _joined(given_frames(source, wishes, first), progress)
 
 
-def _joined(given: MovingRecipe, progress: Heard) -> bytes:
+def _joined(recipe: MovingRecipe, progress: Heard) -> bytes:
     with watched("encoding", progress) as reported:
-        data = b"".join(given.chunks(reported))
-    warn([*given.losses, *given.encoder.losses])
+        data = b"".join(recipe.chunks(reported))
+    warn([*recipe.losses, *recipe.encoder.losses])
     return data
 
 
@@ -450,24 +450,24 @@ def encode_frames(
 
     if isinstance(meshes, (str, bytes)) or not isinstance(meshes, Iterable):
         raise ArgumentError(f"a mesh for each frame is expected, not {type(meshes).__name__}")
-    given: dict[str, Any] = {"runs": True, **keywords} if options is None else {**keywords}
-    wishes = _wishes(None, options, given, metadata, provenance)
-    frames = map(_as_frame if getattr(options, "runs", given.get("runs")) else as_mesh, meshes)
+    choices: dict[str, Any] = {"runs": True, **keywords} if options is None else {**keywords}
+    wishes = _wishes(None, options, choices, metadata, provenance)
+    frames = map(_as_frame if getattr(options, "runs", choices.get("runs")) else as_mesh, meshes)
     first = next(frames, None)
     if first is None:
         raise MeshError("a sequence needs at least one frame")
     attributes = [a for a in first.attributes if a.semantic != "normal" and not is_empty([a])]
     count = len(meshes) if isinstance(meshes, Sequence) else 0
-    known: dict[str, Any] = {"attributes": tuple(attributes), "metadata": first.metadata}
-    source = Frames(first.faces, count, iter(()), **known, meshes=chain([first], frames))
+    shared: dict[str, Any] = {"attributes": tuple(attributes), "metadata": first.metadata}
+    source = Frames(first.faces, count, iter(()), **shared, meshes=chain([first], frames))
     return _joined(given_frames(source, wishes, first), progress)
 
 
-def _as_frame(given: Any) -> TriangleMesh:
+def _as_frame(frame: Any) -> TriangleMesh:
     from bsm.codec.sequence.runs import empty_frame
 
     try:
-        return as_mesh(given)
+        return as_mesh(frame)
     except NoFacesError:
         return empty_frame()
 
@@ -716,9 +716,9 @@ def denoise(
 
     chosen = chosen_options(options, DenoiseOptions, keywords, denoise_options)
     with watched("denoising", progress) as heard:
-        given = as_mesh(mesh)
-        clean = denoise_mesh(given, chosen, goal=goal, strength=strength, force=force, progress=heard.stage)
-    if stale := [attribute.name for attribute in given.attributes if attribute not in clean.attributes]:
+        original = as_mesh(mesh)
+        clean = denoise_mesh(original, chosen, goal=goal, strength=strength, force=force, progress=heard.stage)
+    if stale := [attribute.name for attribute in original.attributes if attribute not in clean.attributes]:
         warn([f"left out, for they fit no longer: {', '.join(stale)}"])
     return clean
 
@@ -755,13 +755,15 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
     """
     from bsm.account.comparison import compare_meshes, order_of_used, pair
 
-    whole = list(map(as_mesh, (original, decoded)))
-    first, second = (mesh.without_isolated_vertices()[0] for mesh in whole)
-    return compare_meshes(first, second, pair(first, second, None if order is None else order_of_used(order, *whole)))
+    pair_as_given = list(map(as_mesh, (original, decoded)))
+    first, second = (mesh.without_isolated_vertices()[0] for mesh in pair_as_given)
+    return compare_meshes(
+        first, second, pair(first, second, None if order is None else order_of_used(order, *pair_as_given))
+    )
 
 
 @_with_known_keywords
-def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
+def look(original: Any, decoded: Any, *, threads: int | None = None) -> Look:
     """Measure the look distance of two meshes; at 1 they look the same in smooth shading. Their faces may differ.
 
     Parameters
@@ -790,5 +792,5 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
     """
     from bsm.codec.look.measure import look as look_at
 
-    first, second = map(as_mesh, (original, other))
+    first, second = map(as_mesh, (original, decoded))
     return look_at(first, second, threads=threads)

@@ -166,7 +166,7 @@ def test_primitives_of_a_mesh_share_a_stream(source):
             given.append(copy.deepcopy(given[0]))
         given[number]["indices"] = len(document.tree["accessors"]) - 1
     found = compress(document, CODE)
-    assert found.coded == 3 and not found.left
+    assert found.coded == 3 and not found.unchanged
     after = Document(found.data)
     first, second = after.tree["meshes"][0]["primitives"]
     assert first["attributes"] == second["attributes"] and first["indices"] != second["indices"]

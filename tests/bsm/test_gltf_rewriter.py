@@ -50,7 +50,7 @@ def test_a_face_with_many_small_targets_is_coded(preset):
         targets.append({"POSITION": (near[:, None] * random.normal(size=3) * 0.006).astype(np.float32)})
     built, _ = ring(targets=targets, count=count)
     found, after = rewritten(built, {"preset": preset, "effort": "quick"})
-    assert found.coded == 1, found.left
+    assert found.coded == 1, found.unchanged
     assert len(found.data) < len(built.bytes) / 5
     bound = np.ptp(torus(count, 16).positions, axis=0).max() / (1 << 15)
     for number, target in enumerate(after.tree["meshes"][0]["primitives"][0]["targets"]):
@@ -150,7 +150,7 @@ def test_primitives_whose_vertices_are_named_stay(put):
     built.tree["extensionsUsed"] = ["X"]
     before = Document(built.bytes)
     found, after = rewritten(built)
-    assert found.coded == 0 and "may name vertices" in "".join(found.left)
+    assert found.coded == 0 and "may name vertices" in "".join(found.unchanged)
     assert after.tree["meshes"] == before.tree["meshes"] and EXTENSION not in after.tree["extensionsUsed"]
     for number in range(2):
         np.testing.assert_array_equal(after.array(number), before.array(number))
@@ -165,7 +165,7 @@ def test_a_primitive_with_bytes_that_are_not_known_stays_and_others_are_compress
     built.tree["bufferViews"][0]["extensions"] = how
     built.tree["extensionsUsed"] = ["EXT_packs"]
     found, after = rewritten(built)
-    assert found.coded == 1 and found.left == {"EXT_packs may hold other bytes": 1}
+    assert found.coded == 1 and found.unchanged == {"EXT_packs may hold other bytes": 1}
     view = after.tree["bufferViews"][after.item("accessors", first(after)["attributes"]["POSITION"])["bufferView"]]
     assert view["extensions"] == how and after.buffer(0)[: len(built.data)] == built.data
 
@@ -250,7 +250,7 @@ def test_identifiers_are_exact(ids, preset):
         "EXT_mesh_features": {"featureIds": [{"featureCount": 384, "attribute": 0}]}
     }
     found, after = rewritten(built, {"preset": preset})
-    assert found.coded == 1 and not found.left
+    assert found.coded == 1 and not found.unchanged
     places, values = (after.numbers(first(after)["attributes"][name]) for name in ("POSITION", "_FEATURE_ID_0"))
     nearest = np.linalg.norm(places[:, None] - shape.positions[None], axis=2).argmin(axis=1)
     np.testing.assert_array_equal(values, ids[nearest])

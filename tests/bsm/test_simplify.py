@@ -109,7 +109,7 @@ def test_colors_and_normals_stay():
     speckles = np.random.default_rng(1).integers(0, 256, (1500, 3)).astype(np.uint8)
     spots = bsm.Attribute("color", speckles, semantic="color")
     noisy = Source(bsm.TriangleMesh(mesh.positions, mesh.faces, [spots]), bsm.PRESETS["small"])
-    assert noisy.look(noisy.whole) == 0.0
+    assert noisy.look(noisy.full_mesh) == 0.0
     assert noisy.stand_in(16, 0).spent > 1.0
 
 

@@ -43,7 +43,7 @@ def draft(
     chosen = EncodeOptions(threads=1, **({"key_interval": 0} | options))
     base = next(_InSmallBlocks(prepared, chosen, 0.5, spread).bases(step))
     layer = Layer(step, ratio)
-    levels, _ = base.wanted(base.expected_steps(layer))
+    levels, _ = base.best_levels(base.expected_steps(layer))
     known = base.known_steps(layer, levels)
     levels[:, 1:] = np.rint(base.offsets[:, 1:] / known[:, 1:])
     moved = base.moved(layer, levels, known)

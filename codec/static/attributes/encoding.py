@@ -113,13 +113,13 @@ class PreparedAttribute:
 
 
 def carry(
-    place: GivenMesh, faces: Faces, wanted: Iterable[tuple[Attribute, Quality]], swift: int
+    place: GivenMesh, faces: Faces, chosen: Iterable[tuple[Attribute, Quality]], swift: int
 ) -> tuple[PreparedAttribute, ...]:
     """Attributes in the order of coding, on coded faces; `swift` as in the header."""
-    wanted = tuple(wanted)
-    if len(wanted) > MOST_ATTRIBUTES:
-        raise OptionError(f"a stream has {MOST_ATTRIBUTES} attributes at most, not {len(wanted)}: leave some out")
-    return tuple(_carry(place, faces, not number, swift, *each) for number, each in enumerate(wanted))
+    chosen = tuple(chosen)
+    if len(chosen) > MOST_ATTRIBUTES:
+        raise OptionError(f"a stream has {MOST_ATTRIBUTES} attributes at most, not {len(chosen)}: leave some out")
+    return tuple(_carry(place, faces, not number, swift, *each) for number, each in enumerate(chosen))
 
 
 def _carry(
@@ -130,10 +130,10 @@ def _carry(
     domain, way = DOMAINS.index(attribute.domain), WAYS.index(quality.way)
     values = np.ascontiguousarray(attribute.values)
     # All in C, where the order of coding is: corners, seams and integers in one pass, as the C encoder has it, too.
-    found = place.carry(first, attribute.name, values, kind, domain, semantic, attribute.indices, way, quality.amount)
-    numbers, seams, pieces, decoded, own, at, leans, outcome, directed = found
+    results = place.carry(first, attribute.name, values, kind, domain, semantic, attribute.indices, way, quality.amount)
+    numbers, seams, pieces, decoded, own_faces, at, leans, outcome, directed = results
     declaration = Declaration(name=attribute.name, **values_of(Declaration, numbers))
-    surface = Surface(faces if own is None else own, at)
+    surface = Surface(faces if own_faces is None else own_faces, at)
     what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
     became = "recomputed from the decoded mesh" if declaration.coding == RECOMPUTED else noted(*outcome)
     note = f"{attribute.name}: {what}per {attribute.domain}, {became}"

@@ -61,10 +61,10 @@ def parse_quality(text: str) -> Quality:
         if text == plain:
             return Quality(plain)
     for form, way in _FORMS:
-        found = re.fullmatch(form, text.strip())
-        if found:
+        match = re.fullmatch(form, text.strip())
+        if match:
             try:
-                return Quality(way, float(found[1]))
+                return Quality(way, float(match[1]))
             except ValueError:
                 break
     raise OptionError(
@@ -73,13 +73,13 @@ def parse_quality(text: str) -> Quality:
     )
 
 
-def checked_qualities(asked: Mapping[str, str] | tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
+def checked_qualities(choices: Mapping[str, str] | tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
     """Return the qualities of attributes by name, as pairs; raise `OptionError` for unknown ones."""
     try:
         # Sorted pairs can be compared and hashed, which a frozen class needs.
-        pairs = tuple(sorted((str(name), str(quality)) for name, quality in dict(asked).items()))
+        pairs = tuple(sorted((str(name), str(quality)) for name, quality in dict(choices).items()))
     except (TypeError, ValueError):
-        raise ArgumentError(f"attributes must be a mapping from names to qualities, not {asked!r}") from None
+        raise ArgumentError(f"attributes must be a mapping from names to qualities, not {choices!r}") from None
     for _, text in pairs:
         parse_quality(text)
     return pairs
@@ -87,9 +87,9 @@ def checked_qualities(asked: Mapping[str, str] | tuple[tuple[str, str], ...]) ->
 
 def _are_few_and_whole(values: npt.NDArray[Any]) -> bool:
     """Whether floats are labels or ids: whole numbers, and few of them."""
-    whole = values.dtype.kind == "f" and (np.abs(values) <= MOST_LABEL).all() and (values == np.rint(values)).all()
+    is_whole = values.dtype.kind == "f" and (np.abs(values) <= MOST_LABEL).all() and (values == np.rint(values)).all()
     # Labels that are off by one are wrong, not near. Formats without integers store them as floats.
-    return bool(whole) and len(np.unique(values)) <= MOST_LABELS
+    return bool(is_whole) and len(np.unique(values)) <= MOST_LABELS
 
 
 def qualities(
@@ -129,4 +129,4 @@ def qualities(
         still = asked_for.way == "rms" and attribute.name not in moving
         return Quality("share", asked_for.amount) if still else asked_for
 
-    return [(attribute, wanted) for attribute in attributes if (wanted := meant(attribute)).way != "none"]
+    return [(attribute, chosen) for attribute in attributes if (chosen := meant(attribute)).way != "none"]

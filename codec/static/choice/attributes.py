@@ -39,15 +39,15 @@ ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}  # of the look that is promis
 class Sent:
     """A mesh on its way into a stream: joined, prepared, and its attributes as they are sent."""
 
-    given: TriangleMesh
+    source: TriangleMesh
     options: EncodeOptions
     looks: tuple[tuple[int, AttributeLook], ...] = ()  # attributes whose quality the look decides
-    shown: LookMetric | None = None  # pictures of another mesh, for which this one stands
+    drawn: LookMetric | None = None  # pictures of another mesh, for which this one stands
     trace: Trace = field(default_factory=Trace)
 
-    def but(self, **known: Any) -> Sent:
+    def but(self, **results: Any) -> Sent:
         """Return an input with other values of some fields and results, and all else that was computed."""
-        return with_results(self, **known)
+        return with_results(self, **results)
 
     @property
     def joined(self) -> JoinedMesh:
@@ -60,7 +60,7 @@ class Sent:
     @cached_property
     def _begun(self) -> tuple[JoinedMesh, Prepared]:
         options = self.options
-        joined = join(self.given, keep=options.keep_order, exact=options.exact)
+        joined = join(self.source, keep=options.keep_order, exact=options.exact)
         prepared = prepare(
             joined,
             Parts.of(options.block_size, options.growth, options.paper.partition),
@@ -68,35 +68,35 @@ class Sent:
             light=options.effort == "quick",
             congruence=options.congruence,
         )
-        if not self.given.attributes:
+        if not self.source.attributes:
             joined = replace(joined, coder=None)  # it is as large as ten meshes
         return joined, prepared
 
     def rested(self) -> Sent:
         """Return the input without all that was measured for the search; it is measured again if it is needed."""
         joined, prepared = self._begun
-        return replace(self).but(_begun=(joined, replace(prepared)), wanted=self.wanted, carried=self.carried)
+        return replace(self).but(_begun=(joined, replace(prepared)), qualities=self.qualities, carried=self.carried)
 
     @cached_property
-    def wanted(self) -> tuple[tuple[Attribute, Quality], ...]:
+    def qualities(self) -> tuple[tuple[Attribute, Quality], ...]:
         options = self.options
-        return tuple(qualities(self.given.attributes, dict(options.attributes), options.grade, options.normals))
+        return tuple(qualities(self.source.attributes, dict(options.attributes), options.grade, options.normals))
 
     @cached_property
     def carried(self) -> tuple[PreparedAttribute, ...]:
-        return self.carry(self.wanted)
+        return self.carry(self.qualities)
 
-    def carry(self, wanted: Sequence[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
-        if not wanted:
+    def carry(self, pairs: Sequence[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
+        if not pairs:
             return ()
-        return carry(self.joined.coding, self.prepared.mesh.faces, wanted, SWIFT[self.options.effort])
+        return carry(self.joined.coding, self.prepared.mesh.faces, pairs, SWIFT[self.options.effort])
 
-    def wanted_with(self, index: int, quality: Quality) -> tuple[tuple[Attribute, Quality], ...]:
+    def qualities_with(self, index: int, quality: Quality) -> tuple[tuple[Attribute, Quality], ...]:
         """All attributes, one of them with another quality."""
-        return tuple((a, quality if at == index else asked) for at, (a, asked) in enumerate(self.wanted))
+        return tuple((a, quality if at == index else usual) for at, (a, usual) in enumerate(self.qualities))
 
     def carry_with(self, index: int, quality: Quality) -> tuple[PreparedAttribute, ...]:
-        return self.carry(self.wanted_with(index, quality))
+        return self.carry(self.qualities_with(index, quality))
 
     @cached_property
     def normals(self) -> Normals | None:
@@ -105,29 +105,29 @@ class Sent:
 
     @cached_property
     def _own_normals(self) -> Normals | None:
-        own = own_normals(self.given)
-        if own is None:
+        normals = own_normals(self.source)
+        if normals is None:
             return None
-        given = np.arange(3 * len(own), dtype=np.int32).reshape(-1, 3)
-        corners = self.prepared.of_coded(given[self.joined.kept])
-        return own.reshape(-1, 3)[corners].reshape(-1, 9)
+        numbers = np.arange(3 * len(normals), dtype=np.int32).reshape(-1, 3)
+        corners = self.prepared.of_coded(numbers[self.joined.coded_faces])
+        return normals.reshape(-1, 3)[corners].reshape(-1, 9)
 
     def completed(self, draft: Draft) -> Draft:
         """The draft with attributes and metadata."""
-        if not self.carried and not self.given.metadata:
+        if not self.carried and not self.source.metadata:
             return draft
-        return with_attributes(draft, self.carried, self.given.metadata)
+        return with_attributes(draft, self.carried, self.source.metadata)
 
-    def measuring(self, near: Nearing | None, *, alike: bool = False) -> Sent:
+    def measuring(self, progress: Nearing | None, *, alike: bool = False) -> Sent:
         """Return an input whose measurements report their progress; `alike`: angles count all faces alike."""
-        return self.but(measures=self._measuring(self.normals, alike=alike, near=near))
+        return self.but(measures=self._measuring(self.normals, alike=alike, progress=progress))
 
     @cached_property
     def measures(self) -> Measures:
         return self._measuring(self.normals)
 
-    def _measuring(self, normals: Normals | None, **known: Any) -> Measures:
-        return Measures(self.prepared, self.options.threads, normals, shown=self.shown, **known)
+    def _measuring(self, normals: Normals | None, **results: Any) -> Measures:
+        return Measures(self.prepared, self.options.threads, normals, drawn=self.drawn, **results)
 
     @property
     def search(self) -> Search:
@@ -141,7 +141,7 @@ class Sent:
     @cached_property
     def shown_normals(self) -> int | None:
         """The number of the sent normals that pictures show."""
-        return next((at for at, (attribute, _) in enumerate(self.wanted) if shades(attribute)), None)
+        return next((at for at, (attribute, _) in enumerate(self.qualities) if shades(attribute)), None)
 
     @cached_property
     def free_normals(self) -> int | None:
@@ -150,68 +150,70 @@ class Sent:
         first = self.shown_normals
         if options.normals != "look" or "*" in dict(options.attributes) or first is None or self.normals is None:
             return None
-        attribute, quality = self.wanted[first]
-        asked = attribute.name in dict(options.attributes) or not np.isfinite(self.normals).all()
-        return None if asked or quality.way != "bits" else first
+        attribute, quality = self.qualities[first]
+        is_chosen = attribute.name in dict(options.attributes) or not np.isfinite(self.normals).all()
+        return None if is_chosen or quality.way != "bits" else first
 
     def computes_near_normals(self, decoded: Positions, computed: PreparedAttribute) -> bool:
         """Whether each normal that a decoder computes is within `NEAR` of the given one."""
         if self.normals is None:
             return False
-        given = self.normals.reshape(-1, 3).astype(np.float64)
+        original = self.normals.reshape(-1, 3).astype(np.float64)
         # A normal without a length has no angle to any other.
-        if not given.any(axis=1).all():
+        if not original.any(axis=1).all():
             return False
-        apart = np.linalg.norm(computed.normals(decoded).reshape(-1, 3) - given, axis=1)
+        apart = np.linalg.norm(computed.normals(decoded).reshape(-1, 3) - original, axis=1)
         farthest = 2.0 * math.sin(math.radians(NEAR) / 2.0)
         return bool(apart.max(initial=0.0) <= farthest)
 
     def measured(self, draft: Draft, contract: Contract) -> tuple[str, float | None, str]:
         """Return the bounds that a draft with its attributes breaks, its look distance, and the bound that binds."""
         bounds, decoded = Bounds(self.measures, contract), draft.decoded
-        made = trial_of(self.prepared, draft)
+        trial = trial_of(self.prepared, draft)
         metric = bounds.metric
         if metric is None:
-            return "" if bounds.keeps(made) else bounds.had, None, bounds.binding(made)
-        shown = [metric.bare(decoded).distance]
-        shown += [look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks]
-        bound = others = max(*shown, metric.distance(decoded))
-        if (sent := self.shown_normals) is not None:
-            shaded = metric.shaded(decoded, self.carried[sent].normals(decoded))
-            if self.wanted[sent][1].way != "recompute":  # which viewers may do, too
-                bound = max(bound if self.free_normals is None else 0.0, *shown, *shaded)
-            shown.append(shaded[0])
+            return "" if bounds.keeps(trial) else bounds.had, None, bounds.binding(trial)
+        distances = [metric.bare(decoded).distance]
+        distances += [look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks]
+        bound = others = max(*distances, metric.distance(decoded))
+        if (number := self.shown_normals) is not None:
+            shaded = metric.shaded(decoded, self.carried[number].normals(decoded))
+            if self.qualities[number][1].way != "recompute":  # which viewers may do, too
+                bound = max(bound if self.free_normals is None else 0.0, *distances, *shaded)
+            distances.append(shaded[0])
         elif self._own_normals is not None:  # which viewers compute
-            given = self._measuring(self._own_normals).look
-            shown.append(given.compare(replace(self.prepared.mesh, positions=decoded)).distance if given else 0.0)
-        if self.free_normals is None and bounds.keeps(made, others) and not bounds.keeps(made, bound):
+            metric_of_own = self._measuring(self._own_normals).look
+            if metric_of_own:
+                moved = replace(self.prepared.mesh, positions=decoded)
+                distances.append(metric_of_own.compare(moved).distance)
+        if self.free_normals is None and bounds.keeps(trial, others) and not bounds.keeps(trial, bound):
             raise TargetError(f"{contract} cannot be kept with this quality of normals; the look is {bound:.3g}")
-        binding = bounds.binding(made, bound)
-        return "" if bounds.keeps(made, bound) else bounds.had, max(shown), binding
+        binding = bounds.binding(trial, bound)
+        return "" if bounds.keeps(trial, bound) else bounds.had, max(distances), binding
 
 
-def smallest(given: Sent, contract: Contract, near: Nearing | None) -> tuple[Sent, Draft]:
+def smallest(sender: Sent, contract: Contract, progress: Nearing | None) -> tuple[Sent, Draft]:
     """The smallest stream that keeps a contract, in colors and under a checker, too; and the input as it is sent."""
-    given = given.measuring(near, alike=contract.alike)
-    if given.measures.look is not None and contract.look < math.inf:
-        given = _roughened(given, contract.look)
-    return _shaded(given, contract)
+    sender = sender.measuring(progress, alike=contract.alike)
+    if sender.measures.look is not None and contract.look < math.inf:
+        sender = _roughened(sender, contract.look)
+    return _shaded(sender, contract)
 
 
-def _roughened(given: Sent, look: float) -> Sent:
+def _roughened(sender: Sent, look: float) -> Sent:
     """Make colors and texture coordinates without a requested quality as coarse as the look allows."""
-    rough = given
-    for at, (attribute, quality) in enumerate(given.wanted):
-        asked = {"*", attribute.name} & {*dict(given.options.attributes)}
-        if not asked and quality.way in ("bits", "exact") and has_look(attribute):
+    rough = sender
+    for at, (attribute, quality) in enumerate(sender.qualities):
+        chosen = {"*", attribute.name} & {*dict(sender.options.attributes)}
+        if not chosen and quality.way in ("bits", "exact") and has_look(attribute):
             rough = _roughen(rough, at, attribute, ATTRIBUTE_SHARE[attribute.semantic] * look)
     if not rough.looks:
-        return given
-    rough = rough.but(carried=rough.carry(rough.wanted))
-    return rough.but(measures=given.measures.painting(rough.painted))
+        return sender
+    rough = rough.but(carried=rough.carry(rough.qualities))
+    return rough.but(measures=sender.measures.painting(rough.painted))
 
 
-def _roughen(given: Sent, at: int, attribute: Attribute, most: float) -> Sent:
+def _roughen(sender: Sent, at: int, attribute: Attribute, most: float) -> Sent:
     """Make an attribute as coarse as takes at most some of the look."""
     # A checker shows nothing of a texture that repeats or is sharper than it: no place moves by more than 1/4096.
     extent = float(np.ptp(attribute.values, axis=0).max(initial=0.0))
@@ -220,69 +222,69 @@ def _roughen(given: Sent, at: int, attribute: Attribute, most: float) -> Sent:
     if attribute.semantic == "color":
         rough = range(0 if kept_whole(attribute) else 15)
         steps = [*(Quality("share", 25.0 * 0.5 ** (k / 2)) for k in rough), Quality("exact")]
-    mesh = given.prepared.mesh
+    mesh = sender.prepared.mesh
     look_of = AttributeLook(
-        mesh, attribute.semantic, given.carry_with(at, steps[-1])[at].at_corners, threads=given.options.threads
+        mesh, attribute.semantic, sender.carry_with(at, steps[-1])[at].at_corners, threads=sender.options.threads
     )
 
-    def near(step: int) -> bool:
-        return look_of.distance(mesh.positions, given.carry_with(at, steps[step])[at].at_corners) <= most
+    def is_near(step: int) -> bool:
+        return look_of.distance(mesh.positions, sender.carry_with(at, steps[step])[at].at_corners) <= most
 
-    step = steps[bisect_left(range(len(steps) - 1), True, key=near)]
-    if attribute.semantic == "texcoord" or given.carry_with(at, step)[at].size < given.carried[at].size:
-        given = given.but(wanted=given.wanted_with(at, step))
-    return given.but(looks=(*given.looks, (at, look_of)))
+    step = steps[bisect_left(range(len(steps) - 1), True, key=is_near)]
+    if attribute.semantic == "texcoord" or sender.carry_with(at, step)[at].size < sender.carried[at].size:
+        sender = sender.but(qualities=sender.qualities_with(at, step))
+    return sender.but(looks=(*sender.looks, (at, look_of)))
 
 
-def complete(given: Sent, bare: Draft, most: float = math.inf) -> tuple[Sent, Draft]:
+def complete(sender: Sent, bare: Draft, most: float = math.inf) -> tuple[Sent, Draft]:
     """Return the input as it is sent, and the draft with attributes; `most`: the look that is promised.
 
     With the option "near", it leaves out normals that the decoder computes well enough, if that saves bytes.
     """
-    kept = given.completed(bare)
-    number = given.shown_normals
-    if given.options.normals != "near" or number is None or given.wanted[number][0].values.dtype.kind != "f":
-        return given, kept
-    spared = given.but(carried=given.carry_with(number, Quality("recompute")))
+    draft = sender.completed(bare)
+    number = sender.shown_normals
+    if sender.options.normals != "near" or number is None or sender.qualities[number][0].values.dtype.kind != "f":
+        return sender, draft
+    spared = sender.but(carried=sender.carry_with(number, Quality("recompute")))
     computed = spared.carried[number]
-    if not given.computes_near_normals(bare.decoded, computed):
-        return given, kept
-    metric = given.measures.look if most < math.inf else None
+    if not sender.computes_near_normals(bare.decoded, computed):
+        return sender, draft
+    metric = sender.measures.look if most < math.inf else None
     if metric is not None and max(metric.shaded(bare.decoded, computed.normals(bare.decoded))) > most:
-        return given, kept
+        return sender, draft
     smaller = spared.completed(bare)
-    return (spared, smaller) if smaller.size < kept.size else (given, kept)
+    return (spared, smaller) if smaller.size < draft.size else (sender, draft)
 
 
-def _shaded(given: Sent, contract: Contract) -> tuple[Sent, Draft]:
+def _shaded(sender: Sent, contract: Contract) -> tuple[Sent, Draft]:
     """The smallest stream that keeps a contract; normals without a quality get as many bits as the look needs."""
-    bare, metric, free = given.search.smallest(contract), given.measures.look, given.free_normals
+    bare, metric, free = sender.search.smallest(contract), sender.measures.look, sender.free_normals
     if free is None or metric is None or contract.look == math.inf:
-        return complete(given, bare, contract.look)
-    decoded, asked = bare.decoded, contract.look
+        return complete(sender, bare, contract.look)
+    decoded, most = bare.decoded, contract.look
 
-    def seen(carried: tuple[PreparedAttribute, ...], positions: Positions) -> float:
-        return max(metric.shaded(positions, carried[free].normals(positions))) / asked
+    def share_of_look(carried: tuple[PreparedAttribute, ...], positions: Positions) -> float:
+        return max(metric.shaded(positions, carried[free].normals(positions))) / most
 
     finer = [*(Quality("bits", bits) for bits in range(LEAST_NORMAL_BITS, MOST_NORMAL_BITS + 1)), Quality("exact")]
 
     def enough(at: int) -> bool:
-        return seen(given.carry_with(free, finer[at]), decoded) <= 1.0
+        return share_of_look(sender.carry_with(free, finer[at]), decoded) <= 1.0
 
-    sent = given.but(carried=given.carry_with(free, finer[bisect_left(range(len(finer) - 1), True, key=enough)]))
-    kept = sent, sent.completed(bare)
-    recomputed = given.but(carried=given.carry_with(free, Quality("recompute")))
-    if metric.against_faces or seen(recomputed.carried, given.prepared.mesh.positions) > 1.0 - SLACK:
-        return kept
+    cheaper = sender.but(carried=sender.carry_with(free, finer[bisect_left(range(len(finer) - 1), True, key=enough)]))
+    pair = cheaper, cheaper.completed(bare)
+    recomputed = sender.but(carried=sender.carry_with(free, Quality("recompute")))
+    if metric.against_faces or share_of_look(recomputed.carried, sender.prepared.mesh.positions) > 1.0 - SLACK:
+        return pair
 
-    def shown(positions: Positions) -> float:
-        return max(given.measures.painted(positions), asked * seen(recomputed.carried, positions))
+    def worst_look(positions: Positions) -> float:
+        return max(sender.measures.painted(positions), most * share_of_look(recomputed.carried, positions))
 
-    recomputed = recomputed.but(measures=given.measures.painting(shown))
+    recomputed = recomputed.but(measures=sender.measures.painting(worst_look))
     with suppress(TargetError):
-        other = recomputed.completed(recomputed.search.smallest(contract))
-        return (recomputed, other) if other.size < kept[1].size else kept
-    return kept
+        smaller = recomputed.completed(recomputed.search.smallest(contract))
+        return (recomputed, smaller) if smaller.size < pair[1].size else pair
+    return pair
 
 
 def kept_whole(colors: Attribute) -> bool:

@@ -47,7 +47,7 @@ class OnCells:
         layer = Layer(single(step), RATIO)
         many = step > 2.0 * SEEN * self._measures.shaper.mean_edge  # most levels are 0
         spreads = self._spreads if many else self._spreads[:1]
-        within, tried = self._measures.near.within(TIME), 0
+        within, tried = self._measures.progress.within(TIME), 0
         best: RefinementBase | None = None
         least = math.inf
         for spread in spreads:
@@ -73,9 +73,9 @@ class OnVertices:
     """Blocks on all vertices of a mesh, which take decoders longer."""
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
-        spectral, near = InBlocks(prepared, options, BROADEST), bounds.measures.near
+        spectral, progress = InBlocks(prepared, options, BROADEST), bounds.measures.progress
         self.least = 1.01 * smallest_step(prepared.size)
-        self.at = lru_cache(2)(lambda step: spectral.base(step, near.within()))
+        self.at = lru_cache(2)(lambda step: spectral.base(step, progress.within()))
 
     def step_below(self, step: float) -> float:
         """Return the step of blocks for levels of a step."""
@@ -141,8 +141,8 @@ class Refined:
     @cached_property
     def first(self) -> float:
         # Of the look that a usual layer takes, steps along tangents take a little less than those along normals.
-        wanted = self._bounds.first_step / math.hypot(1.0, 0.93 * self.ratio / RATIO)
-        return min(max(wanted, self.least), self.most)
+        step = self._bounds.first_step / math.hypot(1.0, 0.93 * self.ratio / RATIO)
+        return min(max(step, self.least), self.most)
 
     @property
     def ladder(self) -> Matrix:
@@ -161,8 +161,8 @@ class Refined:
             return Estimate(rough, DOUBT, saving)
         base = self._base(self.first)
         size, finer = (base.about(Layer(single(step), self.ratio)) for step in (self.first, self.first / math.e))
-        whole = (size + len(self._prepared.connectivity.data)) / CODED
-        return Estimate(whole, DOUBT, min(saving, (finer - size) / CODED))
+        estimate = (size + len(self._prepared.connectivity.data)) / CODED
+        return Estimate(estimate, DOUBT, min(saving, (finer - size) / CODED))
 
     def at(self, step: float) -> Trial:
         """Return the trial of a step."""
@@ -178,19 +178,19 @@ class Refined:
     def mended(self, trial: Trial) -> Trial | None:
         """Return None: folds are mended as levels are chosen."""
 
-    def _unfolded(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Trial:
+    def _unfolded(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, steps: Matrix) -> Trial:
         """Return the trial of levels with fewer edges folded over; others may then need it."""
         for _ in range(UNFOLDED):
-            positions = base.moved(layer, levels, known)
-            directions = base.directions(known).reshape(-1, 9)
-            other = self._bounds.measures.shaper.unfold(positions, levels, directions, self._near(known))
-            if other is None:
+            positions = base.moved(layer, levels, steps)
+            directions = base.directions(steps).reshape(-1, 9)
+            unfolded = self._bounds.measures.shaper.unfold(positions, levels, directions, self._near(steps))
+            if unfolded is None:
                 break
-            levels, known = other, base.known_steps(layer, other)
-        return self._leveled(step, base, layer, levels, known)
+            levels, steps = unfolded, base.known_steps(layer, unfolded)
+        return self._leveled(step, base, layer, levels, steps)
 
-    def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Trial:
-        positions = base.moved(layer, levels, known)
+    def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, steps: Matrix) -> Trial:
+        positions = base.moved(layer, levels, steps)
         code = partial(refine_blocks, base.prepared, base.draft, layer, levels, positions)
         return Trial(step, positions, code, self._settled)
 
@@ -204,26 +204,26 @@ class Refined:
         room = (self._diagonal / step) ** 2 - 1.0
         layer = Layer(single(step), min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self.ratio))
         steps, expected = base.expected_steps(layer), partial(base.known_steps, layer)
-        near = self._near(steps)
-        levels = self._settler.levels(base.offsets, base.frames, steps, expected, PULLED, near, self.ratio)
-        levels, known = base.within(reaches, layer, levels)
+        nearness = self._near(steps)
+        levels = self._settler.levels(base.offsets, base.frames, steps, expected, PULLED, nearness, self.ratio)
+        levels, known_steps = base.within(reaches, layer, levels)
         if len((gaps := self._bounds.gaps).ends):
-            moved = base.moved(layer, levels, known) - self._prepared.positions
-            levels, known = base.within(gaps.kept(reaches, moved), layer, levels)
-        return layer, levels, known
+            moved = base.moved(layer, levels, known_steps) - self._prepared.positions
+            levels, known_steps = base.within(gaps.kept(reaches, moved), layer, levels)
+        return layer, levels, known_steps
 
     def _nearer(
-        self, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix
+        self, base: RefinementBase, layer: Layer, levels: Levels, steps: Matrix
     ) -> tuple[Layer, Levels, Matrix]:
         """These levels, but the nearest ones at edges that fold over."""
         shaper = self._bounds.measures.shaper
         for _ in range(TRIES):  # heights that are mended change steps of others
-            if not len(wrong := shaper.over(base.moved(layer, levels, known))):
+            if not len(wrong := shaper.over(base.moved(layer, levels, steps))):
                 break
             levels = levels.copy()
-            levels[wrong] = np.rint(base.offsets[wrong] / known[wrong])
-            known = base.known_steps(layer, levels)
-        return layer, levels, known
+            levels[wrong] = np.rint(base.offsets[wrong] / steps[wrong])
+            steps = base.known_steps(layer, levels)
+        return layer, levels, steps
 
     def _base(self, step: float) -> RefinementBase:
         """The blocks below levels of about a step, which are the same for steps that are near the first one."""
@@ -233,10 +233,10 @@ class Refined:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""
         shaper = self._bounds.measures.shaper
         aim = layer.step / shaper.mean_edge, float(self._bounds.reaches.max())
-        heights = shaper.levels(base.positions, *base.wanted(base.expected_steps(layer)), *aim)
-        wanted, directions = base.wanted(base.known_steps(layer, heights))
-        wanted[:, 0] = heights[:, 0]
-        return shaper.levels(base.positions, wanted, directions, *aim)
+        heights = shaper.levels(base.positions, *base.best_levels(base.expected_steps(layer)), *aim)
+        heights_wanted, directions = base.best_levels(base.known_steps(layer, heights))
+        heights_wanted[:, 0] = heights[:, 0]
+        return shaper.levels(base.positions, heights_wanted, directions, *aim)
 
     @cached_property
     def _settler(self) -> Settler:

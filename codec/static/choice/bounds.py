@@ -49,25 +49,25 @@ class Measures:
         normals: Normals | None = None,
         *,
         alike: bool = False,
-        near: Nearing | None = None,
-        shown: LookMetric | None = None,
+        progress: Nearing | None = None,
+        drawn: LookMetric | None = None,
     ) -> None:
         self.prepared = prepared
         self.original = prepared.reference.alike if alike else prepared.reference.by_area
         self.shaper = Shaper(self.original, prepared.graph)
         self.reaches = lru_cache(1)(partial(reaches, prepared))
         self.gaps = lru_cache(1)(partial(gaps, prepared))
-        self._threads, self.shown = threads, shown
+        self._threads, self.drawn = threads, drawn
         self.normals = normals
-        self.near = near or Nearing(None)
+        self.progress = progress or Nearing(None)
         self.unseen = ""  # why there is no look
         self.painted: Callable[[Positions], float] = lambda decoded: 0.0  # the look of attributes
 
     def painting(self, painted: Callable[[Positions], float]) -> "Measures":
         """Return these measurements with looks of attributes."""
-        other = copy(self)
-        other.painted = painted
-        return other
+        measures = copy(self)
+        measures.painted = painted
+        return measures
 
     def flat_faces(self, positions: Matrix) -> int:
         """Return how many faces have no area, within rounding."""
@@ -83,18 +83,20 @@ class Measures:
     @cached_property
     def look(self) -> LookMetric | None:
         """None: nothing of the mesh can be seen."""
-        own = () if self.normals is None else (Attribute("normal", self.normals.reshape(-1, 3), "corner", "normal"),)
+        normals = []
+        if self.normals is not None:
+            normals.append(Attribute("normal", self.normals.reshape(-1, 3), "corner", "normal"))
         # As given and as decoded, to the last bit: in BSM units, rounding may show other shades.
-        mesh = TriangleMesh(self.prepared.mesh.positions, self.prepared.mesh.faces, own)
+        mesh = TriangleMesh(self.prepared.mesh.positions, self.prepared.mesh.faces, tuple(normals))
         try:
-            if self.shown is not None:
-                return self.shown.against(mesh)
+            if self.drawn is not None:
+                return self.drawn.against(mesh)
             return LookMetric(mesh, threads=self._threads, around=self.shaper.around)
         except MeshError as error:
             self.unseen = error.message
             return None
         finally:
-            self.near.by()
+            self.progress.by()
 
 
 def count_flat(positions: Matrix, faces: Faces) -> int:
@@ -125,7 +127,7 @@ class Bounds:
         """The logarithm of the largest share of a bound that depends on the step."""
         farther, angle, visual, look = self._shares(candidate)
         shares = (angle, visual, look) if candidate.settled and farther <= 1.0 else (farther, angle, visual, look)
-        self.measures.near.by()
+        self.measures.progress.by()
         return math.log(max(*shares, LEAST))
 
     def is_faulty(self, trial: Trial) -> bool:
@@ -195,7 +197,7 @@ class Bounds:
     def _aim(self) -> float:
         """From one step for all looks, so that a stricter one begins with a finer step; but a mesh that stands for
         another one looks different without any step."""
-        return self.contract.look if self.measures.shown else 1.0
+        return self.contract.look if self.measures.drawn else 1.0
 
     @property
     def had(self) -> str:
@@ -209,10 +211,12 @@ class Bounds:
         """Shares of the bounds on distances, on the angle of normals, on the visual error, and on the look."""
         if look is None and self._last is not None and self._last[0]() is candidate:
             return self._last[1]
-        seen, decoded = 0.0 if look is None else look, self._decoded(candidate)
-        if look is None and self.metric is not None and (seen := self.metric.with_room(decoded)) <= self.contract.look:
-            seen = max(seen, self.measures.painted(decoded))
-        shares = (*self._measured(candidate.positions), seen / self.contract.look)
+        distance, decoded = look or 0.0, self._decoded(candidate)
+        if look is None and self.metric is not None:
+            distance = self.metric.with_room(decoded)
+            if distance <= self.contract.look:
+                distance = max(distance, self.measures.painted(decoded))
+        shares = (*self._measured(candidate.positions), distance / self.contract.look)
         if look is None:
             self._last = ReferenceType(candidate), shares
         if self._best is None or shares < self._best:
@@ -238,13 +242,13 @@ class Bounds:
 def reaches(prepared: Prepared, contract: Contract) -> Matrix:
     """How far each vertex may come to lie from its place, in BSM units, shape (n,)."""
     diagonal, unit, part = prepared.mesh.diagonal, prepared.units.scale, prepared.components
-    farthest, whole = contract.reach(diagonal, unit), contract.by_part * diagonal / unit
-    if not whole < math.inf:
+    farthest, by_part = contract.reach(diagonal, unit), contract.by_part * diagonal / unit
+    if not by_part < math.inf:
         return np.full(len(part), farthest)
     order, starts = np.argsort(part, kind="stable"), np.cumsum([0, *np.bincount(part)[:-1]])
     low, high = (end.reduceat(prepared.positions[order], starts) for end in (np.minimum, np.maximum))
     diagonals = np.sqrt(squares_of(high - low)) * unit / (diagonal or 1.0)
-    return np.asarray(np.minimum(farthest, whole * diagonals.clip(FINEST_PART, 1.0)[part]))
+    return np.asarray(np.minimum(farthest, by_part * diagonals.clip(FINEST_PART, 1.0)[part]))
 
 
 class Gaps(NamedTuple):
@@ -261,8 +265,8 @@ class Gaps(NamedTuple):
     def kept(self, reach: Matrix, moved: Matrix | None = None) -> Matrix:
         """How far vertices may be, of `reach`, so that no gap closes, or none of those that `moved` would close."""
         wrong = np.s_[:] if moved is None else self.closed(moved) > 1.0
-        near, reach = (1.0 - FINEST_PART) / 2.0 / np.sqrt(squares_of(self.closing[wrong, 0])), reach.copy()
-        np.minimum.at(reach, self.ends[wrong], near[:, None])
+        half, reach = (1.0 - FINEST_PART) / 2.0 / np.sqrt(squares_of(self.closing[wrong, 0])), reach.copy()
+        np.minimum.at(reach, self.ends[wrong], half[:, None])
         return reach
 
 
@@ -275,15 +279,15 @@ def gaps(prepared: Prepared, contract: Contract) -> Gaps:
     low, high = positions[faces].min(axis=1), positions[faces].max(axis=1)
     rows, nearest = [np.empty((0, 7))], np.full(count, np.inf)
     for number in range(count):
-        own = part[faces[:, 0]] == number
-        first, last = low[own].min(axis=0) - reach, high[own].max(axis=0) + reach
-        near = ~own & (low <= last).all(axis=1) & (high >= first).all(axis=1)
-        if near.any():
-            first, last = low[near].min(axis=0) - reach, high[near].max(axis=0) + reach
+        is_own = part[faces[:, 0]] == number
+        first, last = low[is_own].min(axis=0) - reach, high[is_own].max(axis=0) + reach
+        is_close = ~is_own & (low <= last).all(axis=1) & (high >= first).all(axis=1)
+        if is_close.any():
+            first, last = low[is_close].min(axis=0) - reach, high[is_close].max(axis=0) + reach
             mine = np.flatnonzero((part == number) & ((positions >= first) & (positions <= last)).all(axis=1))
-            rows.append(np.column_stack([mine, *nearest_points(positions[mine], positions, faces[near])]))
-    found = np.concatenate(rows)
-    ends, weights = found[:, :4].astype(np.int64), np.insert(found[:, 4:], 0, -1.0, axis=1)[:, :, None]
+            rows.append(np.column_stack([mine, *nearest_points(positions[mine], positions, faces[is_close])]))
+    closest = np.concatenate(rows)
+    ends, weights = closest[:, :4].astype(np.int64), np.insert(closest[:, 4:], 0, -1.0, axis=1)[:, :, None]
     across = -(weights * positions[ends]).sum(axis=1)
     squares, of = squares_of(across), part[ends[:, :2]]
     np.minimum.at(nearest, of, np.sqrt(squares)[:, None])

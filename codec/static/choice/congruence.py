@@ -28,7 +28,7 @@ def planes_of(positions: Matrix, faces: Faces) -> list[Matrix]:
     """Places on each axis of the longest edges at right angles to it, and their lengths over the extent: (k, 2)."""
     sides = (positions[np.roll(faces, 1, axis=1)] - positions[faces]).reshape(-1, 3)
     extent, lengths = float(extent_of(positions).max()), np.sqrt(squares_of(sides))
-    found = []
+    planes = []
     for axis in range(3):
         flat = np.flatnonzero(np.abs(sides[:, axis]) <= 1e-6 * extent)
         values = positions[faces.reshape(-1)[flat], axis]
@@ -36,8 +36,8 @@ def planes_of(positions: Matrix, faces: Faces) -> list[Matrix]:
         starts = np.flatnonzero(np.diff(values[order], prepend=-np.inf) > 1e-6 * extent)
         sums = np.add.reduceat(lengths[flat][order] / extent, starts) if len(starts) else np.empty(0)
         most = np.argsort(-sums, kind="stable")[:8]  # of axes with many, none fits well
-        found.append(np.column_stack([values[order][starts[most]], sums[most]]))
-    return found
+        planes.append(np.column_stack([values[order][starts[most]], sums[most]]))
+    return planes
 
 
 def lattice(
@@ -47,25 +47,25 @@ def lattice(
     most places to places, those that exchange axes or turn them back, all at once; and for which planes are at places:
     where a long edge moves, a row of samples changes, and a picture shows it."""
     turns, shifts, shares = motions_of(prepared, step, turn)
-    own = np.abs(turns - np.rint(turns)).max(axis=(1, 2)) * extent_of(prepared.mesh.positions).max() < step / 4.0
+    is_exact = np.abs(turns - np.rint(turns)).max(axis=(1, 2)) * extent_of(prepared.mesh.positions).max() < step / 4.0
     nearness = np.linspace(-0.5, 0.5, 241)
     steps = np.maximum(step * np.exp(SLACK * nearness), least).astype(np.float32).astype(np.float64)
-    origins, left = np.repeat(origin[None], len(steps), axis=0), np.ones(3, bool)
+    origins, is_open = np.repeat(origin[None], len(steps), axis=0), np.ones(3, bool)
     score = -1e-6 * np.abs(nearness)
-    rigid = [(np.rint(turns[k]), shifts[k], shares[k]) for k in np.argsort(-shares, kind="stable") if own[k]]
+    rigid = [(np.rint(turns[k]), shifts[k], shares[k]) for k in np.argsort(-shares, kind="stable") if is_exact[k]]
     for turned, shift, _ in rigid:  # axes that it turns have its center at a place
         back = np.eye(3) - turned
-        if (axes := back.any(axis=0)).any() and left[axes].all():
+        if (axes := back.any(axis=0)).any() and is_open[axes].all():
             cells = (np.linalg.pinv(back) @ shift - origins) / steps[:, None]
             origins[:, axes] -= ((np.ceil(cells - 1e-6) - cells) * steps[:, None])[:, axes]
-            left &= ~axes
+            is_open &= ~axes
     for axis, (values, lengths) in enumerate(plane.T for plane in planes):
         if not len(values):
             continue
-        cells = (values[:, None] - (values if left[axis] else origins[:, axis, None, None])) / steps[:, None, None]
+        cells = (values[:, None] - (values if is_open[axis] else origins[:, axis, None, None])) / steps[:, None, None]
         off = np.einsum("i,sij->sj", lengths, np.abs(cells - np.rint(cells)))  # where plane j is at a place
         score -= off.min(axis=1)
-        if left[axis]:
+        if is_open[axis]:
             cells = (values[off.argmin(axis=1)] - origins[:, axis]) / steps
             origins[:, axis] -= (np.ceil(cells - 1e-6) - cells) * steps
     for turned, shift, share in rigid:
@@ -80,27 +80,27 @@ def motions_of(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Mat
     """Turns, shape (k, 3, 3), and shifts, shape (k, 3), between parts, in turned axes, and the share of vertices that
     each takes to others; sought once for like steps, on a ladder from the first step on."""
     first = next(iter(prepared.motions), step)
-    known = first * 4.0 ** round(math.log(step / first, 4.0))  # for each step, bytes would jump from one to the next
-    if known not in prepared.motions:
-        cell = FINER * known
-        prepared.motions[known] = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
-        prepared.motions[known][:, 9:12] *= cell
-    turns, shifts, shares = np.split(prepared.motions[known], [9, 12], axis=1)
+    rung = first * 4.0 ** round(math.log(step / first, 4.0))  # for each step, bytes would jump from one to the next
+    if rung not in prepared.motions:
+        cell = FINER * rung
+        prepared.motions[rung] = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
+        prepared.motions[rung][:, 9:12] *= cell
+    turns, shifts, shares = np.split(prepared.motions[rung], [9, 12], axis=1)
     axes = turned_by(np.eye(3), turn) if any(turn) else np.eye(3)
     return axes @ turns.reshape(-1, 3, 3) @ axes.T, shifts @ axes.T, shares[:, 0]
 
 
 def motions_between(positions: Matrix, faces: Faces) -> Matrix:
     """Turns, shifts and shares of vertices, shape (k, 13), that take parts of a mesh, in cells, to others."""
-    count, found = len(positions), np.empty((constant("MOST_TRANSFORMS"), 13))
+    count, motions = len(positions), np.empty((constant("MOST_TRANSFORMS"), 13))
     degrees = np.bincount(faces.reshape(-1), minlength=count).astype(np.int32)
     heads = np.empty(1 << max(count, len(faces), 2).bit_length(), np.int32)
     links, covered, room = np.empty(count + len(faces), np.int32), np.zeros(48 << 14, np.uint8), np.zeros(1 << 18)
     middle = (positions.min(axis=0) + positions.max(axis=0)) / 2.0
     centered = np.ascontiguousarray(positions - middle)
-    kept = _kernels.find_motions(centered, faces, degrees, WORTH, (heads, links, covered, room), found)
-    found[:kept, 9:12] += middle - found[:kept, :9].reshape(-1, 3, 3) @ middle
-    return found[:kept]
+    number = _kernels.find_motions(centered, faces, degrees, WORTH, (heads, links, covered, room), motions)
+    motions[:number, 9:12] += middle - motions[:number, :9].reshape(-1, 3, 3) @ middle
+    return motions[:number]
 
 
 def coded_transforms(turns: Matrix, shifts: Matrix, largest: npt.ArrayLike) -> Levels:
@@ -112,8 +112,8 @@ def coded_transforms(turns: Matrix, shifts: Matrix, largest: npt.ArrayLike) -> L
     others = (np.abs(turns - np.eye(3)[source] * sign[..., None]) * span).max(axis=(1, 2)) >= 1.0
     others |= (np.sort(source, axis=1) != np.arange(3)).any(axis=1)
     kind = 8 * (2 * source[:, 0] + ((source[:, 1] - source[:, 0]) % 3 == 2)) + (sign < 0) @ np.array([1, 2, 4])
-    given = np.rint(moved - sign * middle[source]) + np.where(sign > 0, span[source], 0)
-    rows, ends = np.column_stack([kind, np.zeros((len(turns), 4)), given]), span + span[source]
+    origins = np.rint(moved - sign * middle[source]) + np.where(sign > 0, span[source], 0)
+    rows, ends = np.column_stack([kind, np.zeros((len(turns), 4)), origins]), span + span[source]
     if others.any():
         rows[others], ends[others] = _turned(turns[others], moved[others], middle, most), 24 * most
     return np.asarray(rows[((rows[:, 5:] >= 0) & (rows[:, 5:] <= ends)).all(axis=1)], np.int32)

@@ -35,7 +35,7 @@ def grid_draft(
     grid: Raster,
     places: Levels,
     brief: bool = False,
-    wanted: Matrix | None = None,
+    targets: Matrix | None = None,
     decoded: Positions | None = None,
 ) -> Draft:
     """The stream of places on a grid, shape (n, 3), none negative; some may come to be elsewhere (`wanted`).
@@ -46,11 +46,11 @@ def grid_draft(
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
     faces = prepared.linked if brief else prepared.mesh.faces  # if others follow
     coded: Iterable[packets.Grid] = ()
-    if wanted is None:
+    if targets is None:
         coded = encode_grid(faces, grid, places)
     else:
-        coded, places = encode_going(faces, grid, places, wanted)
-    if decoded is None or wanted is not None:
+        coded, places = encode_going(faces, grid, places, targets)
+    if decoded is None or targets is not None:
         decoded = grid.positions(places)
     return Draft(header, (*prepared.before_grid, *coded), decoded, places, brief)
 
@@ -70,8 +70,8 @@ def repeating(prepared: Prepared, grid: Raster, places: Levels, draft: Draft) ->
         sampled = partial(sampled_size, prepared.mesh.faces, coded=places)
         if len(places) > SAMPLE and sampled(with_images) >= sampled(grid):
             return draft
-    other = grid_draft(prepared, with_images, places, not prepared.light, decoded=draft.decoded)
-    return min(draft, other, key=lambda draft: draft.size)
+    with_repeats = grid_draft(prepared, with_images, places, not prepared.light, decoded=draft.decoded)
+    return min(draft, with_repeats, key=lambda draft: draft.size)
 
 
 def paying(prepared: Prepared, draft: Draft) -> Draft:
@@ -80,13 +80,13 @@ def paying(prepared: Prepared, draft: Draft) -> Draft:
     if places is None or not header.congruence:
         return draft
     grid, transforms = grid_of(header), transforms_of(prepared, grid_of(header))[: header.transforms]
-    kept = [part for part in np.array_split(transforms, 4) if len(part)]
-    for i in range(count := len(kept), max(count - 3, 0), -1):
-        some = kept[:i] + kept[i + 1 :]
-        grid = replace(grid, transforms=np.concatenate(some), whole=i < count and draft.header.whole)
+    pieces = [part for part in np.array_split(transforms, 4) if len(part)]
+    for i in range(count := len(pieces), max(count - 3, 0), -1):
+        rest = pieces[:i] + pieces[i + 1 :]
+        grid = replace(grid, transforms=np.concatenate(rest), whole=i < count and draft.header.whole)
         coded = grid_draft(prepared, grid, places, draft.may_be_brief, decoded=draft.decoded)
         if coded.size < (1.0 - SLACK * (i == count)) * draft.size:
-            draft, kept = coded, some
+            draft, pieces = coded, rest
         elif i < count:
             break  # the quarters before explain more vertices
     return draft
@@ -105,10 +105,10 @@ def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float
 def exact(prepared: Prepared) -> Draft:
     """Every position, which is one of single precision, to the bit: a grid, and which float of its cell each is."""
     grid, places = _rounded(prepared)
-    grid, held = replace(grid, exact=True), prepared.mesh.positions.astype(np.float32).astype(np.float64)
+    grid, positions = replace(grid, exact=True), prepared.mesh.positions.astype(np.float32).astype(np.float64)
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
-    body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, places, held))
-    return Draft(header, body, held, places)
+    body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, places, positions))
+    return Draft(header, body, positions, places)
 
 
 def _rounded(
@@ -124,19 +124,19 @@ def made_on(positions: Matrix, within: float) -> float | None:
     """The step of the coarsest grid from the lower corner on that all positions are on, within so much or rounding."""
     extent = float(extent_of(positions).max())
     noise = max(4.0 * float(np.spacing(np.float32(np.abs(positions).max()))), within) / extent
-    for some in (positions[:: 1 + len(positions) // SAMPLE], positions):
-        values = np.sort((some - some.min(axis=0)) / extent, axis=None)  # np.unique would load numpy.ma
+    for sample in (positions[:: 1 + len(positions) // SAMPLE], positions):
+        values = np.sort((sample - sample.min(axis=0)) / extent, axis=None)  # np.unique would load numpy.ma
         values = values[np.append(values[1:] != values[:-1], True) & (values > noise)]
         step = reach = float(values.min(initial=math.inf))
         while len(values) and reach < 4.0 * values[-1]:
-            near = values[values <= reach]
-            counts = np.rint(near / step)
-            left = np.abs(near - counts * step)
-            if (left > step / 8.0).any():  # then the step divides that, too, as Euclid has it
-                step = float(left[left > step / 8.0].min())
+            lowest = values[values <= reach]
+            counts = np.rint(lowest / step)
+            remainders = np.abs(lowest - counts * step)
+            if (remainders > step / 8.0).any():  # then the step divides that, too, as Euclid has it
+                step = float(remainders[remainders > step / 8.0].min())
                 reach = max(step, float(values[0]))
             else:
-                step, reach = float(counts @ near / (counts @ counts)), 4.0 * reach
+                step, reach = float(counts @ lowest / (counts @ counts)), 4.0 * reach
             if step < 8.0 * noise:
                 return None
         if not len(values) or (np.abs(values - np.rint(values / step) * step) > noise).any():
@@ -146,8 +146,8 @@ def made_on(positions: Matrix, within: float) -> float | None:
 
 def spacing_of(positions: Matrix, faces: Faces) -> float:
     """The spacing of rows and columns of a regular mesh, or what divides both, down to an eighth; 0: there is none."""
-    some, extent = faces[:: 1 + len(faces) // SAMPLE], extent_of(positions)
-    spans = np.abs(positions[some] - positions[np.roll(some, 1, axis=1)]).reshape(-1, 3)
+    sample, extent = faces[:: 1 + len(faces) // SAMPLE], extent_of(positions)
+    spans = np.abs(positions[sample] - positions[np.roll(sample, 1, axis=1)]).reshape(-1, 3)
     noise, common = 1e-6 * float(extent.max()), 0.0
     for axis in range(3):
         along = np.sort(spans[spans[:, axis] > 4.0 * noise, axis])
@@ -159,8 +159,8 @@ def spacing_of(positions: Matrix, faces: Faces) -> float:
         # Without rows, seven in eight would be off.
         if off.mean() < 8.0 * SLACK and extent[axis] > 8.0 * spacing:
             parts = max(spacing, common) / np.arange(1.0, 9.0)
-            whole = (min(spacing, common) if common else spacing) / parts
-            fits = np.abs(whole - np.rint(whole)) < SLACK / 4.0
+            spacings = (min(spacing, common) if common else spacing) / parts
+            fits = np.abs(spacings - np.rint(spacings)) < SLACK / 4.0
             common = float(parts[fits.argmax()] if fits.any() else parts[0])
     return common
 
@@ -189,8 +189,8 @@ class Frame:
         """The step that a search begins with, which is on the ladder."""
         # Where half a diagonal of cells is beyond the least reach, it is not the look that decides.
         reach = 2.0 * float(self.bounds.reaches.min()) / math.sqrt(3.0)
-        wanted = min(self.bounds.first_step, COARSEST, reach)
-        return float(self.dividing(max(on_ladder(wanted), self.least)))
+        step = min(self.bounds.first_step, COARSEST, reach)
+        return float(self.dividing(max(on_ladder(step), self.least)))
 
     def dividing(self, step: npt.ArrayLike) -> Matrix:
         """Return the widest step up to a wanted one that divides the spacing of rows, if there is one."""
@@ -265,12 +265,12 @@ class Gridded:
         *,
         images: bool = False,
         going: bool = False,
-        made: float = 0.0,
+        only_step: float = 0.0,
     ) -> None:
         self.name, self.frame = name, frame
         self._prepared, self._bounds, self._shaper = frame.prepared, frame.bounds, frame.bounds.measures.shaper
-        self._worth, self._images, self._going, self._made = worth, images, going, made
-        self.least, self.most = (made, made) if made else (frame.least, COARSEST)
+        self._worth, self._images, self._going, self._made = worth, images, going, only_step
+        self.least, self.most = (only_step, only_step) if only_step else (frame.least, COARSEST)
 
     @property
     def first(self) -> float:
@@ -283,8 +283,8 @@ class Gridded:
             return np.log([self._made])
         if not self.frame.spacing:
             return ladder_of(self.least, self.most)
-        near = ladder_of(self.first / math.e, self.most)
-        return np.log(np.unique(self.frame.dividing(np.exp(near))))
+        steps = ladder_of(self.first / math.e, self.most)
+        return np.log(np.unique(self.frame.dividing(np.exp(steps))))
 
     @property
     def light_size(self) -> int:
@@ -336,13 +336,13 @@ class Gridded:
         if not self._going:
             return None
         grid, places = self.places(trial.step, unfolded=True)
-        wanted = self._wanted(grid, places)
+        targets = self._wanted(grid, places)
         for _ in range(MENDINGS):
             folded = self._shaper.over(trial.positions)
-            if not wanted[folded, 3].any():
+            if not targets[folded, 3].any():
                 break
-            wanted[folded, 3] = 0.0
-            trial = self._coded_trial(trial.step, grid, places, self._draft(grid, places, wanted))
+            targets[folded, 3] = 0.0
+            trial = self._coded_trial(trial.step, grid, places, self._draft(grid, places, targets))
         return trial
 
     def _coded_trial(self, step: float, grid: Raster, places: Levels, draft: Draft) -> Trial:
@@ -380,8 +380,8 @@ class Gridded:
         turn, reaches = self.frame.turn, np.minimum(self._bounds.reaches, SPIKE * cell)
         positions = turned_by(places * cell + low, turn)
         directions = turned_by(cell * np.eye(3), turn).reshape(1, 9)
-        other = self._shaper.unfold(positions, places, directions, reaches)
-        return places if other is None else other
+        unfolded = self._shaper.unfold(positions, places, directions, reaches)
+        return places if unfolded is None else unfolded
 
     def _apart(self, places: Levels, low: Matrix, cell: float) -> Levels:
         """Return places from `low` on; vertices that would close a gap between parts move away, a cell or a few."""
@@ -398,7 +398,7 @@ class Gridded:
         return places
 
     def _draft(
-        self, grid: Raster, places: Levels, wanted: Matrix | None = None, decoded: Positions | None = None
+        self, grid: Raster, places: Levels, targets: Matrix | None = None, decoded: Positions | None = None
     ) -> Draft:
         """Return the stream of places; vertices go to images as `_wanted` has it."""
         may_be_brief = may_repeat(self._prepared) and not self._prepared.light
@@ -406,19 +406,19 @@ class Gridded:
             return grid_draft(self._prepared, grid, places, may_be_brief, decoded=decoded)
         transforms = transforms_of(self._prepared, grid)
         if not len(transforms):
-            wanted = None
+            targets = None
         grid = replace(grid, transforms=transforms)
-        return grid_draft(self._prepared, grid, places, may_be_brief, wanted, decoded)
+        return grid_draft(self._prepared, grid, places, may_be_brief, targets, decoded)
 
     def _wanted(self, grid: Raster, places: Levels) -> Matrix:
         """Return where each vertex would be, in cells, and the square of how far off it may be, shape (n, 4)."""
         cell, low = grid.step / self._prepared.units.scale, self._prepared.units.into(np.array(grid.origin))
-        wanted, gaps = (self.frame.positions - low) / cell, self._bounds.gaps
+        targets, gaps = (self.frame.positions - low) / cell, self._bounds.gaps
         reach = np.minimum(gaps.kept(self._bounds.reaches) / cell, SPIKE)
         # Who is past the middle of a gap leaves no room in it: there, all stay where they are.
-        past = squares_of(places - wanted) > np.square(reach)
+        past = squares_of(places - targets) > np.square(reach)
         reach[gaps.ends[past[gaps.ends].any(axis=1)]] = 0.0
-        return np.column_stack([wanted, np.square(reach)])
+        return np.column_stack([targets, np.square(reach)])
 
 
 # Not a method: a trial that a frame keeps must not keep the frame.
@@ -435,8 +435,8 @@ def best_frame(prepared: Prepared, bounds: Bounds) -> Frame:
     # Sent normals stay in the axes of the mesh, and may be predicted from the grid.
     if not may_repeat(prepared) or prepared.light or bounds.measures.normals is not None:
         return usual
-    some = prepared.mesh.faces[:: 1 + len(prepared.mesh.faces) // (4 * SAMPLE)]
-    turn = turn_of(prepared.positions, some)
+    sample = prepared.mesh.faces[:: 1 + len(prepared.mesh.faces) // (4 * SAMPLE)]
+    turn = turn_of(prepared.positions, sample)
     if not any(turn):
         return usual
     turned = Frame(prepared, bounds, turn)

@@ -73,8 +73,8 @@ class Law:
         total = weights.sum(axis=1)
         self.mean: Matrix = (weights * (values + slope * distances)).sum(axis=1) / total
         self.spread: Matrix = LOGISTIC * np.sqrt(self._luck + 1.0 / total)
-        known = np.searchsorted(self._steps, places[1:])
-        self.mean[known], self.spread[known] = values[1:], LEAST
+        rows = np.searchsorted(self._steps, places[1:])
+        self.mean[rows], self.spread[rows] = values[1:], LEAST
 
 
 UNCODED, CODED, DONE = 2, 1, 0  # stages that are left
@@ -89,12 +89,12 @@ class Prospect:
         place, slope = float(self.steps[self.first]), -estimate.saving / estimate.size
         self.sizes = Law(self.steps, place, math.log(estimate.size), estimate.doubt, slope, SLACK, estimate.slope_doubt)
         self.errors = Law(self.steps, place, 0.0, DOUBT, rise, luck, DOUBT)
-        self.left = np.full(len(self.steps), UNCODED)
+        self.states = np.full(len(self.steps), UNCODED)
         self.coded: dict[int, Trial] = {}
 
     @property
     def is_open(self) -> bool:
-        return bool(self.left.any())
+        return bool(self.states.any())
 
     def index_of(self, step: float) -> int:
         """Return the index of the nearest step that may be tried."""
@@ -102,26 +102,26 @@ class Prospect:
 
     def close(self, steps: Matrix) -> None:
         """Open none of these steps any more."""
-        self.left[steps] = DONE
-        self.coded = {index: trial for index, trial in self.coded.items() if self.left[index]}
+        self.states[steps] = DONE
+        self.coded = {index: trial for index, trial in self.coded.items() if self.states[index]}
 
     def add(self, index: int, trial: Trial, size: float) -> None:
         """Take in a coded trial, and the logarithm of its bytes."""
         self.sizes.learn(index, size)
-        self.left[index] = CODED
+        self.states[index] = CODED
         self.coded[index] = trial
         if self.sizes.count > MOST_CODED:
-            self.left[self.left == UNCODED] = DONE
+            self.states[self.states == UNCODED] = DONE
 
     def judge(self, index: int, error: float) -> Trial:
         """Take in the logarithm of the error of a coded trial, and return the trial."""
-        self.left[index] = DONE
+        self.states[index] = DONE
         self.errors.learn(index, error)
         return self.coded.pop(index)
 
     def next_stage(self, least: float, price: float) -> tuple[float, int]:
         """Return the expected saving of the best stage, less its price, and the index of its step."""
-        errors, closed = self.errors, self.left == DONE
+        errors, closed = self.errors, self.states == DONE
         distance = np.abs(errors.mean + errors.spread)
         distance[closed] = math.inf
         safest = int(distance.argmin())
@@ -132,7 +132,7 @@ class Prospect:
         chance = np.exp(-np.logaddexp(0.0, errors.mean / errors.spread))
         paid = least - price / np.maximum(chance, LEAST)
         savings = self.sizes.spread * np.logaddexp(0.0, (paid - self.sizes.mean) / self.sizes.spread)
-        gains = chance * savings - price * (self.left == UNCODED)
+        gains = chance * savings - price * (self.states == UNCODED)
         gains[closed] = -math.inf
         best = int(gains.argmax())
         return float(gains[best]), best if self.sizes.count else safest

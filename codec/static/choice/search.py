@@ -171,7 +171,7 @@ class OneSearch:
     def _open(self, prospect: Prospect, index: int, reason: str) -> None:
         """Code a trial, or draw one that is coded."""
         way = prospect.way
-        if prospect.left[index] == UNCODED:
+        if prospect.states[index] == UNCODED:
             trial = way.at(math.exp(prospect.steps[index]))
             size = self.size_of(way, trial)
             if not prospect.sizes.count:

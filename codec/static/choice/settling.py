@@ -49,7 +49,7 @@ class Settler:
         offsets: Matrix,
         frames: Matrix,
         steps: Matrix,
-        known: Callable[[Levels], Matrix],
+        known_steps: Callable[[Levels], Matrix],
         worth: float,
         reach: Matrix,
         ratio: float = RATIO,
@@ -63,12 +63,12 @@ class Settler:
         levels = np.rint(offsets / steps).astype(np.int32)
         creases = self._creases._replace(costs=self._creases.costs * (CREASED * count / max(worth, 1e-300)))
         axes = np.ascontiguousarray(frames)
-        wanted = self._positions, axes, np.ascontiguousarray(offsets), normals, losses, reach
+        goals = self._positions, axes, np.ascontiguousarray(offsets), normals, losses, reach
         around, moved = (self._graph.offsets, self._graph.neighbors), np.empty((count, 3))
         counts = np.zeros((30, 16))  # the kernel's rows: each axis and mean size of neighbors; columns: each size
         for fixed in (0, 0, 1, 1):  # more sweeps, over all axes and along the surface, move few levels
-            rates, sizes = (_bits(counts), PULL, counts), known(levels) if fixed else steps
-            _kernels.settle_levels(wanted, sizes, *around, rates, fixed, creases, moved, levels)
+            rates, sizes = (_bits(counts), PULL, counts), known_steps(levels) if fixed else steps
+            _kernels.settle_levels(goals, sizes, *around, rates, fixed, creases, moved, levels)
         return levels
 
     @cached_property
@@ -99,8 +99,8 @@ def creases_of(positions: Positions, faces: Faces) -> Creases:
 
     def collect(room: int) -> tuple[int, Indices, npt.NDArray[np.uint8], Matrix]:
         pairs, sharp, costs = np.empty((room, 2), np.int32), np.empty(room, np.uint8), np.empty(room)
-        found = _kernels.collect_creases(positions, faces, around, MOST_AROUND, bends, crosses, (pairs, sharp, costs))
-        return found, pairs, sharp, costs
+        number = _kernels.collect_creases(positions, faces, around, MOST_AROUND, bends, crosses, (pairs, sharp, costs))
+        return number, pairs, sharp, costs
 
     _, pairs, sharp, costs = collect(collect(0)[0])
     starts, members = vertex_faces(faces[pairs].reshape(-1, 6), count)

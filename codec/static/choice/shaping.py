@@ -41,9 +41,9 @@ class Shaper:
         a, b = (self._original.positions[corner] for corner in self._original.faces[:, :2].T)
         return float(np.sqrt(squares_of(a - b)).mean()) or 1.0
 
-    def levels(self, base: Positions, wanted: Levels, directions: Matrix, worth: float, reach: float) -> Levels:
+    def levels(self, base: Positions, goals: Levels, directions: Matrix, worth: float, reach: float) -> Levels:
         """Levels along fixed directions."""
-        chosen = np.array(wanted, np.int32, order="C")
+        chosen = np.array(goals, np.int32, order="C")
         scales = np.maximum(np.abs(chosen).mean(axis=0), 0.4)
         moved = np.ascontiguousarray(base + np.einsum("na,naj->nj", chosen.astype(np.float64), directions))
         flat = np.ascontiguousarray(directions.reshape(len(base), -1))
@@ -51,9 +51,9 @@ class Shaper:
         _kernels.shape_levels(self._wanted, aim, (moved, chosen, self._open), flat, scales, PULL)
         return chosen
 
-    def places(self, wanted: Levels, origin: Matrix, step: float, worth: float, reach: float) -> Levels:
+    def places(self, goals: Levels, origin: Matrix, step: float, worth: float, reach: float) -> Levels:
         """Places on a grid."""
-        chosen = np.array(wanted, np.int32, order="C")
+        chosen = np.array(goals, np.int32, order="C")
         flaps = self._flaps
         bends = chosen[flaps[:, 0]] + chosen[flaps[:, 1]] - chosen[flaps[:, 2]] - chosen[flaps[:, 3]]
         moved = np.ascontiguousarray(chosen * step + origin)

@@ -32,7 +32,7 @@ def _grids(frame: Frame, bounds: Bounds, options: EncodeOptions) -> Iterator[Way
         yield Gridded("images, none moved", frame, images=True)
     along = Frame(frame.prepared, bounds) if any(frame.turn) else frame
     for step in made_steps(along):
-        yield Gridded("made", along, images=repeats, made=step)
+        yield Gridded("made", along, images=repeats, only_step=step)
     is_seen = bounds.contract.look < math.inf
     rows = regular_frame(frame) if is_seen else None
     if rows is not None:

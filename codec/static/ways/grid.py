@@ -74,13 +74,13 @@ def encode_grid(faces: Indices | Field, grid: Raster, coded: Levels, exact: Any 
 
 
 def encode_going(
-    faces: Indices | Field, grid: Raster, coded: Levels, wanted: Matrix
+    faces: Indices | Field, grid: Raster, coded: Levels, targets: Matrix
 ) -> tuple[tuple[packets.Grid, ...], Levels]:
     """The packets and the values, where vertices have gone to images: `wanted`, shape (n, 4), says where each would be,
     in cells, and the square of how far from there it may come."""
     field = grid_field(faces, grid.largest, coded, grid.fields["light"], grid)
     # The coder itself moves vertices, because which images a vertex could go to is known only while it codes.
-    field.go(wanted)
+    field.go(targets)
     return tuple(_packets(field, len(coded))), field.coded
 
 

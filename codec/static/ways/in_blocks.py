@@ -84,27 +84,27 @@ class RefinementBase:
         """What one level along each axis moves, for steps of shape (n, 3); shape (n, 3, 3)."""
         return self.frames.reshape(-1, 3, 3) * steps[:, :, None]
 
-    def wanted(self, steps: Matrix) -> tuple[Levels, Matrix]:
+    def best_levels(self, steps: Matrix) -> tuple[Levels, Matrix]:
         """The nearest levels to steps, both of shape (n, 3), and what one of each moves, shape (n, 3, 3)."""
         return np.rint(self.offsets / steps).astype(np.int32), self.directions(steps)
 
     def within(self, reaches: Matrix, layer: Layer, levels: Levels) -> tuple[Levels, Matrix]:
         """These levels, but the nearest ones where a vertex is farther off than it may be; and their known steps."""
-        levels, known = levels.copy(), self.known_steps(layer, levels)
+        levels, steps = levels.copy(), self.known_steps(layer, levels)
         # It settles after two or three rounds. If ever it did not, the caller would measure what is left.
         for _ in range(9):  # heights that are mended change steps of others
-            error = levels * known - self.offsets
+            error = levels * steps - self.offsets
             far = squares_of(error) > reaches**2
             if not far.any():
                 break
-            levels[far] = np.rint(self.offsets[far] / known[far])
-            known = self.known_steps(layer, levels)
-        return levels, known
+            levels[far] = np.rint(self.offsets[far] / steps[far])
+            steps = self.known_steps(layer, levels)
+        return levels, steps
 
-    def moved(self, layer: Layer, levels: Levels, known: Matrix) -> Matrix:
+    def moved(self, layer: Layer, levels: Levels, steps: Matrix) -> Matrix:
         """Where levels bring the base by their known steps, all of shape (n, 3), in BSM units."""
         moved = raised(self.positions, self.frames, levels, layer.step)
-        slide(moved, self.frames, levels, known[:, 1])
+        slide(moved, self.frames, levels, steps[:, 1])
         return moved
 
 
@@ -249,14 +249,14 @@ class InBlocks:
 
         def largest(indices: range) -> Matrix:
             """Largest coefficient in the first row of any block of a chain, and in all others."""
-            chain, sizes, found = Chain(rules, blocks), sizing.begin(), np.zeros(2)
+            chain, sizes, largest_yet = Chain(rules, blocks), sizing.begin(), np.zeros(2)
             for index in indices:
-                own = positions[chain.begin(index)[0]]
-                dictionary, coefficients = offer(chain, own, width, sizes, charge)
-                chain.commit(dictionary.shape[1], own)
+                block_positions = positions[chain.begin(index)[0]]
+                dictionary, coefficients = offer(chain, block_positions, width, sizes, charge)
+                chain.commit(dictionary.shape[1], block_positions)
                 magnitudes = np.abs(coefficients)
-                found = np.maximum(found, [magnitudes[:1].max(), magnitudes[1:].max(initial=0.0)])
-            return found
+                largest_yet = np.maximum(largest_yet, [magnitudes[:1].max(), magnitudes[1:].max(initial=0.0)])
+            return largest_yet
 
         chains = rules.chains(blocks.count)
         # The largest coefficients of all blocks decide the step, so all blocks are transformed twice.

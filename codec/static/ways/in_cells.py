@@ -107,9 +107,9 @@ class InCells:
         """Where levels bring cells that leave little to vertices, and their packets."""
         levels = np.zeros(blocks.positions.shape, np.int32)
         levels[:, 0] = np.rint(blocks.offsets[:, 0] / layer.step)
-        known = blocks.known_steps(layer, levels)
-        levels[:, 1:] = np.rint(blocks.offsets[:, 1:] / known[:, 1:])
+        steps = blocks.known_steps(layer, levels)
+        levels[:, 1:] = np.rint(blocks.offsets[:, 1:] / steps[:, 1:])
         for first in (0, 1):  # steps along tangents follow from heights, which stay the second time
-            self._fit.level(blocks.frames, known, blocks.moved(layer, levels, known), levels, first)
-            known = blocks.known_steps(layer, levels)
-        return blocks.moved(layer, levels, known), encode_layer(blocks.prepared.mesh.faces, levels)
+            self._fit.level(blocks.frames, steps, blocks.moved(layer, levels, steps), levels, first)
+            steps = blocks.known_steps(layer, levels)
+        return blocks.moved(layer, levels, steps), encode_layer(blocks.prepared.mesh.faces, levels)

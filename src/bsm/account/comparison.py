@@ -231,16 +231,16 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
     if merged:
         # An encoder makes vertices at one position one, and a file may need them split.
         given, whole = original, join(original, keep=False)
-        original, kept[0] = whole.mesh, whole.kept
+        original, kept[0] = whole.mesh, whole.coded_faces
         if len(original.positions) != len(decoded.positions):
             if before := unsplit(original, decoded):
                 decoded = before
             else:
                 whole = join(decoded, keep=False)
-                decoded, kept[1] = whole.mesh, whole.kept
+                decoded, kept[1] = whole.mesh, whole.coded_faces
             if len(original.positions) > len(decoded.positions):  # it may have merged others in single precision
                 whole = join(replace(given, positions=given.positions.astype(np.float32)), keep=False)
-                original, kept[0] = replace(whole.mesh, positions=given.positions[whole.first]), whole.kept
+                original, kept[0] = replace(whole.mesh, positions=given.positions[whole.first]), whole.coded_faces
     try:
         rows = numbering(original, decoded, order)
     except MeshError:

@@ -85,14 +85,16 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
     if args.report:
         report_kind(args.report)
         refuse_to_overwrite(args.report, args.force)
-    found = files_in([args.original], (*MESH_SUFFIXES, *STREAM_SUFFIXES))
-    done: list[Facts] = []
-    for path in (str(path) for _, path in found):
+    paths = files_in([args.original], (*MESH_SUFFIXES, *STREAM_SUFFIXES))
+    rows: list[Facts] = []
+    for path in (str(path) for _, path in paths):
         facts: Facts = {"input": path}
         try:
-            facts["output"] = other = _same_name(path, args)
-            original, decoded = (_load(name, args, console).without_isolated_vertices()[0] for name in (path, other))
-            facts |= {f"{way}_bytes": size_of(name) for way, name in (("input", path), ("output", other))}
+            facts["output"] = counterpart = _same_name(path, args)
+            original, decoded = (
+                _load(name, args, console).without_isolated_vertices()[0] for name in (path, counterpart)
+            )
+            facts |= {f"{way}_bytes": size_of(name) for way, name in (("input", path), ("output", counterpart))}
             if args.look:
                 facts["look"] = LookMetric(original).compare(decoded).distance
             images = compare_images(original.metadata, decoded.metadata)
@@ -100,25 +102,25 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
             facts |= _compared(original, decoded, pair(original, decoded), args, console)
             facts |= {"unit": unit} if (unit := unit_of(original.metadata) or unit_of(decoded.metadata)) else {}
             look = f"look {facts['look']:.3g}; " if args.look else ""
-            said = f"{look}{sentence(facts, unit)}"
+            sentence_of_pair = f"{look}{sentence(facts, unit)}"
         # One file that cannot be compared must not end the run: the others are compared, and the exit code tells of the
         # failure.
         except (BsmError, OSError) as error:
             facts |= {"error": worded(error), "exit": exit_of(error).code}
-            said = f"not compared: {facts['error']}"
-        done.append(facts)
+            sentence_of_pair = f"not compared: {facts['error']}"
+        rows.append(facts)
         if not args.json:
-            print(f"{path}: {said}")
-    good = [facts for facts in done if "error" not in facts]
+            print(f"{path}: {sentence_of_pair}")
+    good = [facts for facts in rows if "error" not in facts]
     if args.report:
-        write_output(args.report, _report_of(done, args), overwrite=args.force)
+        write_output(args.report, _report_of(rows, args), overwrite=args.force)
     if args.json:
-        print_json({"files": done})
+        print_json({"files": rows})
     else:
         worst = largest_error(good)
-        print(f"{len(good)} of {counted(files=len(done))} compared{f'; largest vertex error {worst}' if worst else ''}")
+        print(f"{len(good)} of {counted(files=len(rows))} compared{f'; largest vertex error {worst}' if worst else ''}")
     # The code of the first failure, as in all commands that take many inputs.
-    return next((int(facts["exit"]) for facts in done if "error" in facts), 0)
+    return next((int(facts["exit"]) for facts in rows if "error" in facts), 0)
 
 
 def _report_of(results: list[Facts], args: argparse.Namespace) -> bytes:
@@ -139,10 +141,10 @@ def _same_name(path: str, args: argparse.Namespace) -> str:
     # An output may keep the suffix of its input (part.obj.bsm) or replace it (part.bsm). The name as it stands comes
     # first.
     candidates = [place, *longer, place.with_suffix(""), *(place.with_suffix(end) for end in endings)]
-    found = next((name for name in candidates if name.is_file()), None)
-    if found is None:
+    match = next((name for name in candidates if name.is_file()), None)
+    if match is None:
         raise FileNotFoundError(errno.ENOENT, "no file of this name, in any format", str(place.with_suffix("")))
-    return str(found)
+    return str(match)
 
 
 def _compare_one(args: argparse.Namespace, console: Console) -> None:
@@ -155,41 +157,41 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
             error.message += "; to compare the files of two folders by their names, add -r"
         raise
     with console.progress("reading") as progress:
-        whole = [_load(path, args, console) for path in (args.original, args.decoded)]
+        pair_as_read = [_load(path, args, console) for path in (args.original, args.decoded)]
         # Only a note: the numbers are right as they are, but they may not be what the user takes them for.
-        for name, known in (("up", str.lower), ("unit", metres)):
-            own, other = (str(mesh.metadata.get(name, "")) for mesh in whole)
-            if own and other and known(own) != known(other):
+        for name, normal_form in (("up", str.lower), ("unit", metres)):
+            ours, theirs = (str(mesh.metadata.get(name, "")) for mesh in pair_as_read)
+            if ours and theirs and normal_form(ours) != normal_form(theirs):
                 console.note(
-                    f"positions are compared as they are, and {name} is {printable(own)} and {printable(other)}"
+                    f"positions are compared as they are, and {name} is {printable(ours)} and {printable(theirs)}"
                 )
-        original, decoded = (mesh.without_isolated_vertices()[0] for mesh in whole)
-        seen: Look | None = None
+        original, decoded = (mesh.without_isolated_vertices()[0] for mesh in pair_as_read)
+        distance: Look | None = None
         more: dict[str, float] = {}
         if args.look or args.picture:
             progress.stage("comparing pictures")
             # The look comes before the errors of vertices: it needs no matching faces, and those may end with an error.
-            seen, more = _seen(args, original, decoded, console)
+            distance, more = _seen(args, original, decoded, console)
         progress.stage("comparing")
         try:
-            order = order_of_used(read_permutation(args.permutation), *whole) if args.permutation else None
+            order = order_of_used(read_permutation(args.permutation), *pair_as_read) if args.permutation else None
             compared = _compared(original, decoded, pair(original, decoded, order), args, console)
         except MeshError as error:
             # Look and surface are measured without matching vertices. If the user asked for one of them, the command
             # has an answer.
-            if seen is None and not args.surface:
+            if distance is None and not args.surface:
                 raise
             console.note(f"vertices are not compared: {str(error).partition(';')[0]}")
             compared = _apart(original, decoded) if args.surface else {}
     attributes, images = compared.pop("attributes", {}), compare_images(original.metadata, decoded.metadata)
     apart = names_apart(original, decoded)
     if args.json:
-        shown: dict[str, Any] = {"look": asdict(seen) | more | {"version": LOOK_VERSION}} if seen else {}
-        shown |= {"images": [image.facts() for image in images]} if images else {}
-        print_json({**compared, **shown, **({"attributes": attributes} if attributes else {}), **apart})
+        facts: dict[str, Any] = {"look": asdict(distance) | more | {"version": LOOK_VERSION}} if distance else {}
+        facts |= {"images": [image.facts() for image in images]} if images else {}
+        print_json({**compared, **facts, **({"attributes": attributes} if attributes else {}), **apart})
         return
     unit = unit_of(original.metadata) or unit_of(decoded.metadata)
-    looks = {"look": seen.distance, **{f"look_{name}": value for name, value in more.items()}} if seen else {}
+    looks = {"look": distance.distance, **{f"look_{name}": value for name, value in more.items()}} if distance else {}
     for line in (*([sentence(compared, unit)] if "max_error" in compared else []), *explained(compared | looks)):
         print(line)
     for line in _lines_of(attributes):
@@ -215,7 +217,7 @@ def _seen(
     if args.picture:
         refuse_to_overwrite(args.picture, args.force)
     looker = LookMetric(original)
-    seen, more = looker.compare(decoded), {"flat": looker.flat(decoded)}
+    distance, more = looker.compare(decoded), {"flat": looker.flat(decoded)}
     for semantic, name in ATTRIBUTE_LOOKS.items():
         values = look_values(original, semantic)
         under = None if values is None else AttributeLook(original, semantic, values).compare(decoded)
@@ -226,7 +228,7 @@ def _seen(
         # From the side where the difference is largest: any other might show nothing of it.
         picture = drawing((*meshes, _errors_of(original, decoded)), original, console, looker.view(decoded))
         write_output(args.picture, picture, overwrite=args.force)
-    return seen, more
+    return distance, more
 
 
 def _errors_of(original: TriangleMesh, decoded: TriangleMesh) -> Panel:
@@ -269,27 +271,27 @@ def _apart(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, float]:
     """The distances between two surfaces."""
     require_sizes(np.concatenate([original.positions, decoded.positions]), done="compared")
     # Squares of distances overflow for coordinates beyond 1e150, and would come out as "no distance".
-    found = surface_distance(original.positions, original.faces, decoded.positions, decoded.faces)
-    relative = found.hausdorff / (original.diagonal or 1.0)
-    return {"hausdorff": found.hausdorff, "surface_distance": found.mean, "hausdorff_relative": relative}
+    distances = surface_distance(original.positions, original.faces, decoded.positions, decoded.faces)
+    relative = distances.hausdorff / (original.diagonal or 1.0)
+    return {"hausdorff": distances.hausdorff, "surface_distance": distances.mean, "hausdorff_relative": relative}
 
 
 def sentence(compared: dict[str, Any], unit: str) -> str:
     # Not a sentence full of zeros: equality is what users of lossless streams look for.
-    found, share = ["all vertices are equal"], 100.0 * compared["max_error_relative"]
+    parts, share = ["all vertices are equal"], 100.0 * compared["max_error_relative"]
     if share > 0.0:
         # The ratio of both relative figures gives the length without asking for the diagonal again.
         rms = compared["rms_relative"] / compared["max_error_relative"] * compared["max_error"]
-        found = [
+        parts = [
             f"largest vertex error {length(compared['max_error'], unit)}, {share:.3g} % of the diagonal",
             f"root mean square {length(rms, unit)}",
             f"mean normal error {compared['angle_deg']:.3g} degrees, weighted by area",
         ]
     if compared["flattened"]:
-        found.append(f"{counted(triangles=compared['flattened'])} flattened by rounding")
+        parts.append(f"{counted(triangles=compared['flattened'])} flattened by rounding")
     if compared["merged"]:
-        found.append(f"{counted(vertices=compared['merged'])} merged by rounding")
-    return "; ".join(found)
+        parts.append(f"{counted(vertices=compared['merged'])} merged by rounding")
+    return "; ".join(parts)
 
 
 def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh:
@@ -334,15 +336,15 @@ Frames = list[tuple[Positions, Faces, Attributes]]
 def _runs_of(original: Frames, decoded: Frames) -> Iterator[tuple[Frames, Frames]]:
     """Frames between which the faces of neither side change: one may have fewer runs, if faces lose their area."""
     starts = [0]
-    for number, (one, other) in enumerate(zip(pairwise(original), pairwise(decoded), strict=True), 1):
+    for number, (one, second) in enumerate(zip(pairwise(original), pairwise(decoded), strict=True), 1):
         # Equal faces, not the same array: some readers make new ones for each frame.
-        if any(len(a[0]) != len(b[0]) or not np.array_equal(a[1], b[1]) for a, b in (one, other)):
+        if any(len(a[0]) != len(b[0]) or not np.array_equal(a[1], b[1]) for a, b in (one, second)):
             starts.append(number)
     for begin, end in pairwise([*starts, len(original)]):
         yield original[begin:end], decoded[begin:end]
 
 
-def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -> Frames | None:
+def _load_sequence(path: str, args: argparse.Namespace, request: Wanted | None) -> Frames | None:
     """The frames and faces of a file, folder or stream; None if it is a mesh."""
     with about(path):
         scene = Path(path).is_file() and is_scene(path)
@@ -354,7 +356,7 @@ def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -
                 return None
             stream = SequenceStream(chunks, limits=as_limits(args.limits))
             return [(frame, stream.faces, stream.attributes) for _, frame in stream.changing_frames()]
-        source = open_sequence(path, request=wanted)
+        source = open_sequence(path, request=request)
         if source is None:
             return None
         if source.meshes is None:
@@ -366,23 +368,23 @@ def _compared_sequences(args: argparse.Namespace, original: Frames, decoded: Fra
     """Return the errors of a sequence, as text."""
     if len(original) != len(decoded):
         raise MeshError(f"{args.original} has {len(original)} frames and {args.decoded} {len(decoded)}")
-    found = list(_runs_of(original, decoded))
-    if args.permutation and len(found) > 1:
+    pairs = list(_runs_of(original, decoded))
+    if args.permutation and len(pairs) > 1:
         raise OptionError("--permutation is the order of one mesh, and the faces change")
     order = read_permutation(args.permutation) if args.permutation else None
     runs: list[tuple[Positions, Positions, Faces]] = []
     attributes: dict[str, Errors | None] = {}
-    for first, second in found:
-        (before, (own, *_), given), (after, (other, *_), shown) = zip(*first), zip(*second)
-        paired = paired_frames(np.array(before), own, np.array(after), other, order)
-        kept, faces = one_each(paired.before, paired.after, paired.faces, len(other))
-        done = sum(len(before) for before, _, _ in runs)
-        for name, errors in errors_of_frames(given, shown, (own, other), paired, done).items():
-            known = attributes.get(name, errors)
+    for first, second in pairs:
+        (before, (ours, *_), values), (after, (theirs, *_), decoded_values) = zip(*first), zip(*second)
+        paired = paired_frames(np.array(before), ours, np.array(after), theirs, order)
+        used, faces = one_each(paired.before, paired.after, paired.faces, len(theirs))
+        count = sum(len(before) for before, _, _ in runs)
+        for name, errors in errors_of_frames(values, decoded_values, (ours, theirs), paired, count).items():
+            earlier = attributes.get(name, errors)
             # None stands for a missing attribute, and once it is missing in some run, the whole must say so.
-            larger = (errors and known) and max(errors, known, key=lambda one: one["max_error"])
+            larger = (errors and earlier) and max(errors, earlier, key=lambda one: one["max_error"])
             attributes[name] = larger or None
-        runs.append((paired.before[:, kept], paired.after[:, kept], faces))
+        runs.append((paired.before[:, used], paired.after[:, used], faces))
     compared, of_frames = compare_runs(runs)
     result = asdict(compared)
     if args.look:
@@ -410,19 +412,21 @@ def _compared_sequences(args: argparse.Namespace, original: Frames, decoded: Fra
 
 def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]:
     """Return the look distances of the worst frame and the mean of all visible frames; see `codec.look`."""
-    found = []
-    pairs = [(shown, other, faces) for first, second, faces in runs for shown, other in zip(first, second, strict=True)]
-    for number, (shown, other, faces) in enumerate(pairs):
+    distances = []
+    pairs = [
+        (before, after, faces) for first, second, faces in runs for before, after in zip(first, second, strict=True)
+    ]
+    for number, (before, after, faces) in enumerate(pairs):
         progress(number, len(pairs))
         # A frame may have collapsed to nothing visible, as at the end of an explosion. The others still count.
         with suppress(MeshError):
-            found.append(LookMetric(TriangleMesh(shown, faces)).look(other))
-    if not found:
+            distances.append(LookMetric(TriangleMesh(before, faces)).look(after))
+    if not distances:
         raise MeshError("the sequence cannot be looked at: its faces have no area in any frame")
     return {
-        "look_worst": max(look.moving for look in found),
-        "look_mean": float(np.mean([look.moving for look in found])),
-        "unlike_worst": max(look.unlike for look in found),
+        "look_worst": max(look.moving for look in distances),
+        "look_mean": float(np.mean([look.moving for look in distances])),
+        "unlike_worst": max(look.unlike for look in distances),
     }
 
 
@@ -440,11 +444,11 @@ def _write_map(
     unit = unit_of(metadata)
     console.note(f"{path}: red is {length(top, unit)} and more; the largest error is {length(largest, unit)}")
     if kind == "png":
-        whole = replace(original, metadata=metadata)
+        labelled = replace(original, metadata=metadata)
         # Errors on the far side would be hidden, so the picture shows both.
         behind = DEFAULT_VIEW * np.array([[-1.0], [1.0], [-1.0]])
-        panel = Panel(whole, f"error of {Path(args.decoded).name}", distances)
-        picture = drawing([panel], whole, console, DEFAULT_VIEW, behind)
+        panel = Panel(labelled, f"error of {Path(args.decoded).name}", distances)
+        picture = drawing([panel], labelled, console, DEFAULT_VIEW, behind)
         write_output(path, picture, overwrite=overwrite)
         return
     color = Attribute("color", np.rint(colors_of(distances / top)).astype(np.uint8), "vertex", "color")

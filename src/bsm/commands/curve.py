@@ -86,8 +86,8 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
             measure(curve)
         if ours:
             # Last, since it is asked for the errors of the others' points.
-            found = rates.read_results(folder)
-            measure(rates.our_curve(r for r in found if r["mesh"]["name"] == name and r["codec"] != "ours"))
+            all_results = rates.read_results(folder)
+            measure(rates.our_curve(r for r in all_results if r["mesh"]["name"] == name and r["codec"] != "ours"))
     results = list(rates.read_results(folder))
     if not results:
         raise OptionError(f"{folder} contains no results; name meshes to measure")
@@ -102,10 +102,10 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
     for row in comparisons:
         for measure, count in row["beaten"].items():
             if count:
-                left = (
+                number = (
                     f"{row['mesh']}, {row['codec']}: its BD-rate by {measure} leaves out {count} of its points, which"
                 )
-                console.note(f"{left} are larger and worse than another one")
+                console.note(f"{number} are larger and worse than another one")
     save(tables, rates.draw_all(results, args.codecs.split(",")))
 
 
@@ -118,9 +118,9 @@ def _measure(mesh: TriangleMesh, name: str, repeats: int, folder: Path, console:
 
 def _refuse_missing(codecs: str) -> None:
     """Raise an error that names all missing packages, before anything is measured."""
-    wanted = {name for word in codecs.split(",") for name in _NEEDS.get(word, _PAPER_NEEDS)}
-    wanted |= {"scipy", "matplotlib", "tabulate"}
-    missing = sorted(name for name in wanted if importlib.util.find_spec(name) is None)
+    packages = {name for word in codecs.split(",") for name in _NEEDS.get(word, _PAPER_NEEDS)}
+    packages |= {"scipy", "matplotlib", "tabulate"}
+    missing = sorted(name for name in packages if importlib.util.find_spec(name) is None)
     if missing:
         raise DependencyError(f"this needs {', '.join(missing)}; run: {how_to_install('eval')}")
 
@@ -151,18 +151,18 @@ def _chosen(names: str, vertices: int, blocks: int | None) -> tuple[list[rates.C
     # 500 vertices are the blocks of the paper's figures.
     paper = rates.paper_curves(round(vertices / blocks) if blocks else 500)
     groups = {"ours": (), "paper": paper, "draco": (rates.DRACO,)} | {line.name: (line,) for line in paper}
-    wanted = names.split(",")
-    unknown = [name for name in wanted if name not in groups]
+    chosen = names.split(",")
+    unknown = [name for name in chosen if name not in groups]
     if unknown:
         raise OptionError(f"unknown codec {', '.join(unknown)} ({', '.join(groups)})")
-    return [curve for name in wanted for curve in groups[name]], "ours" in wanted
+    return [curve for name in chosen for curve in groups[name]], "ours" in chosen
 
 
 def _measured(results: Sequence[dict[str, Any]]) -> Table:
     def setting(result: dict[str, Any], point: dict[str, Any]) -> str:
         target = point["settings"].get("target")
-        asked = f", {target['value']:.4g}{rates.UNITS[target['kind']]}" if target else ""
-        return f"{result['codec']}{asked}"
+        suffix = f", {target['value']:.4g}{rates.UNITS[target['kind']]}" if target else ""
+        return f"{result['codec']}{suffix}"
 
     digits = {"bpv_total": 3, "bpv_paper": 2, "nmsve_db": 2, "nmsve_paper_db": 2, "theta_deg": 2}
     digits |= {"encode_seconds": 3, "decode_seconds": 3}

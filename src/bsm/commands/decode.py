@@ -95,8 +95,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise OptionError("--permutation orders whole meshes; leave out --blocks and --tolerant")
     refuse_two_on_one_pipe(args, jobs[0].output)
     # Workers of a cluster have other current folders.
-    given = args.output and (anywhere(args.output) if args.dask else args.output)
-    job = asked(DecodeJob, args, output="", given=given, many=len(jobs) > 1)
+    target = args.output and (anywhere(args.output) if args.dask else args.output)
+    job = asked(DecodeJob, args, output="", given=target, many=len(jobs) > 1)
     return run_jobs(asked(Batch, args), job, console, decode_one, jobs)
 
 
@@ -111,8 +111,8 @@ def _as_source(job: Job) -> Job:
     if name != Path(name).name or name.startswith(".") or Path(name).suffix.lower() not in MESH_SUFFIXES:
         return job
     # A format that cannot be written is replaced by one that loses least of its contents.
-    other = "glb" if Path(name).suffix.lower() == ".gltf" else "vtp"  # which holds fields
-    name = name if format_of_name(name) else f"{name}.{other}"
+    suffix = "glb" if Path(name).suffix.lower() == ".gltf" else "vtp"  # which holds fields
+    name = name if format_of_name(name) else f"{name}.{suffix}"
     return replace(job, output=no_link(str(Path(job.output).with_name(name))))
 
 
@@ -175,22 +175,22 @@ def _notes_on_part(args: DecodeJob, header: Header) -> Iterator[str]:
 
 
 def _note_unheard(args: DecodeJob, console: Console, metadata: Metadata, kind: str) -> None:
-    if said := unheard(metadata, kind):
-        console.note(f"{args.input}: other programs do not read {said} in {kind}; write GLB or USD, or --unit-out m")
+    if names := unheard(metadata, kind):
+        console.note(f"{args.input}: other programs do not read {names} in {kind}; write GLB or USD, or --unit-out m")
 
 
 def _as_asked(args: DecodeJob, console: Console, mesh: TriangleMesh, kind: str, *, exact: bool) -> TriangleMesh:
     """A mesh in the requested unit and precision, which says that it was decoded if it is not exact."""
     # A file made of a lossy stream says so. If it is encoded again, errors add up, and the encoder can warn.
-    said = mesh.metadata if exact else as_decoded(mesh.metadata)
-    metadata, scale = {n: v for n, v in said.items() if n != "source_name" and (kind == "obj" or not is_link(n))}, 1.0
+    fields = mesh.metadata if exact else as_decoded(mesh.metadata)
+    metadata, scale = {n: v for n, v in fields.items() if n != "source_name" and (kind == "obj" or not is_link(n))}, 1.0
     if args.unit_out:
         # Only a known unit can be converted. To invent one would change the size of the mesh by powers of ten.
-        own, wanted = metres(unit_of(metadata)), known_unit(args.unit_out, "unit")
-        if own is None:
+        scale_of_stream, scale_of_output = metres(unit_of(metadata)), known_unit(args.unit_out, "unit")
+        if scale_of_stream is None:
             console.note(f"{args.input}: not scaled: its unit is {printable(unit_of(metadata)) or 'not known'}")
         else:
-            scale, metadata["unit"] = own / wanted, args.unit_out
+            scale, metadata["unit"] = scale_of_stream / scale_of_output, args.unit_out
     # Writers look for this mark, and round; positions stay doubles until then, so that scaling does not round twice.
     metadata |= PRECISION if args.float32 else {}
     return replace(mesh, positions=scale * mesh.positions, metadata=metadata)
@@ -215,7 +215,7 @@ def _decode_scene(args: DecodeJob, console: Console) -> Facts:
     # A scene that wraps a sequence of ours holds the whole stream, and decodes as that would.
     if (moving := document.moving) is not None:
         return _decode_sequence(args, console, iter([moving]))
-    if args.tolerant or any(given is not None for given in (args.blocks, args.layers, args.permutation, args.frames)):
+    if args.tolerant or any(option is not None for option in (args.blocks, args.layers, args.permutation, args.frames)):
         raise OptionError("--blocks, --layers, --tolerant, --permutation and --frames are for streams, not for scenes")
     (output, kind), begin = _mesh_output(args), time.perf_counter()
     if kind == "glb":
@@ -235,9 +235,9 @@ def _saved(
     left_out = save_written(output, file, overwrite_beside=args.force, **args.placing(output))
     if left_out:
         console.note(f"{args.input}: {kind} cannot hold {', '.join(left_out)}")
-    taken, written = size_of(args.input), len(file.data)
-    console.note(f"{args.input} -> {output}: {counts}{came_to(taken, written)}, {seconds:.2f} s")
-    sizes = {"input_bytes": taken, "output_bytes": written}
+    received, written = size_of(args.input), len(file.data)
+    console.note(f"{args.input} -> {output}: {counts}{came_to(received, written)}, {seconds:.2f} s")
+    sizes = {"input_bytes": received, "output_bytes": written}
     return {"input": args.input, "output": output, **sizes, "seconds": seconds, "left_out": list(left_out)}
 
 
@@ -266,10 +266,10 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     # With damage, frames may be missing: a writer that was told their number would wait for them.
     expected = min(last, header.frames) - first if header.frames and not args.tolerant else 0
     order, faces = _ordered(stream.faces, args.permutation)
-    said = as_decoded(stream.metadata)
+    metadata = as_decoded(stream.metadata)
     # Attributes follow the order of the stream. With another order of vertices they would be at wrong places, so they
     # are left out, and a note says so.
-    shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: said, first=first)
+    shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: metadata, first=first)
     writer = sequence_writer(output, kind, faces, expected, shared=shared, **args.placing(output))
     with writer as write, console.progress("decoding") as progress:
         for count, (number, frame) in enumerate(takewhile(lambda found: found[0] < last, chain(ahead, frames)), 1):
@@ -284,7 +284,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     if lost:
         because = " with --permutation" if args.permutation else ""
         console.note(f"{args.input}: not written to {kind}{because}: {', '.join(lost)}")
-    _note_unheard(args, console, said, kind)
+    _note_unheard(args, console, metadata, kind)
     if kind in CACHES:
         faces_file = "an OBJ beside each file" if stream.run_starts else mesh_of(output)
         console.note(f"{args.input}: {kind.upper()} holds no faces; they are in {faces_file}")
@@ -343,11 +343,11 @@ def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], nu
     refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
     stream = _opened(args, console, chunks, number)
-    found = next(stream.changing_frames(), None)
+    changed = next(stream.changing_frames(), None)
     # A tolerant decoder may go on after a lost frame, and return a later one.
-    if found is None or found[0] != number:
+    if changed is None or changed[0] != number:
         raise OptionError(NO_FRAMES)
-    mesh = TriangleMesh(found[1], stream.faces, stream.attributes, stream.metadata)
+    mesh = TriangleMesh(changed[1], stream.faces, stream.attributes, stream.metadata)
     mesh = _as_asked(args, console, mesh, kind, exact=False)
     if args.permutation:
         mesh = _reordered(mesh, args.permutation)

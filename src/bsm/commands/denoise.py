@@ -78,9 +78,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    found = {given: separate_meshes(given, args.format) for given in args.inputs}
-    inputs = [name for given in args.inputs for name in (found[given] or [given])]
-    if args.output is not None and any(found.values()) and not Path(args.output).is_dir():
+    meshes_in = {path: separate_meshes(path, args.format) for path in args.inputs}
+    inputs = [name for path in args.inputs for name in (meshes_in[path] or [path])]
+    if args.output is not None and any(meshes_in.values()) and not Path(args.output).is_dir():
         # A folder of meshes becomes a folder, whether its name ends in / or not.
         # Without the sign, `plan` would take the name for that of a file, and refuse several inputs.
         args.output = args.output.rstrip("/") + "/"
@@ -137,9 +137,9 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions |
     moved, stale = mesh.moved(positions) if moves["vertices"] else (mesh, ())
     more: dict[str, Any] = {"moved": moves}
     if args.look:
-        seen = look(mesh, moved)
-        console.note(f"look       {seen.distance:.2g} from the input (at 1, both look the same)")
-        more["look"] = asdict(seen)
+        distance = look(mesh, moved)
+        console.note(f"look       {distance.distance:.2g} from the input (at 1, both look the same)")
+        more["look"] = asdict(distance)
     if same:
         file = meshes.copied(args.input, mesh, args.output)
     elif kind == STREAM:

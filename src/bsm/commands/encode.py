@@ -47,8 +47,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "are the frames of a sequence",
     )
     formats = tuple(kind for kind, row in FORMATS.items() if row.reader or kind in SEQUENCES_READ)
-    known = "format of the input, as a suffix without the dot (default: by its name or content)"
-    adder(parser)("--format", "FORMAT", known, choices=formats)
+    text = "format of the input, as a suffix without the dot (default: by its name or content)"
+    adder(parser)("--format", "FORMAT", text, choices=formats)
     add_encode_flags(parser)
 
 
@@ -61,8 +61,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     _refuse_other_formats(args.inputs, args.output)
     # The option of other programs chooses the format of the output. Here it is that of the input.
     if args.format in GLTF and format_of_name(args.inputs[0]) not in (None, "glb"):
-        given = shlex.quote(args.inputs[0])
-        raise OptionError(f"--format is the format of the input; for a scene, run: bsm glb {given} -o OUT.glb")
+        first = shlex.quote(args.inputs[0])
+        raise OptionError(f"--format is the format of the input; for a scene, run: bsm glb {first} -o OUT.glb")
     if piped and args.format not in (None, "npy"):
         raise OptionError(f"--frames takes npy arrays; it cannot be combined with --format {args.format}")
     jobs, members = _planned(args, console)
@@ -137,11 +137,11 @@ def _refuse_other_formats(inputs: Sequence[str], output: str | None) -> None:
     if output is None or output.endswith("/") or suffix not in _OTHERS or Path(output).is_dir():
         return
     stream, scene = (shlex.quote(str(Path(output).with_suffix(end))) for end in (".bsm", ".glb"))
-    given = shlex.join(inputs if len(inputs) < 4 else [inputs[0], "..."])
+    names = shlex.join(inputs if len(inputs) < 4 else [inputs[0], "..."])
     moving = len(inputs) > 1 or Path(inputs[0]).is_dir() or Path(inputs[0]).suffix[1:].lower() in (*CACHES, "npz")
-    advice = f"bsm encode {given} -o {stream}"
+    advice = f"bsm encode {names} -o {stream}"
     if suffix in GLTF:
-        advice = f"{advice}; bsm glb {stream} -o {scene}" if moving else f"bsm glb {given} -o {scene}"
+        advice = f"{advice}; bsm glb {stream} -o {scene}" if moving else f"bsm glb {names} -o {scene}"
     elif suffix in (SEQUENCE_FORMATS if moving else WRITTEN_FORMATS):
         advice += f"; then bsm decode {stream} -o {shlex.quote(output)}"
     raise OptionError(f"{output}: encode writes streams, .bsm. Run: {advice}")

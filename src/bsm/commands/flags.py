@@ -141,10 +141,10 @@ def frames_or_input(text: str) -> str:
 def named_setting(text: str) -> tuple[str, Any]:
     """NAME=VALUE as a field of `EncodeOptions` and its value."""
     name, _, value = text.partition("=")
-    known = {setting.field: setting for setting in FLAGS["settings"]}
+    settings = {setting.field: setting for setting in FLAGS["settings"]}
     name = name.strip().replace("-", "_")
-    if (setting := known.get(name)) is None:
-        raise argparse.ArgumentTypeError(f"unknown setting {name!r}{suggestion(name, known)}; see --help-all")
+    if (setting := settings.get(name)) is None:
+        raise argparse.ArgumentTypeError(f"unknown setting {name!r}{suggestion(name, settings)}; see --help-all")
     value, choices = value.strip(), setting.value.split("|")
     if len(choices) > 1 and value not in choices:
         wrong = f"unknown value {value!r} of {name}{suggestion(value, choices)} ({', '.join(choices)})"
@@ -257,16 +257,16 @@ def add_preset_flags(parser: argparse.ArgumentParser) -> None:
 
 def options_of(args: argparse.Namespace, *groups: str) -> dict[str, Any]:
     """Return the options of groups that are given on a command line."""
-    known = (flag.field for group in groups for flag in FLAGS[group])
-    return {name: getattr(args, name) for name in known if hasattr(args, name)}
+    names = (flag.field for group in groups for flag in FLAGS[group])
+    return {name: getattr(args, name) for name in names if hasattr(args, name)}
 
 
 def keywords_of(args: argparse.Namespace) -> dict[str, Any]:
     """Return the keywords of `bsm.encoding.options` that a command line gives for encoding."""
-    given = options_of(args, "bounds", "targets", "coding", "sequences")
-    given |= {"preset": args.preset} if hasattr(args, "preset") else {}
-    given |= {"attributes": dict(args.attributes)} if hasattr(args, "attributes") else {}
-    return given | dict(getattr(args, "set", ()))
+    keywords = options_of(args, "bounds", "targets", "coding", "sequences")
+    keywords |= {"preset": args.preset} if hasattr(args, "preset") else {}
+    keywords |= {"attributes": dict(args.attributes)} if hasattr(args, "attributes") else {}
+    return keywords | dict(getattr(args, "set", ()))
 
 
 _Asked = TypeVar("_Asked")
@@ -294,5 +294,5 @@ def refuse_two_on_one_pipe(args: argparse.Namespace, output: str) -> None:
 
 def asked(kind: type[_Asked], args: argparse.Namespace, **more: Any) -> _Asked:
     """Return the flags of a command line as a dataclass with fields of the same names."""
-    given = {field.name: getattr(args, field.name) for field in fields(kind) if hasattr(args, field.name)}  # type: ignore[arg-type]
-    return kind(**{**given, **more})
+    values = {field.name: getattr(args, field.name) for field in fields(kind) if hasattr(args, field.name)}  # type: ignore[arg-type]
+    return kind(**{**values, **more})

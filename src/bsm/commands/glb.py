@@ -48,7 +48,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         _wrap_sequence(args, console)
         return
     with about(args.input):
-        document, taken = _document(args.input, console)
+        document, received = _document(args.input, console)
     # Chosen by the scene unless the user says so: few primitives are better small, and many are better fast.
     quick = count_primitives(document) >= MANY if args.quick is None else args.quick
     if args.preset == "lossless" and args.quick:
@@ -61,31 +61,31 @@ def run(args: argparse.Namespace, console: Console) -> None:
     refuse_collisions((args.input, *document.files), filter(None, (args.output, str(beside or ""))))
     with console.progress("encoding") as progress:
         name = beside.name if beside else None
-        found = compress(document, options, rule, name, progress, jobs=args.jobs, one_grid=args.one_grid)
+        result = compress(document, options, rule, name, progress, jobs=args.jobs, one_grid=args.one_grid)
     # A scene that came back as it was would look like success.
-    if not (found.coded or taken or rule or args.force):
-        why = "; ".join(found.left) or "the scene has no primitives"
+    if not (result.coded or received or rule or args.force):
+        why = "; ".join(result.unchanged) or "the scene has no primitives"
         raise HarmError(f"{args.input}: nothing was coded: {why}; --force writes the scene anyway")
-    if beside and found.fallback:
-        write_output(str(beside), found.fallback, overwrite=args.force, follow=False)
-    write_output(args.output, found.data, overwrite=args.force)
-    count, before = found.coded + sum(found.left.values()), taken or document.received
-    words = f"{found.coded} of {count} primitives coded, {before} -> {len(found.data)} bytes; largest vertex error "
-    words += f"{found.error[0]:.3g}, at most {100 * found.error[1]:.3g} % of the diagonal of its component"
-    notes = list(_notes_on(found, document, before, shrinks=rule is not None))
-    more = {"primitives": count, "coded": found.coded, "unchanged": found.left, "notes": notes}
-    more |= {"max_error": found.error[0], "max_error_of_component": found.error[1]}
-    _finish(args, console, words, before, found.data, more | {"images": [image.facts() for image in found.images]})
+    if beside and result.fallback:
+        write_output(str(beside), result.fallback, overwrite=args.force, follow=False)
+    write_output(args.output, result.data, overwrite=args.force)
+    count, before = result.coded + sum(result.unchanged.values()), received or document.received
+    words = f"{result.coded} of {count} primitives coded, {before} -> {len(result.data)} bytes; largest vertex error "
+    words += f"{result.error[0]:.3g}, at most {100 * result.error[1]:.3g} % of the diagonal of its component"
+    notes = list(_notes_on(result, document, before, shrinks=rule is not None))
+    more = {"primitives": count, "coded": result.coded, "unchanged": result.unchanged, "notes": notes}
+    more |= {"max_error": result.error[0], "max_error_of_component": result.error[1]}
+    _finish(args, console, words, before, result.data, more | {"images": [image.facts() for image in result.images]})
     for note in notes:
         console.note(f"{args.input}: {note}")
 
 
 def _finish(
-    args: argparse.Namespace, console: Console, words: str, taken: int, data: bytes, more: Mapping[str, Any]
+    args: argparse.Namespace, console: Console, words: str, received: int, data: bytes, more: Mapping[str, Any]
 ) -> None:
     console.note(f"{args.input} -> {args.output}: {words}")
     if args.json:
-        sizes = {"input_bytes": taken, "output_bytes": len(data)}
+        sizes = {"input_bytes": received, "output_bytes": len(data)}
         print_json({"input": args.input, "output": args.output, **sizes, **more})
 
 
@@ -100,20 +100,20 @@ def _wrap_sequence(args: argparse.Namespace, console: Console) -> None:
     _finish(args, console, words, len(stream), scene, {"notes": []})
 
 
-def _notes_on(found: Compressed, document: Document, before: int, *, shrinks: bool) -> Iterator[str]:
+def _notes_on(result: Compressed, document: Document, before: int, *, shrinks: bool) -> Iterator[str]:
     """Say what else is to be known of a result; `before`: the bytes of the input, `shrinks`: images become smaller."""
-    if len(found.data) > before:
+    if len(result.data) > before:
         because = "".join(f", as {name} had made that small: keep it" for name in document.compressed[:1])
         yield f"the result is larger than the input{because}"
-    if found.error[1] > VISIBLE:
+    if result.error[1] > VISIBLE:
         yield "small components are coarse; use --preset fine or near-lossless"
-    yield from changed(list(found.images))
-    yield from (f"{note}{f' ({count} times)' if count > 1 else ''}" for note, count in found.notes.items())
+    yield from changed(list(result.images))
+    yield from (f"{note}{f' ({count} times)' if count > 1 else ''}" for note, count in result.notes.items())
     # Often most of the bytes are images, and someone who compares sizes should know it.
     images = sum(len(document.image(number)[1] or b"") for number in range(len(document.items("images"))))
-    if not shrinks and 2 * images > len(found.data):
+    if not shrinks and 2 * images > len(result.data):
         yield f"{images} bytes are unchanged images; --images webp:85 makes them smaller"
-    yield from (f"{count} unchanged: {reason}" for reason, count in found.left.items())
+    yield from (f"{count} unchanged: {reason}" for reason, count in result.unchanged.items())
 
 
 def _document(path: str, console: Console) -> tuple[Document, int | None]:
@@ -144,10 +144,10 @@ def _document(path: str, console: Console) -> tuple[Document, int | None]:
 
 def _qualities(args: argparse.Namespace) -> dict[str, str]:
     """Qualities by the names of attributes."""
-    found = dict(entry.partition("=")[::2] for entry in args.attribute)
-    for name, quality in found.items():
+    qualities = dict(entry.partition("=")[::2] for entry in args.attribute)
+    for name, quality in qualities.items():
         if not name or not quality or quality == "recompute":
             raise OptionError(f"--attribute {name}={quality}: give NAME=QUALITY; recompute is not for scenes")
         if quality == "none" and not name.startswith(("NORMAL", "TANGENT", "TEXCOORD_", "COLOR_", "_")):
             raise OptionError(f"--attribute {name}=none: a scene needs {name}")
-    return found
+    return qualities

@@ -71,7 +71,7 @@ def _worded(summary: Facts) -> str:
         if not summary["streams"]:
             head = f"scene of {counted(primitives=summary['primitives'])}, not compressed: "
             head += f"bsm glb {shlex.quote(summary['input'])} -o OUT.glb compresses it"
-        return "\n\n".join([head, *(f"bufferView {n}: {_worded(found)}" for n, found in summary["streams"].items())])
+        return "\n\n".join([head, *(f"bufferView {n}: {_worded(stream)}" for n, stream in summary["streams"].items())])
     total = summary["bytes"]["total"]
     shares = list[str]()
     # Bytes of all parts add up to the file, framing included, so that nothing stays unexplained.

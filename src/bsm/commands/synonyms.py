@@ -18,15 +18,15 @@ _UNIT = re.compile(r"mm|cm|m|in|inch|%|[kMG]i?B|KB|bytes|dB|deg(?:rees)?|bpv", r
 def advice_on_command(words: Sequence[str]) -> str:
     """Return what to type instead of a command that does not exist; empty if that is not known."""
     word = words[0]
-    told = COMMANDS.get(word.lower(), "")
-    if told:
-        is_sentence = told[0].isupper()
-        return f". {told}" if is_sentence else f"; it is: bsm {told}"
-    named = next((name for name in words if Path(name).suffix.lower() in (*MESH_SUFFIXES, ".bsm")), None)
-    if named is None or not (word.startswith("-") or named == word):
+    advice = COMMANDS.get(word.lower(), "")
+    if advice:
+        is_sentence = advice[0].isupper()
+        return f". {advice}" if is_sentence else f"; it is: bsm {advice}"
+    file_name = next((name for name in words if Path(name).suffix.lower() in (*MESH_SUFFIXES, ".bsm")), None)
+    if file_name is None or not (word.startswith("-") or file_name == word):
         return ""
-    stream = Path(named).suffix.lower() == ".bsm"
-    return f"; a command comes first: bsm {'decode' if stream else 'encode'} {shlex.quote(named)}"
+    stream = Path(file_name).suffix.lower() == ".bsm"
+    return f"; a command comes first: bsm {'decode' if stream else 'encode'} {shlex.quote(file_name)}"
 
 
 def refuse_misplaced(command: str, inputs: Sequence[str], *, recursive: bool) -> None:
@@ -44,5 +44,5 @@ def refuse_misplaced(command: str, inputs: Sequence[str], *, recursive: bool) ->
         return
     outputs = {"encode": (".bsm",), "decode": tuple(f".{kind}" for kind in MESH_FORMATS)}
     if inputs[1] in missing or Path(inputs[1]).suffix.lower() in outputs.get(command, ()):
-        given, output = map(shlex.quote, inputs)
-        raise OptionError(f"{inputs[1]}: the output is named with -o. Run: bsm {command} {given} -o {output}")
+        first, output = map(shlex.quote, inputs)
+        raise OptionError(f"{inputs[1]}: the output is named with -o. Run: bsm {command} {first} -o {output}")

@@ -50,17 +50,19 @@ def run(args: argparse.Namespace, console: Console) -> int:
     # Both folders are locked for the whole run. A second run would take away the files of the first.
     with ExitStack() as folders:
         outputs = [] if is_url(args.output) else [Path(args.output)]
-        taken = [*outputs, *([work] if args.work or not outputs else [])]
-        for folder in taken:
+        folders_taken = [*outputs, *([work] if args.work or not outputs else [])]
+        for folder in folders_taken:
             folders.enter_context(there(folder))
-        left = max(*(folders.enter_context(held(folder, args.force or args.resume)) for folder in taken), False)
+        is_left = max(
+            *(folders.enter_context(held(folder, args.force or args.resume)) for folder in folders_taken), False
+        )
         folders.enter_context(console.progress())
-        return _run(args, console, work, left)
+        return _run(args, console, work, is_left)
 
 
-def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> int:
+def _run(args: argparse.Namespace, console: Console, work: Path, is_left: bool) -> int:
     """Do the work in folders that this process has locked."""
-    plan = _begun(args, work, console, left)
+    plan = _begun(args, work, console, is_left)
     asked_for = asked(TileJob, args, input="", output="", most=args.triangles, force=False)
 
     def ended(job: Job, outcome: Outcome) -> None:
@@ -70,36 +72,38 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
     # The report is what --resume reads: tiles that are done and unchanged are not made again.
     many = asked(Batch, args, report=str(work / "tiles.json"))
     with console.progress(until=0.5 if args.tileset else 0.96):
-        done = run_many(many, asked_for, console, tile_one, _jobs(plan, work, args.finest), ended)
+        rows = run_many(many, asked_for, console, tile_one, _jobs(plan, work, args.finest), ended)
     # The manifest is written after the last tile, so that a reader never takes a part for the whole. The work stays and
     # can be resumed.
-    if failed := [facts for facts in done if "error" in facts]:
-        console.note(f"{len(failed)} of {len(done)} tiles failed; --resume repeats these and the tiles above them")
+    if failed := [facts for facts in rows if "error" in facts]:
+        console.note(f"{len(failed)} of {len(rows)} tiles failed; --resume repeats these and the tiles above them")
         return int(failed[0]["exit"])
     over = args.force or args.resume
-    done.sort(key=lambda facts: (-len(Path(facts["output"]).stem), facts["output"]))
+    rows.sort(key=lambda facts: (-len(Path(facts["output"]).stem), facts["output"]))
     write_unfinished(args.output, args.input)
-    manifest, given = write_shards(args.output, plan, done, os.path.basename(args.input), overwrite=over)
+    manifest, bytes_written = write_shards(args.output, plan, rows, os.path.basename(args.input), overwrite=over)
     # Before the tileset, which needs as much room again.
     remove_made(work)
     if args.tileset:
-        given = write_tileset(open_tiles(args.output), args.output, console, content=args.tileset, overwrite=over)
+        bytes_written = write_tileset(
+            open_tiles(args.output), args.output, console, content=args.tileset, overwrite=over
+        )
         for name in (MANIFEST, *(shard["file"] for shard in manifest["shards"])):  # what the tileset holds again
             remove(posixpath.join(args.output, name))
     elif over:
         with suppress(FileNotFoundError):
             remove(posixpath.join(args.output, TILESET))  # it may be of another mesh
-    came = came_to(size_of(args.input), given)
+    came = came_to(size_of(args.input), bytes_written)
     console.note(
-        f"{args.input} -> {args.output}: {counted(vertices=plan.vertices, faces=plan.faces, tiles=len(done))} in "
+        f"{args.input} -> {args.output}: {counted(vertices=plan.vertices, faces=plan.faces, tiles=len(rows))} in "
         f"{counted(levels=len(manifest['levels']))}, on a grid of {plan.lattice.cell:g}, {came}"
     )
-    if joined := sum(facts.get("joined", 0) for facts in done):
+    if joined := sum(facts.get("joined", 0) for facts in rows):
         console.note(
             f"vertices that share a grid point with another and are joined: {joined} "
             f"(fewer with --grid-cell {plan.lattice.cell / 2:g})"
         )
-    if ratios := [facts["psnr_db"] for facts in done if facts.get("psnr_db") is not None]:
+    if ratios := [facts["psnr_db"] for facts in rows if facts.get("psnr_db") is not None]:
         console.note(f"textures are written as {args.images.kind}, PSNR {min(ratios):.1f} dB in the worst tile")
     if args.json:
         print_json(manifest)
@@ -118,7 +122,7 @@ def _jobs(plan: Plan, work: Path, finest: bool) -> list[Job]:
     return jobs
 
 
-def _begun(args: argparse.Namespace, work: Path, console: Console, left: bool) -> Plan:
+def _begun(args: argparse.Namespace, work: Path, console: Console, is_left: bool) -> Plan:
     """Return the plan, with the output marked as unfinished; `left`: a killed process had locked a folder before."""
     unfinished = is_unfinished(args.output)
     # The user chooses. Both continuing and starting again are reasonable, and starting again may throw away hours.
@@ -126,7 +130,9 @@ def _begun(args: argparse.Namespace, work: Path, console: Console, left: bool) -
         message = "these tiles are unfinished: --resume continues, -f starts again"
         raise FileExistsError(errno.EEXIST, message, args.output)
     for name in (MANIFEST, TILESET):
-        refuse_to_overwrite(posixpath.join(args.output, name), args.force or bool(unfinished) or (left and args.resume))
+        refuse_to_overwrite(
+            posixpath.join(args.output, name), args.force or bool(unfinished) or (is_left and args.resume)
+        )
     refuse_others(work)
     if unfinished is not False:
         write_unfinished(args.output, args.input)

@@ -36,19 +36,19 @@ from bsm.viewer.page import (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
-    shown = (
+    text = (
         "stream, - for a pipe, folder of streams or of tiles. Meshes and sequences are encoded and compared. Without "
     )
-    add("inputs", "IN", f"{shown}inputs, opens an empty page; drop a mesh on it", nargs="*")
+    add("inputs", "IN", f"{text}inputs, opens an empty page; drop a mesh on it", nargs="*")
     names = [row.name for row in SEQUENCE_ROWS]
     add("--preset", "", f"preset for meshes and sequences (default: {DEFAULT})", choices=names, default=DEFAULT)
     add_flags(parser, "view", "limits")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    whole = [name for name in ("save", "static", "original") if getattr(args, name)]
-    if args.follow and whole:
-        raise OptionError(f"--{whole[0]} needs complete streams; leave out --follow")
+    needing_whole = [name for name in ("save", "static", "original") if getattr(args, name)]
+    if args.follow and needing_whole:
+        raise OptionError(f"--{needing_whole[0]} needs complete streams; leave out --follow")
     # Tiles are gigabytes. The page fetches those that it shows, and can neither hold nor compare all.
     if (args.follow or args.save or args.original) and any(map(is_tiles, args.inputs)):
         raise OptionError("tiles are loaded on demand; leave out --save, --original and --follow")
@@ -142,13 +142,13 @@ def _opened(
                 console.note(f"{path}: {note}")
             console.note(f"{path}: shown as it decodes; nothing was encoded")
             return scene
-        given = given_at(path)
-        if isinstance(given.source, bytes):
+        source = given_at(path)
+        if isinstance(source.source, bytes):
             # A page on a disk is opened by people who were not there. A damaged stream must be found now.
             if args.save or args.static:
-                inspect_stream(iter([given.source]), as_limits(args.limits))
-            return alone(name, given.source)
-        content = made(name, given.size, given.source, args.preset, progress.stage)
+                inspect_stream(iter([source.source]), as_limits(args.limits))
+            return alone(name, source.source)
+        content = made(name, source.size, source.source, args.preset, progress.stage)
     for note in content.facts["notes"]:
         console.note(f"{path}: {note}")
     console.note(f"{path}: {content.layers[content.main].size} bytes as a stream with preset {args.preset}")
@@ -167,10 +167,10 @@ def _growing(name: str, path: str) -> Arrival:
 
 def _named(paths: list[str]) -> dict[str, str]:
     """Return paths by unique names."""
-    named: dict[str, str] = {}
+    by_name: dict[str, str] = {}
     for path in paths:
         name = Path(path).name
         # Two files of one name from two folders are two entries of the page.
         others = (f"{name} ({number})" for number in itertools.count(2))
-        named[next(candidate for candidate in itertools.chain([name], others) if candidate not in named)] = path
-    return named
+        by_name[next(candidate for candidate in itertools.chain([name], others) if candidate not in by_name)] = path
+    return by_name

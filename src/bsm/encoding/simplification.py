@@ -74,8 +74,8 @@ def encode_source(mesh: TriangleMesh, options: EncodeOptions, progress: Progress
         # All triangles come first: each later attempt must beat this stream, so no file is larger for having
         # asked.
         encoder = Encoder(mesh, options)
-        best = Chosen(encoder, encoder.result(progress), source.whole)
-    if encoder.unseen or degenerate(source.whole.faces).all():
+        best = Chosen(encoder, encoder.result(progress), source.full_mesh)
+    if encoder.unseen or degenerate(source.full_mesh.faces).all():
         return best
     # Smooth positions save most where blocks are refined; on grids, those that were regular may take fewer bytes.
     # Where blocks win, smooth positions are what saves; on grids both ways must be tried.
@@ -105,7 +105,7 @@ class _Encoder(Encoder):
 
     def __init__(self, mesh: TriangleMesh, options: EncodeOptions, shown: LookMetric | None) -> None:
         super().__init__(mesh, options)
-        self._input = self._input.but(shown=shown)
+        self._input = self._input.but(drawn=shown)
 
 
 class Source:
@@ -123,11 +123,11 @@ class Source:
         self.promise, self._given = promise, mesh
         self._input = Sent(mesh, options)
         joined, prepared = self._input.joined, self._input.prepared
-        sent = (attribute for attribute, _ in self._input.wanted)
-        found = (_of_vertices(attribute, mesh, joined.mesh.faces, joined.kept) for attribute in sent)
+        sent = (attribute for attribute, _ in self._input.qualities)
+        found = (_of_vertices(attribute, mesh, joined.mesh.faces, joined.coded_faces) for attribute in sent)
         attributes = tuple(replace(one, values=one.values[prepared.coding_order]) for one in found)
         # In the order of coding, in which neighbors are near each other.
-        self.whole = replace(prepared.mesh, attributes=attributes, metadata=mesh.metadata)
+        self.full_mesh = replace(prepared.mesh, attributes=attributes, metadata=mesh.metadata)
         kept = {"*", *(attribute.name for attribute in attributes)}
         asked = {name: quality for name, quality in dict(options.attributes).items() if name in kept}
         self.options = replace(options, attributes=asked)
@@ -143,14 +143,14 @@ class Source:
 
     @cached_property
     def _metric(self) -> LookMetric | None:
-        return None if self.promise.look == math.inf else LookMetric(self.whole, threads=self.options.threads)
+        return None if self.promise.look == math.inf else LookMetric(self.full_mesh, threads=self.options.threads)
 
     @cached_property
     def _looks(self) -> list[Callable[[TriangleMesh], Look | float | None]]:
         if self._metric is None:
             return []
-        colors, threads = look_values(self.whole, "color"), self.options.threads
-        painted = [] if colors is None else [AttributeLook(self.whole, "color", colors, threads=threads).compare]
+        colors, threads = look_values(self.full_mesh, "color"), self.options.threads
+        painted = [] if colors is None else [AttributeLook(self.full_mesh, "color", colors, threads=threads).compare]
         return [self._metric.compare, *painted]
 
     def look(self, other: TriangleMesh) -> float:
@@ -162,7 +162,7 @@ class Source:
     def apart(self, other: TriangleMesh, reach: Matrix, enough: float = 1.0) -> float:
         """The largest distance of both surfaces as a share of the bound (others: `reach`); exact if above `enough`."""
         shares = []
-        for one, two, bound in ((self.whole, other, self._reach), (other, self.whole, reach)):
+        for one, two, bound in ((self.full_mesh, other, self._reach), (other, self.full_mesh, reach)):
             # Vertices alone would miss a fold between them, so middles of sides and faces are measured, with the
             # stricter bound of their ends.
             allowed = np.concatenate([bound, *_of_sides(bound[one.faces], np.min)])
@@ -177,7 +177,7 @@ class Source:
 
     def _stand_in(self, rung: int, loose: int | None) -> StandIn:
         """A mesh on a rung, of which vertices may be as loose as another one says, with attributes of nearest ones."""
-        whole = self.whole
+        whole = self.full_mesh
         low, scale, target = whole.positions.min(axis=0), whole.diagonal or 1.0, RUNG**rung * len(whole.faces)
         placed = (whole.positions - low) / scale
         new, faces, owners, _, quadrics = collapsed(
@@ -240,7 +240,7 @@ class Source:
             share, seen = self.apart(decoded, placed), self.look(decoded)
             if max(share, seen) <= 1.0:
                 encoder.look = seen * promise.look if self._metric else None
-                return Chosen(encoder, attempt, self.whole, None, decoded, self._input.joined.notes)
+                return Chosen(encoder, attempt, self.full_mesh, None, decoded, self._input.joined.notes)
             off, look = max(off, share - near), look * min(AIM / seen, 1.0)
         return None
 

@@ -25,7 +25,7 @@ class Compressed:
 
     data: bytes
     coded: int
-    left: dict[str, int]
+    unchanged: dict[str, int]
     fallback: bytes = b""
     notes: Mapping[str, int] = field(default_factory=dict)
     error: tuple[float, float] = (0.0, 0.0)
