@@ -40,20 +40,21 @@ class OnCells:
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
         self._measures = bounds.measures
-        self._spreads = [InCells(prepared, options, BROADEST, spread) for spread in SPREADS]
+        smoothings = {spread.smoothing for spread in SPREADS}
+        self._cells = {smoothing: InCells(prepared, options, BROADEST, *smoothing) for smoothing in smoothings}
 
     def below(self, step: float) -> RefinementBase:
         """Return the blocks for levels of about a step."""
         layer = Layer(single(step), RATIO)
         many = step > 2.0 * SEEN * self._measures.shaper.mean_edge  # most levels are 0
-        spreads = self._spreads if many else self._spreads[:1]
+        spreads = SPREADS if many else SPREADS[:1]
         within, tried = self._measures.progress.within(TIME), 0
         best: RefinementBase | None = None
         least = math.inf
         for spread in spreads:
             before = math.inf
             # One after another, and only the best is kept: each holds arrays as large as several meshes.
-            for base in spread.bases(step):
+            for base in self._cells[spread.smoothing].bases(spread, step):
                 end_phase(len(base.positions))
                 tried += 1
                 within(tried, MOST_STEPS * len(spreads))

@@ -38,6 +38,11 @@ class Spread:
     levels: float = 16.0
     coefficients: float = 160.0
 
+    @property
+    def smoothing(self) -> tuple[int, int]:
+        """What the cells, and the places that they bring near those of vertices, depend on."""
+        return self.reach, self.rounds
+
 
 SPREADS = Spread(), Spread(3, 14, 6.0, 48.0), Spread(3, 14, 4.0, 24.0)
 """From fine levels of vertices to coarse ones, most of which are 0."""
@@ -64,13 +69,13 @@ class InCells:
 
     parts = Parts(BLOCK, OVERLAP)
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float, spread: Spread) -> None:
-        self._prepared, self._widest, self._spread = prepared, widest, spread
+    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float, reach: int, rounds: int) -> None:
+        self._prepared, self._widest, self._reach, self._rounds = prepared, widest, reach, rounds
         self._options = replace(options, key_interval=min(options.key_interval, CHAIN))
 
     @cached_property
     def cells(self) -> CellMesh:
-        return cells_of(self._prepared.graph, self._prepared.mesh.faces, self._spread.reach)
+        return cells_of(self._prepared.graph, self._prepared.mesh.faces, self._reach)
 
     @cached_property
     def _coarse(self) -> Prepared:
@@ -81,23 +86,24 @@ class InCells:
 
     @cached_property
     def _fit(self) -> Fit:
-        return Fit(self.cells, self._prepared.graph, self._prepared.positions, self._spread.rounds)
+        return Fit(self.cells, self._prepared.graph, self._prepared.positions, self._rounds)
 
-    def bases(self, step: float) -> Iterator[RefinementBase]:
+    def bases(self, spread: Spread, step: float) -> Iterator[RefinementBase]:
         """The cells for levels at about a step, and their places prolonged, for all steps of cells, finest first."""
-        coarse, cells = self._coarse, self._spread.levels * step
-        rough = max(self._spread.coefficients * step, 1.01 * smallest_step(coarse.size))
+        coarse, cells = self._coarse, spread.levels * step
+        rough = max(spread.coefficients * step, 1.01 * smallest_step(coarse.size))
         blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5))
         farthest = float(np.abs(blocks.offsets).max(initial=0.0))
+        most = min(40, int(math.log2(FARTHEST / max(farthest, LEAST))))
         finest, coarsest = (math.ceil(-math.log2(cells * apart)) for apart in (1.0 / APART, APART))
         for halvings in reversed(range(coarsest, finest)):
-            yield self._base(blocks, max(min(halvings, 40, int(math.log2(FARTHEST / max(farthest, LEAST)))), 1))
+            yield self._base(blocks, max(min(halvings, most), 1))
 
     def _base(self, blocks: RefinementBase, halvings: int) -> RefinementBase:
         prepared, coarse = self._prepared, self._coarse
         places, levels = self._leveled(blocks, Layer(0.5**halvings, RATIO))
-        positions = prolonged(self.cells, prepared.graph, places, self._spread.rounds)
-        base = coarse.graph.size, self._spread.reach, self._spread.rounds, halvings
+        positions = prolonged(self.cells, prepared.graph, places, self._rounds)
+        base = coarse.graph.size, self._reach, self._rounds, halvings
         header = replace(blocks.draft.header, vertices=prepared.graph.size, faces=len(prepared.mesh.faces), base=base)
         draft = Draft(header, (*blocks.draft.body, *levels), prepared.units.back(positions))
         coded = blocks.coded + sum(len(packet.data) for packet in levels)
