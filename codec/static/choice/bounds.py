@@ -13,7 +13,7 @@ from bsm.bitstream.errors import MeshError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh, squares_of
+from bsm.codec.geometry.mesh import TriangleMesh, extent_of, squares_of
 from bsm.codec.geometry.metrics import face_geometry, nearest_points
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import Normals
@@ -102,8 +102,12 @@ class Measures:
 def count_flat(positions: Matrix, faces: Faces) -> int:
     """Return how many faces have no area, within rounding."""
     areas = face_geometry(positions, faces).areas
-    sides = positions[faces] - positions[np.roll(faces, 1, axis=1)]
-    return int(np.count_nonzero(areas <= FLAT * np.square(sides).sum(axis=2).max(axis=1)))
+    # Most faces are too large for any side that a face of this mesh may have.
+    longest = 2.0 * float(np.square(extent_of(positions)).sum())
+    small = areas <= FLAT * longest
+    corners = positions[faces[small]]
+    sides = corners - np.roll(corners, 1, axis=1)
+    return int(np.count_nonzero(areas[small] <= FLAT * np.square(sides).sum(axis=2).max(axis=1, initial=0.0)))
 
 
 def trial_of(prepared: Prepared, draft: Draft) -> Trial:

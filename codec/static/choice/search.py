@@ -186,14 +186,16 @@ class OneSearch:
         self._trace.note("draw", way.name, step=trial.step, size=math.exp(size), error=math.exp(error), reason=reason)
         if error > 0.0 or size >= self._least:
             return
-        mended = way.mended(trial) if self._is_faulty(trial) else None
+        is_faulty = self._is_faulty(trial)
+        mended = way.mended(trial) if is_faulty else None
         if mended is not None:
             trial, error, size = mended, self._bounds.excess(mended), self.size_of(way, mended)
             facts = {"step": trial.step, "size": math.exp(size), "error": math.exp(error)}
             self._trace.note("draw", way.name, **facts, reason="with fewer folds")
             if error > 0.0 or size >= self._least:
                 return
-        finer = self._finer(trial)
+            is_faulty = self._is_faulty(trial)
+        finer = self._finer(trial, is_faulty)
         if finer:
             prospect.close(prospect.steps > prospect.steps[index] - finer)
         else:
@@ -206,9 +208,9 @@ class OneSearch:
             if is_kin and not prospect.sizes.count:
                 prospect.sizes.shift(surprise, 2.0 * SLACK)
 
-    def _finer(self, trial: Trial) -> float:
+    def _finer(self, trial: Trial, is_faulty: bool) -> float:
         """Return by how much a step must be finer, as a logarithm, where a trial is refused; 0: it is not."""
-        if self._is_faulty(trial):
+        if is_faulty:
             self._refusals += 1  # slivers may need steps that are far finer
             return DOUBT
         return 0.0 if self._bounds.keeps(trial) else SLACK
@@ -226,7 +228,7 @@ class OneSearch:
             size, error = self.size_of(way, trial), self._bounds.excess(trial)
             self._trace.note("draw", way.name, step=trial.step, size=math.exp(size), error=math.exp(error))
             expected.setdefault(way.name, size + max(error, 0.0))
-            if error <= 0.0 and size < self._least and not self._finer(trial):
+            if error <= 0.0 and size < self._least and not self._finer(trial, self._is_faulty(trial)):
                 self.best, self._least = trial, size
             # A way that takes more bytes than another one where it is too coarse ends here.
             return error if error <= 0.0 or size < self._least else -SLACK / 4.0
