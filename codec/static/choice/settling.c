@@ -96,6 +96,7 @@ KERNEL int64_t settle_levels(Settled wanted, ConstDoubles2 steps, ConstInts star
         const double *frame = frames.data + 9 * v, *origin = places.data + 3 * v;
         double *at = moved.data + 3 * v;
         bool hangs = creases.starts.data[v + 1] > creases.starts.data[v];
+        double creased = hangs ? wrong_creases(&creases, moved.data, v) : 0.0;
         /* Normals last: they make good what was left along the surface where the axes are not quite its own. */
         for (int a = 3; a-- > (int)fixed;) {
             int32_t *level = levels.data + 3 * v + a, before = *level;
@@ -110,8 +111,7 @@ KERNEL int64_t settle_levels(Settled wanted, ConstDoubles2 steps, ConstInts star
             const double *rate = rates.data + row;
             int32_t ideal = nearest((offset + best_error(&x, a)) / step);
             int32_t tried[TRIED] = {ideal, center, 0, before - 1, before + 1};
-            double best = loss_of(&x, x.error) + rate[size_of(before, center)];
-            if (hangs) best += wrong_creases(&creases, moved.data, v);
+            double best = loss_of(&x, x.error) + rate[size_of(before, center)] + creased;
             for (int i = 0; i < TRIED; i++) {
                 if (tried[i] == *level || tried[i] == before) continue;
                 double error[3] = {x.error[0], x.error[1], x.error[2]};
@@ -120,8 +120,10 @@ KERNEL int64_t settle_levels(Settled wanted, ConstDoubles2 steps, ConstInts star
                 if (cost >= best || (then > most && then > far)) continue;
                 if (hangs) {
                     place(frame, origin, error, at);
-                    cost += wrong_creases(&creases, moved.data, v);
+                    double wrong = wrong_creases(&creases, moved.data, v);
+                    cost += wrong;
                     if (cost >= best) continue;
+                    creased = wrong;
                 }
                 best = cost, *level = tried[i], far = then, x.error[a] = error[a];
             }
