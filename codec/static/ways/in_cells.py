@@ -40,7 +40,7 @@ class Spread:
 
     @property
     def smoothing(self) -> tuple[int, int]:
-        """What the cells, and the places that they bring near those of vertices, depend on."""
+        """The reach and the rounds, on which the cells and their places depend."""
         return self.reach, self.rounds
 
 
