@@ -354,18 +354,31 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
     return 0;
 }
 
+/* The face that a picture shows at a pixel; those side by side mostly show the same one. */
+typedef struct {
+    int64_t number;
+    Face face;
+    double inverse; /* of its area */
+} ShownFace;
+
 /* What corners of a face have, `values` of `each` numbers, at the middle of a pixel that it covers. */
-INLINE void values_at(Face face, const double *values, int64_t each, int64_t row, int64_t column, double *found) {
-    const double *a = face.a, *b = face.b, *c = face.c;
-    double across = (double)column + 0.5 - a[0], down = (double)row + 0.5 - a[1], inverse = 1.0 / face.area;
-    double s = within((across * (c[1] - a[1]) - down * (c[0] - a[0])) * inverse);
-    double r = within(((b[0] - a[0]) * down - (b[1] - a[1]) * across) * inverse);
+INLINE void values_at(const ShownFace *shown, const double *values, int64_t each, int64_t row, int64_t column,
+                      double *found) {
+    const double *a = shown->face.a, *b = shown->face.b, *c = shown->face.c;
+    double across = (double)column + 0.5 - a[0], down = (double)row + 0.5 - a[1];
+    double s = within((across * (c[1] - a[1]) - down * (c[0] - a[0])) * shown->inverse);
+    double r = within(((b[0] - a[0]) * down - (b[1] - a[1]) * across) * shown->inverse);
     for (int64_t k = 0; k < each; k++)
         found[k] = values[k] + s * (values[each + k] - values[k]) + r * (values[2 * each + k] - values[k]);
 }
 
-INLINE bool is_corner(ConstInts2 faces, int64_t face, ConstDoubles2 placed) {
-    return face < faces.rows && all_below(faces.data + 3 * face, 3, placed.rows);
+/* Find the face of a number, unless it is the latest one; false if there is none, or it has no such corners. */
+INLINE bool find_face(ConstInts2 faces, ConstDoubles2 placed, int64_t number, ShownFace *shown) {
+    if (number == shown->number) return true;
+    if (number >= faces.rows || !all_below(faces.data + 3 * number, 3, placed.rows)) return false;
+    Face face = face_at((Model){placed.data, faces.data, 0, 0}, number);
+    *shown = (ShownFace){number, face, 1.0 / face.area};
+    return true;
 }
 
 /* `picture` times the color that corners have, three numbers of each in `values`: red, green, and blue below each
@@ -376,15 +389,15 @@ KERNEL int64_t paint_colors(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 f
     if (placed.columns != 3 || faces.columns != 3 || values.columns != 9 || values.rows < faces.rows ||
         picture.rows * picture.columns != pixels || painted.rows * painted.columns != 3 * pixels)
         return MISUSED;
-    Model model = {placed.data, faces.data, 0, 0};
-    for (int64_t i = 0; i < pixels; i++) {
-        int64_t face = owner.data[i];
-        double found[3] = {1.0, 1.0, 1.0};
-        if (face >= 0 && !is_corner(faces, face, placed)) return MISUSED;
-        if (face >= 0)
-            values_at(face_at(model, face), values.data + 9 * face, 3, i / owner.columns, i % owner.columns, found);
-        for (int k = 0; k < 3; k++) painted.data[k * pixels + i] = picture.data[i] * (float)found[k];
-    }
+    ShownFace shown = {.number = -1};
+    for (int64_t row = 0, i = 0; row < owner.rows; row++)
+        for (int64_t column = 0; column < owner.columns; column++, i++) {
+            int64_t face = owner.data[i];
+            double found[3] = {1.0, 1.0, 1.0};
+            if (face >= 0 && !find_face(faces, placed, face, &shown)) return MISUSED;
+            if (face >= 0) values_at(&shown, values.data + 9 * face, 3, row, column, found);
+            for (int k = 0; k < 3; k++) painted.data[k * pixels + i] = picture.data[i] * (float)found[k];
+        }
     return 0;
 }
 
@@ -396,18 +409,19 @@ KERNEL int64_t paint_checker(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 
     if (placed.columns != 3 || faces.columns != 3 || values.columns != 6 || values.rows < faces.rows ||
         steepness.size < faces.rows || picture.rows * picture.columns != pixels)
         return MISUSED;
-    Model model = {placed.data, faces.data, 0, 0};
-    for (int64_t i = 0; i < pixels; i++) {
-        int64_t face = owner.data[i];
-        double at[2], board = 1.0;
-        if (face < 0) continue;
-        if (!is_corner(faces, face, placed)) return MISUSED;
-        values_at(face_at(model, face), values.data + 6 * face, 2, i / owner.columns, i % owner.columns, at);
-        for (int k = 0; k < 2; k++) {
-            double square = floor_of(at[k]), inside = at[k] - square, odd = square - 2.0 * floor_of(0.5 * square);
-            board *= lower(lower(inside, 1.0 - inside) * steepness.data[face], 1.0) * (1.0 - 2.0 * odd);
+    ShownFace shown = {.number = -1};
+    for (int64_t row = 0, i = 0; row < owner.rows; row++)
+        for (int64_t column = 0; column < owner.columns; column++, i++) {
+            int64_t face = owner.data[i];
+            double at[2], board = 1.0;
+            if (face < 0) continue;
+            if (!find_face(faces, placed, face, &shown)) return MISUSED;
+            values_at(&shown, values.data + 6 * face, 2, row, column, at);
+            for (int k = 0; k < 2; k++) {
+                double square = floor_of(at[k]), inside = at[k] - square, odd = square - 2.0 * floor_of(0.5 * square);
+                board *= lower(lower(inside, 1.0 - inside) * steepness.data[face], 1.0) * (1.0 - 2.0 * odd);
+            }
+            picture.data[i] *= (float)(0.5 * (1.0 + dark - (1.0 - dark) * board));
         }
-        picture.data[i] *= (float)(0.5 * (1.0 + dark - (1.0 - dark) * board));
-    }
     return 0;
 }
