@@ -39,9 +39,7 @@ class OnCells:
     """Blocks on the cells of a mesh, spread as takes the fewest bytes."""
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
-        self._measures = bounds.measures
-        smoothings = {spread.smoothing for spread in SPREADS}
-        self._cells = {smoothing: InCells(prepared, options, BROADEST, *smoothing) for smoothing in smoothings}
+        self._prepared, self._options, self._measures = prepared, options, bounds.measures
 
     def below(self, step: float) -> RefinementBase:
         """Return the blocks for levels of about a step."""
@@ -51,10 +49,14 @@ class OnCells:
         within, tried = self._measures.progress.within(TIME), 0
         best: RefinementBase | None = None
         least = math.inf
+        in_cells: InCells | None = None
         for spread in spreads:
+            # They take as much memory as the mesh, and end with this search.
+            if in_cells is None or spread.smoothing != in_cells.smoothing:
+                in_cells = InCells(self._prepared, self._options, BROADEST, *spread.smoothing)
             before = math.inf
             # One after another, and only the best is kept: each holds arrays as large as several meshes.
-            for base in self._cells[spread.smoothing].bases(spread, step):
+            for base in in_cells.bases(spread, step):
                 end_phase(len(base.positions))
                 tried += 1
                 within(tried, MOST_STEPS * len(spreads))

@@ -70,7 +70,8 @@ class InCells:
     parts = Parts(BLOCK, OVERLAP)
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float, reach: int, rounds: int) -> None:
-        self._prepared, self._widest, self._reach, self._rounds = prepared, widest, reach, rounds
+        self._prepared, self._widest = prepared, widest
+        self.smoothing = self._reach, self._rounds = reach, rounds
         self._options = replace(options, key_interval=min(options.key_interval, CHAIN))
 
     @cached_property
