@@ -41,7 +41,8 @@ def draft(
     """A mesh in blocks of cells, with levels at a step; its faces as they are coded; and the levels of vertices."""
     prepared = prepare(join(mesh, keep=order), Parts(256, 1.0), keep_order=order)
     chosen = EncodeOptions(threads=1, **({"key_interval": 0} | options))
-    base = next(_InSmallBlocks(prepared, chosen, 0.5, *spread.smoothing).bases(spread, step))
+    in_cells = _InSmallBlocks(prepared, chosen, 0.5, *spread.smoothing)
+    base = in_cells.base(in_cells.settled(next(in_cells.leveled(spread, step))))
     layer = Layer(step, ratio)
     levels, _ = base.best_levels(base.expected_steps(layer))
     known = base.known_steps(layer, levels)

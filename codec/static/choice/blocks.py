@@ -19,7 +19,7 @@ from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.targets import TRIES
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase, refine_blocks
-from bsm.codec.static.ways.in_cells import MOST_STEPS, SPREADS, InCells
+from bsm.codec.static.ways.in_cells import MOST_STEPS, SPREADS, InCells, LeveledCells
 
 BROADEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost decoders more time than their bytes are worth."""
@@ -47,7 +47,7 @@ class OnCells:
         many = step > 2.0 * SEEN * self._measures.shaper.mean_edge  # most levels are 0
         spreads = SPREADS if many else SPREADS[:1]
         within, tried = self._measures.progress.within(TIME), 0
-        best: RefinementBase | None = None
+        best: tuple[InCells, LeveledCells] | None = None
         least = math.inf
         in_cells: InCells | None = None
         for spread in spreads:
@@ -55,21 +55,21 @@ class OnCells:
             if in_cells is None or spread.smoothing != in_cells.smoothing:
                 in_cells = InCells(self._prepared, self._options, BROADEST, *spread.smoothing)
             before = math.inf
-            # One after another, and only the best is kept: each holds arrays as large as several meshes.
-            for base in in_cells.bases(spread, step):
-                end_phase(len(base.positions))
+            for cells in in_cells.leveled(spread, step):
+                # One after another: each base holds arrays as large as several meshes.
+                size = in_cells.base(cells).about(layer)
+                end_phase(self._prepared.graph.size)
                 tried += 1
                 within(tried, MOST_STEPS * len(spreads))
-                size = base.about(layer)
                 if size < least:
-                    best, least = base, size
+                    best, least = (in_cells, cells), size
                 # From the finest step of cells on, sizes fall to the best one and rise after it.
                 if size > before:
                     break
                 before = size
         assert best is not None  # each spread has at least one
-        end_phase(len(best.positions))
-        return best
+        in_cells, cells = best
+        return in_cells.base(in_cells.settled(cells))
 
 
 class OnVertices:

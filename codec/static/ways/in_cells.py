@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bsm.bitstream.container.header import Layer
-from bsm.bitstream.container.packets import Refinement
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Matrix
+from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.blocks.cells import CellMesh, Fit, cells_of, prolonged
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
 from bsm.codec.signal.transform import smallest_step
@@ -64,6 +63,23 @@ class _Blocks(InBlocks):
         return float(squares_of(decoded - self._prepared.positions).sum())
 
 
+@dataclass(frozen=True, eq=False)
+class LeveledCells:
+    """Blocks of cells, and levels at a step that is halved so often."""
+
+    blocks: RefinementBase
+    halvings: int
+    levels: Levels
+
+    @property
+    def layer(self) -> Layer:
+        return Layer(0.5**self.halvings, RATIO)
+
+    @property
+    def steps(self) -> Matrix:
+        return self.blocks.known_steps(self.layer, self.levels)
+
+
 class InCells:
     """Codes the cells of a mesh in blocks and levels."""
 
@@ -89,8 +105,10 @@ class InCells:
     def _fit(self) -> Fit:
         return Fit(self.cells, self._prepared.graph, self._prepared.positions, self._rounds)
 
-    def bases(self, spread: Spread, step: float) -> Iterator[RefinementBase]:
-        """The cells for levels at about a step, and their places prolonged, for all steps of cells, finest first."""
+    def leveled(self, spread: Spread, step: float) -> Iterator[LeveledCells]:
+        """Levels of cells below levels of vertices at about a step: for all steps of cells, finest first.
+
+        Where they are along normals tells which step is best. Along tangents they follow for that one."""
         coarse, cells = self._coarse, spread.levels * step
         rough = max(spread.coefficients * step, 1.01 * smallest_step(coarse.size))
         blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5))
@@ -98,25 +116,34 @@ class InCells:
         most = min(40, int(math.log2(FARTHEST / max(farthest, LEAST))))
         finest, coarsest = (math.ceil(-math.log2(cells * apart)) for apart in (1.0 / APART, APART))
         for halvings in reversed(range(coarsest, finest)):
-            yield self._base(blocks, max(min(halvings, most), 1))
+            yield self._nearest(blocks, max(min(halvings, most), 1))
 
-    def _base(self, blocks: RefinementBase, halvings: int) -> RefinementBase:
-        prepared, coarse = self._prepared, self._coarse
-        places, levels = self._leveled(blocks, Layer(0.5**halvings, RATIO))
+    def base(self, cells: LeveledCells) -> RefinementBase:
+        """The places that levels bring cells to, prolonged."""
+        prepared, coarse, blocks = self._prepared, self._coarse, cells.blocks
+        places = blocks.moved(cells.layer, cells.levels, cells.steps)
+        levels = encode_layer(blocks.prepared.mesh.faces, cells.levels)
         positions = prolonged(self.cells, prepared.graph, places, self._rounds)
-        base = coarse.graph.size, self._reach, self._rounds, halvings
+        base = coarse.graph.size, self._reach, self._rounds, cells.halvings
         header = replace(blocks.draft.header, vertices=prepared.graph.size, faces=len(prepared.mesh.faces), base=base)
         draft = Draft(header, (*blocks.draft.body, *levels), prepared.units.back(positions))
         coded = blocks.coded + sum(len(packet.data) for packet in levels)
         return RefinementBase(prepared, draft, positions, coded)
 
-    def _leveled(self, blocks: RefinementBase, layer: Layer) -> tuple[Matrix, list[Refinement]]:
-        """Where levels bring cells that leave little to vertices, and their packets."""
+    def settled(self, cells: LeveledCells) -> LeveledCells:
+        """Return levels along tangents that fit the steps, which follow from heights."""
+        return self._fitted(cells, first=1)
+
+    def _nearest(self, blocks: RefinementBase, halvings: int) -> LeveledCells:
         levels = np.zeros(blocks.positions.shape, np.int32)
-        levels[:, 0] = np.rint(blocks.offsets[:, 0] / layer.step)
-        steps = blocks.known_steps(layer, levels)
-        levels[:, 1:] = np.rint(blocks.offsets[:, 1:] / steps[:, 1:])
-        for first in (0, 1):  # steps along tangents follow from heights, which stay the second time
-            self._fit.level(blocks.frames, steps, blocks.moved(layer, levels, steps), levels, first)
-            steps = blocks.known_steps(layer, levels)
-        return blocks.moved(layer, levels, steps), encode_layer(blocks.prepared.mesh.faces, levels)
+        cells = LeveledCells(blocks, halvings, levels)
+        levels[:, 0] = np.rint(blocks.offsets[:, 0] / cells.layer.step)
+        levels[:, 1:] = np.rint(blocks.offsets[:, 1:] / cells.steps[:, 1:])
+        return self._fitted(cells, first=0)
+
+    def _fitted(self, cells: LeveledCells, first: int) -> LeveledCells:
+        """Return levels, from the first axis on, that leave little to vertices."""
+        levels, steps = cells.levels.copy(), cells.steps
+        places = cells.blocks.moved(cells.layer, levels, steps)
+        self._fit.level(cells.blocks.frames, steps, places, levels, first)
+        return replace(cells, levels=levels)
