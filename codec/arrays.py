@@ -49,6 +49,13 @@ def end_phase(vertices: int) -> None:
         _kernels.return_free_memory()
 
 
+def distinct(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return the values that occur, in ascending order; `np.unique` would load numpy.ma, as long as decoding takes."""
+    ordered = np.sort(values, axis=None)
+    is_first = np.append(True, ordered[1:] != ordered[:-1])[: len(ordered)]
+    return np.asarray(ordered[is_first])
+
+
 def as_array(values: Any, name: str, kind: type[np.float64] | None = None) -> npt.NDArray[Any]:
     """Return a user's values as an array, copied unless they are sealed; raise `MeshError` if they are not one."""
     if _is_sealed(values) and kind in (None, values.dtype.type):

@@ -18,7 +18,7 @@ import numpy as np
 from bsm._core import codec as _kernels
 from bsm.bitstream.errors import MeshError, public
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Floats, Indices, Mask, Order, Positions
+from bsm.codec.arrays import Faces, Floats, Indices, Mask, Order, Positions, distinct
 from bsm.codec.geometry.graph import Lists, edges_of, mesh_edges, vertex_neighbors
 from bsm.codec.geometry.mesh import extent_of, require_sizes, squares_of
 
@@ -320,6 +320,6 @@ def _one_sided(
     source: Positions, source_faces: Faces, target: Positions, target_faces: Faces, samples: int, seed: int
 ) -> tuple[float, float]:
     spread = distances_to_surface(sample_surface(source, source_faces, samples, seed), target, target_faces)
-    corners = distances_to_surface(source[np.unique(source_faces)], target, target_faces)
+    corners = distances_to_surface(source[distinct(source_faces)], target, target_faces)
     mean = float(spread.mean()) if len(spread) else float(corners.mean())
     return float(max(corners.max(), spread.max(initial=0.0))), mean

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from bsm._core import codec as _kernels
-from bsm.codec.arrays import Basis, Matrix
+from bsm.codec.arrays import Basis, Matrix, distinct
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blocks
 
@@ -68,7 +68,7 @@ class MeasuredSpectrum:
 
     def __init__(self, blocks: Blocks, positions: Matrix, *, shift: float) -> None:
         # Not the first and last block, which are often small remainders.
-        numbers = np.unique(np.linspace(0, blocks.count - 1, SAMPLES + 2).astype(int)[1:-1])
+        numbers = distinct(np.linspace(0, blocks.count - 1, SAMPLES + 2).astype(int)[1:-1])
         self._samples = [blocks.block(index) for index in numbers]
         self._positions = positions
         self._shift = shift

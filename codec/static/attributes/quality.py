@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, OptionError
+from bsm.codec.arrays import distinct
 from bsm.codec.geometry.attributes import Attribute
 
 Way = Literal["exact", "bits", "bound", "share", "rms", "angle", "recompute", "none"]
@@ -89,7 +90,7 @@ def _are_few_and_whole(values: npt.NDArray[Any]) -> bool:
     """Whether floats are labels or ids: whole numbers, and few of them."""
     is_whole = values.dtype.kind == "f" and (np.abs(values) <= MOST_LABEL).all() and (values == np.rint(values)).all()
     # Labels that are off by one are wrong, not near. Formats without integers store them as floats.
-    return bool(is_whole) and len(np.unique(values)) <= MOST_LABELS
+    return bool(is_whole) and len(distinct(values)) <= MOST_LABELS
 
 
 def qualities(

@@ -12,7 +12,7 @@ from bsm._core import rounded as places_on
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import MOST_GRID, Header
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Levels, Matrix, Positions
+from bsm.codec.arrays import Faces, Levels, Matrix, Positions, distinct
 from bsm.codec.geometry.mesh import box_around, extent_of, squares_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
 from bsm.codec.static.choice.bounds import COARSEST, SEEN, SPIKE, Bounds
@@ -125,8 +125,8 @@ def made_on(positions: Matrix, within: float) -> float | None:
     extent = float(extent_of(positions).max())
     noise = max(4.0 * float(np.spacing(np.float32(np.abs(positions).max()))), within) / extent
     for sample in (positions[:: 1 + len(positions) // SAMPLE], positions):
-        values = np.sort((sample - sample.min(axis=0)) / extent, axis=None)  # np.unique would load numpy.ma
-        values = values[np.append(values[1:] != values[:-1], True) & (values > noise)]
+        values = distinct((sample - sample.min(axis=0)) / extent)
+        values = values[values > noise]
         step = reach = float(values.min(initial=math.inf))
         while len(values) and reach < 4.0 * values[-1]:
             lowest = values[values <= reach]
@@ -284,7 +284,7 @@ class Gridded:
         if not self.frame.spacing:
             return ladder_of(self.least, self.most)
         steps = ladder_of(self.first / math.e, self.most)
-        return np.log(np.unique(self.frame.dividing(np.exp(steps))))
+        return np.asarray(np.log(distinct(self.frame.dividing(np.exp(steps)))))
 
     @property
     def light_size(self) -> int:

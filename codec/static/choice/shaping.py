@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Indices, Levels, Matrix, Positions, end_phase
+from bsm.codec.arrays import Indices, Levels, Matrix, Positions, distinct, end_phase
 from bsm.codec.geometry.graph import Graph, vertex_faces
 from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.geometry.metrics import Original
@@ -73,7 +73,7 @@ class Shaper:
 
     def over(self, positions: Positions) -> Indices:
         """The vertices of edges that are folded farther than they were."""
-        return np.unique(self._flaps[self._fold_levels(positions) > self._limits])
+        return distinct(self._flaps[self._fold_levels(positions) > self._limits])
 
     def more_folds(self, positions: Positions) -> int:
         """Return how many more edges are folded than were: by 100, 120 or 150 degrees, whichever has most."""

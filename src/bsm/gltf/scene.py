@@ -369,7 +369,7 @@ class Scene:
                 columns = (polygons.Column("normal", values, semantic="normal"), *columns)
             # A mirrored node shows the other side of its faces, so their corners are exchanged.
             sides = np.broadcast_to(np.linalg.det(linear), part.vertices)
-            mirrored = np.median(sides[part.faces], axis=1) < 0
+            mirrored = np.count_nonzero(sides[part.faces] < 0, axis=1) > 1  # of three
             corners = np.arange(part.faces.size).reshape(-1, 3)
             corners = np.where(mirrored[:, None], corners[:, ::-1], corners)
             faces = part.faces.reshape(-1)[corners]

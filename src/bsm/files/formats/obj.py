@@ -11,7 +11,7 @@ import numpy.typing as npt
 from bsm import _core as _kernels
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.limits import Limits
-from bsm.codec.arrays import Mask, sealed
+from bsm.codec.arrays import Mask, distinct, sealed
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of
@@ -296,7 +296,7 @@ def _states(lines: _Lines | _PlainLines) -> tuple[list[Column], dict[str, str], 
         columns += column
         metadata |= group_names
         if what == "object":
-            counts = Counter(names[place] for place in np.unique(of_face).tolist())
+            counts = Counter(names[place] for place in distinct(of_face).tolist())
             again = [name for name, count in counts.items() if name and count > 1]
     return columns, metadata, again[:_FEW]
 

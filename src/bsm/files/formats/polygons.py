@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, imported, public
 from bsm.bitstream.limits import Limits
-from bsm.codec.arrays import sealed
+from bsm.codec.arrays import distinct, sealed
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, MOST_NAME_BYTES, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.conventions import shares_of
@@ -552,7 +552,7 @@ def joined_parts(
         first += len(part.positions)
     metadata: dict[str, str | int | float | bytes] = {}
     material_numbers = np.concatenate(materials)
-    if len(np.unique(material_numbers)) > 1:
+    if len(distinct(material_numbers)) > 1:
         columns.append(Column("material", material_numbers.astype(np.int32)[:, None], "face"))
     if len(parts) > 1:
         owner = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.sizes) for part in parts])
