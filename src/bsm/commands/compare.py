@@ -98,11 +98,15 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
             if args.look:
                 facts["look"] = LookMetric(original).compare(decoded).distance
             images = compare_images(original.metadata, decoded.metadata)
-            facts |= {"images": [image.facts() for image in images]} if images else {}
+            if images:
+                facts["images"] = [image.facts() for image in images]
             facts |= _compared(original, decoded, pair(original, decoded), args, console)
-            facts |= {"unit": unit} if (unit := unit_of(original.metadata) or unit_of(decoded.metadata)) else {}
-            look = f"look {facts['look']:.3g}; " if args.look else ""
-            sentence_of_pair = f"{look}{sentence(facts, unit)}"
+            unit = unit_of(original.metadata) or unit_of(decoded.metadata)
+            if unit:
+                facts["unit"] = unit
+            sentence_of_pair = sentence(facts, unit)
+            if args.look:
+                sentence_of_pair = f"look {facts['look']:.3g}; {sentence_of_pair}"
         # One file that cannot be compared must not end the run: the others are compared, and the exit code tells of the
         # failure.
         except (BsmError, OSError) as error:
@@ -117,8 +121,11 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
     if args.json:
         print_json({"files": rows})
     else:
+        line = f"{len(good)} of {counted(files=len(rows))} compared"
         worst = largest_error(good)
-        print(f"{len(good)} of {counted(files=len(rows))} compared{f'; largest vertex error {worst}' if worst else ''}")
+        if worst:
+            line += f"; largest vertex error {worst}"
+        print(line)
     # The code of the first failure, as in all commands that take many inputs.
     return next((int(facts["exit"]) for facts in rows if "error" in facts), 0)
 
@@ -174,7 +181,9 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
             distance, more = _seen(args, original, decoded, console)
         progress.stage("comparing")
         try:
-            order = order_of_used(read_permutation(args.permutation), *pair_as_read) if args.permutation else None
+            order = None
+            if args.permutation:
+                order = order_of_used(read_permutation(args.permutation), *pair_as_read)
             compared = _compared(original, decoded, pair(original, decoded, order), args, console)
         except MeshError as error:
             # Look and surface are measured without matching vertices. If the user asked for one of them, the command
@@ -182,31 +191,44 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
             if distance is None and not args.surface:
                 raise
             console.note(f"vertices are not compared: {str(error).partition(';')[0]}")
-            compared = _apart(original, decoded) if args.surface else {}
+            compared = {}
+            if args.surface:
+                compared = _apart(original, decoded)
     attributes, images = compared.pop("attributes", {}), compare_images(original.metadata, decoded.metadata)
     apart = names_apart(original, decoded)
     if args.json:
-        facts: dict[str, Any] = {"look": asdict(distance) | more | {"version": LOOK_VERSION}} if distance else {}
-        facts |= {"images": [image.facts() for image in images]} if images else {}
-        print_json({**compared, **facts, **({"attributes": attributes} if attributes else {}), **apart})
+        facts: dict[str, Any] = {}
+        if distance:
+            facts["look"] = asdict(distance) | more | {"version": LOOK_VERSION}
+        if images:
+            facts["images"] = [image.facts() for image in images]
+        if attributes:
+            facts["attributes"] = attributes
+        print_json({**compared, **facts, **apart})
         return
-    unit = unit_of(original.metadata) or unit_of(decoded.metadata)
-    looks = {"look": distance.distance, **{f"look_{name}": value for name, value in more.items()}} if distance else {}
-    for line in (*([sentence(compared, unit)] if "max_error" in compared else []), *explained(compared | looks)):
+    if "max_error" in compared:
+        print(sentence(compared, unit_of(original.metadata) or unit_of(decoded.metadata)))
+    looks: dict[str, float] = {}
+    if distance:
+        looks["look"] = distance.distance
+        looks |= {f"look_{name}": value for name, value in more.items()}
+    for line in explained(compared | looks):
         print(line)
     for line in _lines_of(attributes):
         print(line)
+    paths = {"only_in_original": args.original, "only_in_decoded": args.decoded}
     for where, names in apart.items():
-        path = args.original if where == "only_in_original" else args.decoded
-        print(printable(f"only in {path}: {', '.join(names)}"))
+        print(printable(f"only in {paths[where]}: {', '.join(names)}"))
     for image in images:
         print(printable(str(image)))
 
 
 def _lines_of(attributes: dict[str, Errors | None]) -> Iterator[str]:
     for name, errors in attributes.items():
-        words = (f"{what} {value:.4g}" for what, value in errors.items()) if errors else ["missing"]
-        yield f"{printable(name)}: {', '.join(words)}"
+        words = "missing"
+        if errors:
+            words = ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
+        yield f"{printable(name)}: {words}"
 
 
 def _seen(
@@ -220,8 +242,11 @@ def _seen(
     distance, more = looker.compare(decoded), {"flat": looker.flat(decoded)}
     for semantic, name in ATTRIBUTE_LOOKS.items():
         values = look_values(original, semantic)
-        under = None if values is None else AttributeLook(original, semantic, values).compare(decoded)
-        more |= {} if under is None else {name: under}
+        if values is None:
+            continue
+        under_it = AttributeLook(original, semantic, values).compare(decoded)
+        if under_it is not None:
+            more[name] = under_it
     if args.picture:
         titles = (Path(args.original).name, Path(args.decoded).name)
         meshes = [Panel(mesh, title) for mesh, title in zip((original, decoded), titles)]
@@ -243,10 +268,11 @@ def _errors_of(original: TriangleMesh, decoded: TriangleMesh) -> Panel:
 
 
 def explained(numbers: dict[str, Any]) -> list[str]:
-    return [
-        f"{name:<18} {'-inf' if value is None else f'{value:.6g}':<12} {EXPLAINED.get(name, '')}".rstrip()
-        for name, value in numbers.items()
-    ]
+    lines = []
+    for name, value in numbers.items():
+        number = "-inf" if value is None else f"{value:.6g}"
+        lines.append(f"{name:<18} {number:<12} {EXPLAINED.get(name, '')}".rstrip())
+    return lines
 
 
 def _compared(
@@ -317,7 +343,9 @@ def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
         sides = [_load_sequence(path, args, changing) if side is None else side for path, side in zip(paths, sides)]
         original, decoded = sides
         if original is None or decoded is None:
-            moving, still = reversed(paths) if original is None else paths
+            moving, still = paths
+            if original is None:
+                moving, still = still, moving
             # If the still one cannot be read at all, that is the better message.
             _load(still, args, console)  # what cannot be read says so
             raise MeshError(f"{moving} is a sequence, but {still} is a single mesh")
@@ -351,7 +379,8 @@ def _load_sequence(path: str, args: argparse.Namespace, request: Wanted | None) 
         # Looked up by name: the module takes long to load, and few inputs are scenes.
         moving = by_name("bsm.gltf.document", "read_document")(path).moving if scene else None
         if moving or (Path(path).is_file() and is_stream(path)):
-            header, chunks = peek_header(iter([moving]) if moving else read_chunks(path))
+            pieces = iter([moving]) if moving else read_chunks(path)
+            header, chunks = peek_header(pieces)
             if header is None or not header.gop_frames:
                 return None
             stream = SequenceStream(chunks, limits=as_limits(args.limits))
@@ -371,7 +400,9 @@ def _compared_sequences(args: argparse.Namespace, original: Frames, decoded: Fra
     pairs = list(_runs_of(original, decoded))
     if args.permutation and len(pairs) > 1:
         raise OptionError("--permutation is the order of one mesh, and the faces change")
-    order = read_permutation(args.permutation) if args.permutation else None
+    order = None
+    if args.permutation:
+        order = read_permutation(args.permutation)
     runs: list[tuple[Positions, Positions, Faces]] = []
     attributes: dict[str, Errors | None] = {}
     for first, second in pairs:
@@ -402,7 +433,8 @@ def _compared_sequences(args: argparse.Namespace, original: Frames, decoded: Fra
         write_output(args.picture, frame_errors(of_frames, Path(args.decoded).name), overwrite=args.force)
     if args.json:
         numbers: dict[str, Any] = {name: finite(value) for name, value in result.items()}
-        numbers |= {"attributes": attributes} if attributes else {}
+        if attributes:
+            numbers["attributes"] = attributes
         return as_json({**numbers, "frames": of_frames})
     worst = max(range(len(of_frames)), key=lambda number: of_frames[number]["max_error_relative"])
     lines = explained(result)

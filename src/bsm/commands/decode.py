@@ -95,7 +95,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise OptionError("--permutation orders whole meshes; leave out --blocks and --tolerant")
     refuse_two_on_one_pipe(args, jobs[0].output)
     # Workers of a cluster have other current folders.
-    target = args.output and (anywhere(args.output) if args.dask else args.output)
+    target = args.output
+    if target and args.dask:
+        target = anywhere(target)
     job = asked(DecodeJob, args, output="", given=target, many=len(jobs) > 1)
     return run_jobs(asked(Batch, args), job, console, decode_one, jobs)
 
@@ -112,7 +114,8 @@ def _as_source(job: Job) -> Job:
         return job
     # A format that cannot be written is replaced by one that loses least of its contents.
     suffix = "glb" if Path(name).suffix.lower() == ".gltf" else "vtp"  # which holds fields
-    name = name if format_of_name(name) else f"{name}.{suffix}"
+    if not format_of_name(name):
+        name = f"{name}.{suffix}"
     return replace(job, output=no_link(str(Path(job.output).with_name(name))))
 
 
@@ -164,11 +167,10 @@ def _notes_on_part(args: DecodeJob, header: Header) -> Iterator[str]:
     """Say which of the blocks and layers of a stream were decoded, where some were asked for."""
     if args.blocks is not None:
         fewer = blocks_in_words(args.blocks, header)
-        yield (
-            f"--blocks {args.blocks}: {fewer}"
-            if fewer
-            else f"the first {args.blocks} of {counted(blocks=header.blocks)}"
-        )
+        if fewer:
+            yield f"--blocks {args.blocks}: {fewer}"
+        else:
+            yield f"the first {args.blocks} of {counted(blocks=header.blocks)}"
     layers = 2 if header.refinement else 1
     if args.layers is not None and (layers == 1 or args.layers > layers):
         yield f"--layers {args.layers}: the stream has {layers}, and all of it was decoded"
@@ -183,7 +185,10 @@ def _as_asked(args: DecodeJob, console: Console, mesh: TriangleMesh, kind: str, 
     """A mesh in the requested unit and precision, which says that it was decoded if it is not exact."""
     # A file made of a lossy stream says so. If it is encoded again, errors add up, and the encoder can warn.
     fields = mesh.metadata if exact else as_decoded(mesh.metadata)
-    metadata, scale = {n: v for n, v in fields.items() if n != "source_name" and (kind == "obj" or not is_link(n))}, 1.0
+    left_out = {"source_name"}
+    if kind != "obj":
+        left_out |= set(filter(is_link, fields))
+    metadata, scale = {name: value for name, value in fields.items() if name not in left_out}, 1.0
     if args.unit_out:
         # Only a known unit can be converted. To invent one would change the size of the mesh by powers of ten.
         scale_of_stream, scale_of_output = metres(unit_of(metadata)), known_unit(args.unit_out, "unit")
@@ -192,7 +197,8 @@ def _as_asked(args: DecodeJob, console: Console, mesh: TriangleMesh, kind: str, 
         else:
             scale, metadata["unit"] = scale_of_stream / scale_of_output, args.unit_out
     # Writers look for this mark, and round; positions stay doubles until then, so that scaling does not round twice.
-    metadata |= PRECISION if args.float32 else {}
+    if args.float32:
+        metadata |= PRECISION
     return replace(mesh, positions=scale * mesh.positions, metadata=metadata)
 
 
@@ -201,7 +207,9 @@ def _mesh_output(args: DecodeJob) -> tuple[str, str]:
     output = args.output
     if Path(output).is_dir():
         output = output_inside(output, args.input, f".{args.format or 'ply'}")
-    kind = args.format or ("ply" if output == "-" else format_of_name(output))
+    kind = args.format or format_of_name(output)
+    if output == "-" and not args.format:
+        kind = "ply"
     if kind not in WRITTEN_FORMATS:
         raise unknown_suffix(output, kind=kind)
     # Before anything is decoded, so that the user does not wait for an error.
@@ -264,12 +272,16 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     if not ahead or ahead[0][0] >= last:
         raise OptionError(NO_FRAMES)
     # With damage, frames may be missing: a writer that was told their number would wait for them.
-    expected = min(last, header.frames) - first if header.frames and not args.tolerant else 0
+    expected = 0
+    if header.frames and not args.tolerant:
+        expected = min(last, header.frames) - first
     order, faces = _ordered(stream.faces, args.permutation)
     metadata = as_decoded(stream.metadata)
     # Attributes follow the order of the stream. With another order of vertices they would be at wrong places, so they
     # are left out, and a note says so.
-    shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: metadata, first=first)
+    shared = Shared()
+    if not args.permutation:
+        shared = Shared(lambda: stream.attributes, lambda: metadata, first=first)
     writer = sequence_writer(output, kind, faces, expected, shared=shared, **args.placing(output))
     with writer as write, console.progress("decoding") as progress:
         for count, (number, frame) in enumerate(takewhile(lambda found: found[0] < last, chain(ahead, frames)), 1):
@@ -280,10 +292,11 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
             write(frame[order], stream.faces if changed else None)
             if expected:
                 progress(count, expected)
-    lost = [attribute.name for attribute in stream.attributes] if args.permutation else shared.left_out
+    lost, place = shared.left_out, kind
+    if args.permutation:
+        lost, place = [attribute.name for attribute in stream.attributes], f"{kind} with --permutation"
     if lost:
-        because = " with --permutation" if args.permutation else ""
-        console.note(f"{args.input}: not written to {kind}{because}: {', '.join(lost)}")
+        console.note(f"{args.input}: not written to {place}: {', '.join(lost)}")
     _note_unheard(args, console, metadata, kind)
     if kind in CACHES:
         faces_file = "an OBJ beside each file" if stream.run_starts else mesh_of(output)
@@ -313,7 +326,9 @@ def _is_of_one_frame(output: str, file_format: str | None) -> bool:
 
 def _sequence_output(args: DecodeJob) -> str:
     """The file or folder that a sequence goes to: an npz, or a folder if the format is one of meshes."""
-    suffix = f".{args.format or 'npz'}" if args.format in (None, *ONE_FILE) else ""
+    suffix = ""
+    if args.format in (None, *ONE_FILE):
+        suffix = f".{args.format or 'npz'}"
     if args.recursive:
         return str(Path(args.output).with_suffix(suffix))
     if args.given is not None and args.many:

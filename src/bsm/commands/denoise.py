@@ -105,7 +105,8 @@ def denoise_one(args: DenoiseJob, console: Console) -> Facts:
 
 
 def _suffix(name: str) -> str:
-    return f".{format_of_name(name) or ('npz' if Path(name).is_dir() else 'ply')}"
+    usual = "npz" if Path(name).is_dir() else "ply"
+    return f".{format_of_name(name) or usual}"
 
 
 def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions | None") -> dict[str, Any]:
@@ -129,12 +130,17 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions |
     # If no vertex has moved, the file is copied byte by byte. To write it anew would lose what the reader does not
     # keep.
     same = not moves["vertices"] and kind == format_of_name(args.input) and Path(args.input).is_file()
-    for note in source.notes if not same else ():
-        console.note(f"{args.input}: {note}")
-    console.note(f"moved      {words}{'; the file is copied' if same else ''}")
+    if same:
+        words += "; the file is copied"
+    else:
+        for note in source.notes:
+            console.note(f"{args.input}: {note}")
+    console.note(f"moved      {words}")
     seconds = time.perf_counter() - begin
     # Normals belong to the positions that they were made for. They are left out, and a note says so.
-    moved, stale = mesh.moved(positions) if moves["vertices"] else (mesh, ())
+    moved, stale = mesh, tuple[str, ...]()
+    if moves["vertices"]:
+        moved, stale = mesh.moved(positions)
     more: dict[str, Any] = {"moved": moves}
     if args.look:
         distance = look(mesh, moved)
@@ -156,16 +162,20 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions |
 def _movement(moves: Any, unit: str) -> tuple[str, Facts]:
     """Return in words, and as numbers, how far vertices moved, shape (n,)."""
     touched, farthest = int((moves > 0.0).sum()), float(moves.max(initial=0.0))
-    mean = float(moves[moves > 0.0].mean()) if touched else 0.0
+    facts = {"vertices": touched, "mean": 0.0, "farthest": farthest}
+    if not touched:
+        return "no vertex", facts
+    facts["mean"] = mean = float(moves[moves > 0.0].mean())
     who = "all vertices" if touched == len(moves) else f"{touched} of {counted(vertices=len(moves))}"
-    how = f"by {length(mean, unit)} on average, {length(farthest, unit)} at most"
-    facts = {"vertices": touched, "mean": mean, "farthest": farthest}
-    return f"{who}, {how}" if touched else "no vertex", facts
+    return f"{who}, by {length(mean, unit)} on average, {length(farthest, unit)} at most", facts
 
 
 def _kind_of_output(args: DenoiseJob) -> str:
-    stream = args.output.lower().endswith(f".{STREAM}")
-    kind = args.format if args.output == "-" else STREAM if stream else format_of_name(args.output)
+    kind = format_of_name(args.output)
+    if args.output == "-":
+        kind = args.format
+    elif args.output.lower().endswith(f".{STREAM}"):
+        kind = STREAM
     if kind not in (*table.WRITTEN_FORMATS, STREAM):
         # A pipe has no name that could tell a format.
         if args.output == "-":
@@ -239,9 +249,12 @@ def _found(choice: "AutomaticChoice | None", goal: str, edge: float, unit: str =
         line += f"; vertices about {choice.untreated:.2f} -> {choice.expected:.2f} edges off"
     elif choice.kind != "unsteady":
         least, most = round(choice.expected), round(choice.at_most)
-        then = "below 2" if most < 2 else f"{least} to {most}" if least < most else f"{least}"
-        line += f"; normals about {choice.untreated:.0f} -> {then} degrees off"
-        line += ", more for finer detail" if least < most else ""
+        degrees = f"{least} to {most}" if least < most else f"{least}"
+        if most < 2:
+            degrees = "below 2"
+        line += f"; normals about {choice.untreated:.0f} -> {degrees} degrees off"
+        if least < most:
+            line += ", more for finer detail"
     yield line
     yield f"chosen     {choice.why}:"
     for step, times in Counter(choice.steps).items():

@@ -86,32 +86,33 @@ def _worded(summary: Facts) -> str:
     if not summary["frames"]:
         rates = [f"bits per vertex: {summary['bpv_total']:.3f} in total, {summary['bpv_geometry']:.3f} for positions"]
         packed, *_ = summary["header"]["paper"] or (0,)
-        rates[0] += f", bpv_paper {summary['bpv_paper']:.3f} by the paper's formula" if packed else ""
+        if packed:
+            rates[0] += f", bpv_paper {summary['bpv_paper']:.3f} by the paper's formula"
     counts = summary["metadata_bytes"]
-    texts = {name: f"{counts[name]} bytes" if name in counts else value for name, value in summary["metadata"].items()}
+    texts = summary["metadata"] | {name: f"{count} bytes" for name, count in counts.items()}
     entries = [printable(f"  {name}: {value}") for name, value in texts.items()]
     header, coefficients = summary["header"], summary["coefficients"] or [0]
-    positions = f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"
-    if not header["grid"]:
-        refined = ", and a layer of refinement" if header["refinement"] else ""
-        positions = (
-            f"{summary['blocks']} blocks of {summary['block_size']} {'cells' if header['base'] else 'vertices'}, "
-        )
-        positions += f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
+    if header["grid"]:
+        positions = f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"
+    else:
+        rows = "cells" if header["base"] else "vertices"
+        positions = f"{summary['blocks']} blocks of {summary['block_size']} {rows}, "
+        positions += f"{min(coefficients)} to {max(coefficients)} coefficients"
+        if header["refinement"]:
+            positions += ", and a layer of refinement"
     lines = [
         f"version {summary['version']}, {', '.join(summary['extensions']) or 'core only'}: "
         f"{counted(vertices=summary['vertices'], faces=summary['faces'])}",
         positions,
         *_paper_lines(summary),
         *_sequence_lines(summary),
-        *([f"checksum of decoded positions: {summary['checksum']}"] if summary["checksum"] else []),
-        "bytes:",
-        *shares,
-        *rates,
-        *map(_attribute_line, summary["attributes"]),
-        *(["metadata:", *entries] if entries else []),
-        *(printable(f"the image {name} {state}") for name, state in summary.get("linked_images", {}).items()),
     ]
+    if summary["checksum"]:
+        lines.append(f"checksum of decoded positions: {summary['checksum']}")
+    lines += ["bytes:", *shares, *rates, *map(_attribute_line, summary["attributes"])]
+    if entries:
+        lines += ["metadata:", *entries]
+    lines += [printable(f"the image {name} {state}") for name, state in summary.get("linked_images", {}).items()]
     return "\n".join(lines)
 
 
@@ -125,7 +126,9 @@ def _paper_lines(summary: Facts) -> list[str]:
     derived = "one part" if summary["blocks"] == 1 else "parts by BSM's own rule, not METIS"
     parts = "METIS parts" if summary["bytes"]["partition"] else derived
     name = "preset paper" if summary["preset"] else "some settings of preset paper"
-    return [f"{name}: R^{power}, iterations {iterations}, {bits} bits a coefficient, {parts}"] if bits else []
+    if not bits:
+        return []
+    return [f"{name}: R^{power}, iterations {iterations}, {bits} bits a coefficient, {parts}"]
 
 
 def _tile_lines(summary: Facts) -> Iterator[str]:
