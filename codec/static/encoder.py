@@ -127,23 +127,33 @@ class Encoder:
     @property
     def notes(self) -> tuple[str, ...]:
         """Changes of the input, and the coding of attributes."""
+        notes = [*self._input.joined.notes]
+        notes += self._attribute_notes or [attribute.note for attribute in self._input.carried]
         names = {attribute.name for attribute, _ in self._input.qualities}
-        exact = [KEPT_EXACTLY] if self._kept_exactly else []
-        one = [ONE_BLOCK] if self.options.paper.bits is not None and self._input.prepared.blocks.count == 1 else []
         missing = [attribute.name for attribute in self._input.source.attributes if attribute.name not in names]
-        carried = self._attribute_notes or tuple(attribute.note for attribute in self._input.carried)
-        notes = (*carried, *([f"left out: {', '.join(missing)}"] if missing else []))
-        return (*self._input.joined.notes, *notes, *one, *exact, *self.losses[len(self._input.joined.losses) :])
+        if missing:
+            notes.append(f"left out: {', '.join(missing)}")
+        if self.options.paper.bits is not None and self._input.prepared.blocks.count == 1:
+            notes.append(ONE_BLOCK)
+        if self._kept_exactly:
+            notes.append(KEPT_EXACTLY)
+        return (*notes, *self.losses[len(self._input.joined.losses) :])
 
     @property
     def losses(self) -> tuple[str, ...]:
         """The notes about losses that the options do not ask for."""
-        doubt = [f"the preset's bound holds, and no other: {self._doubt}"] if self._doubt else []
-        unseen = [f"no look is promised: {self.unseen}"] if self.unseen else []
-        missed = 0 if self.options.target or not self.options.paper.doi else self._spectral.missed
-        over = [OVER.format(missed, self._input.prepared.blocks.count)] if missed else []
-        partition = [OWN_RULE] if self.options.paper.partition == "metis" and not overlap.HAS_METIS else []
-        return (*self._input.joined.losses, *doubt, *unseen, *over, *partition)
+        losses = [*self._input.joined.losses]
+        if self._doubt:
+            losses.append(f"the preset's bound holds, and no other: {self._doubt}")
+        if self.unseen:
+            losses.append(f"no look is promised: {self.unseen}")
+        if self.options.paper.doi and not self.options.target:
+            missed = self._spectral.missed
+            if missed:
+                losses.append(OVER.format(missed, self._input.prepared.blocks.count))
+        if self.options.paper.partition == "metis" and not overlap.HAS_METIS:
+            losses.append(OWN_RULE)
+        return tuple(losses)
 
     @property
     def mesh(self) -> TriangleMesh:
@@ -225,7 +235,9 @@ class Encoder:
 
     def result(self, progress: Progress | None = None) -> Attempt:
         """Return the stream, with a comparison of the decoded mesh."""
-        return self.search(progress) if self.options.target is not None else self._judged(self.draft(progress))
+        if self.options.target is not None:
+            return self.search(progress)
+        return self._judged(self.draft(progress))
 
     def search(self, progress: Progress | None = None) -> Attempt:
         """Search for the smallest stream that reaches the options' target, or the best one of a size.
@@ -261,51 +273,80 @@ class Encoder:
 
     def _within_size(self, target: Target, nearing: Nearing) -> Attempt:
         """The best stream of a size, which keeps whatever is promised."""
-        promise, anything = self.options.promise, Contract(WIDEST)
-        most = target.value * (1.0 if target.kind == "size" else self._input.prepared.graph.size / 8.0)
+        most = target.value
+        if target.kind != "size":
+            most *= self._input.prepared.graph.size / 8.0  # bits per vertex
         sender = self._input = self._input.measuring(nearing)
+        if not sender.carried:
+            draft = self._best_of_size(most)
+            if draft is not None:
+                return self._judged(draft)
+        smaller, met = self._finest_attributes(sender, most, nearing)
+        if met is not None:
+            fitting = [draft for draft in (self._best_of_size(most), smaller) if draft is not None]
+            return self._judged(min(fitting, key=lambda draft: self._input.measured(draft, met)[1] or 0.0))
+        if self.options.promise is None:
+            draft = self._best_of_size(most)
+            if draft is not None:
+                return self._judged(draft)
+            smaller = self._input.completed(self._input.search.smallest(Contract(WIDEST)))
+            if smaller.size <= most:  # luck decides about bytes: no other step fits
+                return self._judged(smaller)
+        assert smaller is not None  # a promise has a smallest stream, or an error
+        raise self._refusal_of_size(target, sender, smaller, most, nearing)
 
-        def best(candidate: Sent) -> Draft | None:
-            draft = candidate.search.best(promise, most)
-            completed = None if draft is None else candidate.completed(draft)
-            return None if completed and promise and candidate.measured(completed, promise)[0] else completed
+    def _best_of_size(self, most: float) -> Draft | None:
+        """The best stream of a size that keeps the promise, with its attributes; None if there is none."""
+        promise = self.options.promise
+        bare = self._input.search.best(promise, most)
+        if bare is None:
+            return None
+        draft = self._input.completed(bare)
+        if promise and self._input.measured(draft, promise)[0]:
+            return None
+        return draft
 
-        if not sender.carried and (draft_within := best(sender)) is not None:
-            return self._judged(draft_within)
-        loosest, met = promise or anything, None
-        finer = [replace(loosest, look=finer.look) for finer in reversed(LOOKS) if finer.look < loosest.look]
-        for contract in [*filter(None, [promise]), *finer * bool(sender.carried)]:
-            with suppress(TargetError) if met else nullcontext():  # attributes as fine as leave room for the shape
+    def _finest_attributes(self, sender: Sent, most: float, nearing: Nearing) -> tuple[Draft | None, Contract | None]:
+        """Take attributes as fine as leave room for the shape; return the smallest stream, and the contract if that
+        fits."""
+        promise, met = self.options.promise, None
+        loosest, contracts = Contract(WIDEST), list[Contract]()
+        if promise is not None:
+            loosest, contracts = promise, [promise]
+        if sender.carried:
+            contracts += [replace(loosest, look=finer.look) for finer in reversed(LOOKS) if finer.look < loosest.look]
+        smaller: Draft | None = None
+        for contract in contracts:
+            with suppress(TargetError) if met else nullcontext():
                 sender_of_draft, draft = smallest(sender, contract, nearing)
                 if met is None or draft.size <= most:
                     self._input, smaller = sender_of_draft, draft
                 if draft.size > most:
                     break
                 met = contract
-        if met is not None:
-            fitting = filter(None, (best(self._input), smaller))
-            return self._judged(min(fitting, key=lambda draft: self._input.measured(draft, met)[1] or 0.0))
-        if promise is None:
-            if (draft_within := best(self._input)) is not None:
-                return self._judged(draft_within)
-            smaller = self._input.completed(self._input.search.smallest(anything))
-            if smaller.size <= most:  # luck decides about bytes: no other step fits
-                return self._judged(smaller)
-        text, least = f"{target.worded(target.value)} at most cannot be", self._judged(smaller)
+        return smaller, met
+
+    def _refusal_of_size(
+        self, target: Target, sender: Sent, smaller: Draft, most: float, nearing: Nearing
+    ) -> TargetError:
+        """The error of a size that is too small, with the least one, and what may help."""
+        promise, least = self.options.promise, self._judged(smaller)
+        text = f"{target.worded(target.value)} at most cannot be reached"
         had = target.worded(target.reached(least))
         if promise is None:
-            error = TargetError(f"{text} reached; the least possible is {had}")
+            error = TargetError(f"{text}; the least possible is {had}")
         else:
-            loose, loose_draft = smallest(sender, LOOKS[-1], nearing) if sender.carried else (sender, smaller)
-            smallest_look = loose_draft if loose_draft.size <= most else loose.search.best(None, most)
-            advice = (
-                "does not reach it either"
-                if smallest_look is None
-                else f"reaches it with {loose.search.seen(smallest_look)}"
-            )
-            error = TargetError(f"{text} reached with {promise}: that takes {had}; preset none {advice}")
+            if sender.carried:
+                sender, smaller = smallest(sender, LOOKS[-1], nearing)
+            draft: Draft | None = smaller
+            if smaller.size > most:
+                draft = sender.search.best(None, most)
+            advice = "does not reach it either"
+            if draft is not None:
+                advice = f"reaches it with {sender.search.seen(draft)}"
+            error = TargetError(f"{text} with {promise}: that takes {had}; preset none {advice}")
         error.best = target.reached(least)
-        raise error
+        return error
 
     def _at_step(self, target: Target, nearing: Nearing) -> Attempt:
         """Blocks, coded as the options say, at the step that meets a target."""
