@@ -763,7 +763,7 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
 
 
 @_with_known_keywords
-def look(original: Any, decoded: Any, *, threads: int | None = None) -> Look:
+def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
     """Measure the look distance of two meshes; at 1 they look the same in smooth shading. Their faces may differ.
 
     Parameters
@@ -792,5 +792,5 @@ def look(original: Any, decoded: Any, *, threads: int | None = None) -> Look:
     """
     from bsm.codec.look.measure import look as look_at
 
-    first, second = map(as_mesh, (original, decoded))
+    first, second = map(as_mesh, (original, other))
     return look_at(first, second, threads=threads)
