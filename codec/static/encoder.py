@@ -66,6 +66,7 @@ SIZES, PROMISED_SIZES = RANGES["grid_cell"], (1e-42, 1e30)
 
 LOOKS = [Contract(WIDEST, look=look) for look in sorted(promise.look for promise in PROMISES.values())]
 """The coarseness of attributes if a size is promised: that of the first look with which the shape fits."""
+PREPARING = 0.1  # of the time, as progress is counted, what comes before the search; as measured
 OVER = "eps_h is exceeded in {} of {} blocks: these have as many coefficients as they may have"
 OWN_RULE = "METIS (pymetis) is not installed: BSM's own rule cuts the mesh into parts"
 KEPT_EXACTLY = "positions are exact: no coarser ones keep the promise"
@@ -219,7 +220,7 @@ class Encoder:
         """Prepare, and return what reports the rest."""
         nearing = Nearing(progress)
         end_phase(self._input.prepared.graph.size)
-        nearing.by()
+        nearing.by(PREPARING)
         return nearing
 
     def _bare(self, nearing: Nearing) -> Draft:

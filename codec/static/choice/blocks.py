@@ -29,7 +29,8 @@ UNFOLDED = 4  # rounds in which edges that fold over are mended
 SMOOTH, ROUGHER = 0.42, 0.25
 """Bytes of blocks with levels over those of a usual grid, where vertices are a step from the mean of their neighbors;
 and the power by which they grow with that."""
-TIME = 0.4  # what all steps of cells take, of the time that is left, as measured
+TIME, TIME_OF_ALL = 0.6, 0.7  # what cells take of the time that is left, by one spread and by all, as measured
+FIRST = 6  # steps of cells that finding them takes as long as, as measured
 VAIN = 1.5  # times the bytes of another way, from which on a rough estimate is enough
 CODED = 0.72  # bytes by the sizes of levels, over those of the stream
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
@@ -46,7 +47,8 @@ class OnCells:
         layer = Layer(single(step), RATIO)
         many = step > 2.0 * SEEN * self._measures.shaper.mean_edge  # most levels are 0
         spreads = SPREADS if many else SPREADS[:1]
-        within, tried = self._measures.progress.within(TIME), 0
+        within, tried = self._measures.progress.within(TIME_OF_ALL if many else TIME), 0
+        total = MOST_STEPS * len(spreads) + FIRST * len({spread.smoothing for spread in spreads})
         best: tuple[InCells, LeveledCells] | None = None
         least = math.inf
         in_cells: InCells | None = None
@@ -54,13 +56,14 @@ class OnCells:
             # They take as much memory as the mesh, and end with this search.
             if in_cells is None or spread.smoothing != in_cells.smoothing:
                 in_cells = InCells(self._prepared, self._options, BROADEST, *spread.smoothing)
+                tried += FIRST
             before = math.inf
             for cells in in_cells.leveled(spread, step):
                 # One after another: each base holds arrays as large as several meshes.
                 size = in_cells.base(cells).about(layer)
                 end_phase(self._prepared.graph.size)
                 tried += 1
-                within(tried, MOST_STEPS * len(spreads))
+                within(tried, total)
                 if size < least:
                     best, least = (in_cells, cells), size
                 # From the finest step of cells on, sizes fall to the best one and rise after it.
