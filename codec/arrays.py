@@ -50,7 +50,8 @@ def end_phase(vertices: int) -> None:
 
 
 def distinct(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Return the values that occur, in ascending order; `np.unique` would load numpy.ma, as long as decoding takes."""
+    """Return the values that occur, in ascending order."""
+    # Not np.unique: it loads numpy.ma, which takes as long as decoding a small mesh.
     ordered = np.sort(values, axis=None)
     is_first = np.append(True, ordered[1:] != ordered[:-1])[: len(ordered)]
     return np.asarray(ordered[is_first])

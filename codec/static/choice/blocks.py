@@ -29,8 +29,8 @@ UNFOLDED = 4  # rounds in which edges that fold over are mended
 SMOOTH, ROUGHER = 0.42, 0.25
 """Bytes of blocks with levels over those of a usual grid, where vertices are a step from the mean of their neighbors;
 and the power by which they grow with that."""
-TIME, TIME_OF_ALL = 0.6, 0.7  # what cells take of the time that is left, by one spread and by all, as measured
-FIRST = 6  # steps of cells that finding them takes as long as, as measured
+TIME, TIME_OF_ALL = 0.6, 0.7  # shares of the remaining time that one spread and all spreads take; measured
+FIRST = 6  # finding the cells takes as long as so many steps of cells; measured
 VAIN = 1.5  # times the bytes of another way, from which on a rough estimate is enough
 CODED = 0.72  # bytes by the sizes of levels, over those of the stream
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
@@ -210,8 +210,8 @@ class Refined:
         room = (self._diagonal / step) ** 2 - 1.0
         layer = Layer(single(step), min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self.ratio))
         steps, expected = base.expected_steps(layer), partial(base.known_steps, layer)
-        nearness = self._near(steps)
-        levels = self._settler.levels(base.offsets, base.frames, steps, expected, PULLED, nearness, self.ratio)
+        farthest = self._near(steps)
+        levels = self._settler.levels(base.offsets, base.frames, steps, expected, PULLED, farthest, self.ratio)
         levels, known_steps = base.within(reaches, layer, levels)
         if len((gaps := self._bounds.gaps).ends):
             moved = base.moved(layer, levels, known_steps) - self._prepared.positions

@@ -34,7 +34,7 @@ pixel in a picture of 512. Of a gap between parts, as much is left."""
 FLAT = 1e-9  # area of a face that has none, over the square of its longest side
 NO_FACE_LOST, FEW_LOST = 0.5, 200  # the widest look with which no face loses its area; one in so many with wider ones
 SLIVERS = 2e-3  # of the faces: so many edges may fold on a grid
-DRAWING = 0.06  # of the time that is left, what pictures of the original take, as measured
+DRAWING = 0.06  # share of the remaining time that pictures of the original take; measured
 PIECE = 1 << 15  # faces that are looked at together
 MOST_PARTS = 64  # of more parts than these, none is asked how near it is to others
 

@@ -108,7 +108,7 @@ class InCells:
     def leveled(self, spread: Spread, step: float) -> Iterator[LeveledCells]:
         """Levels of cells below levels of vertices at about a step: for all steps of cells, finest first.
 
-        Where they are along normals tells which step is best. Along tangents they follow for that one."""
+        Levels along normals tell which step is best; `settled` fits those along tangents, for that step alone."""
         coarse, cells = self._coarse, spread.levels * step
         rough = max(spread.coefficients * step, 1.01 * smallest_step(coarse.size))
         blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5))
