@@ -75,7 +75,7 @@ class Fit:
     def _fitted(self, places: Matrix, steps: int) -> Matrix:
         """Bring places nearer in a number of steps; returns where they are pulled from there."""
         coarse, pulls = self.cells.graph, np.empty(places.shape)
-        room = np.empty(12 * self.graph.size + 28 * coarse.size, np.float32)
+        room = np.empty(8 * self.graph.size + 24 * coarse.size, np.float32)
         given = self.graph.offsets, self.graph.neighbors, self.cells.own, coarse.offsets, coarse.neighbors
         _kernels.fit_cells(*given, self.positions, self.rounds, BENT, steps, room, places, pulls)
         return pulls

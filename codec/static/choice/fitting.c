@@ -13,54 +13,66 @@ typedef struct {
     ConstInts offsets, neighbors;
 } Links;
 
-INLINE float share_of(Links graph, int64_t v) {
+INLINE float degree_of(Links graph, int64_t v) {
     int32_t degree = graph.offsets.data[v + 1] - graph.offsets.data[v];
-    return degree > 0 ? 1.0f / (float)degree : 0.0f;
+    return degree > 0 ? (float)degree : 1.0f;
 }
 
-/* y_v = own x_v + around (sum of the neighbors' z_u), times the share of v if it is `after`. */
-KERNEL OFTEN static void gather(Links graph, float own, float around, bool after, const FourSingles *x,
-    const FourSingles *z, FourSingles *y) {
+/* y = own x + around (mean of the neighbors' x). */
+KERNEL OFTEN static void average(Links graph, float own, float around, const FourSingles *x, FourSingles *y) {
     for (int64_t v = 0; v < graph.offsets.size - 1; v++) {
         FourSingles sum = {0.0f, 0.0f, 0.0f, 0.0f};
-        for (int32_t i = graph.offsets.data[v]; i < graph.offsets.data[v + 1]; i++) sum += z[graph.neighbors.data[i]];
-        float weight = after ? around * share_of(graph, v) : around;
-        y[v] = own * x[v] + weight * sum;
+        for (int32_t i = graph.offsets.data[v]; i < graph.offsets.data[v + 1]; i++) sum += x[graph.neighbors.data[i]];
+        y[v] = own * x[v] + around / degree_of(graph, v) * sum;
     }
 }
 
-/* x in the end where it was: own x + around (mean of its neighbors), or its transpose; `y`, `z` are room. */
-static void average(Links graph, float own, float around, bool transposed, FourSingles **x, FourSingles **y,
-    FourSingles *z) {
-    int64_t n = graph.offsets.size - 1;
-    const FourSingles *shared = *x;
-    if (transposed) {
-        for (int64_t v = 0; v < n; v++) z[v] = share_of(graph, v) * (*x)[v];
-        shared = z;
-    }
-    gather(graph, own, around, !transposed, *x, shared, *y);
-    FourSingles *other = *x;
-    *x = *y;
-    *y = other;
+/* Averages are not symmetric, but those of values over degrees are: their transpose is an average between these two. */
+static void divide_by_degrees(Links graph, FourSingles *x) {
+    for (int64_t v = 0; v < graph.offsets.size - 1; v++) x[v] = 1.0f / degree_of(graph, v) * x[v];
 }
 
-/* Add bent K^T K q + small q to `result`; `room` has three entries a cell. */
+static void multiply_by_degrees(Links graph, FourSingles *x) {
+    for (int64_t v = 0; v < graph.offsets.size - 1; v++) x[v] = degree_of(graph, v) * x[v];
+}
+
+/* Smooth x, with room in y; returns which of them has the result. */
+static FourSingles *smoothed(Links graph, int64_t rounds, FourSingles *x, FourSingles *y) {
+    for (int64_t k = 0; k < rounds; k++) {
+        average(graph, 0.5f, 0.5f, x, y);
+        FourSingles *other = x;
+        x = y;
+        y = other;
+    }
+    return x;
+}
+
+/* F q, for the vertices of a mesh; x and y are room. */
+static FourSingles *spread_cells(Links mesh, ConstInts own, int64_t rounds, const FourSingles *q, FourSingles *x,
+    FourSingles *y) {
+    for (int64_t v = 0; v < own.size; v++) x[v] = q[own.data[v]];
+    return smoothed(mesh, rounds, x, y);
+}
+
+/* `result`, for the cells: F^T x; x is changed and y is room. */
+static void gather_cells(Links mesh, ConstInts own, int64_t rounds, FourSingles *x, FourSingles *y, FourSingles *result,
+    int64_t cells) {
+    divide_by_degrees(mesh, x);
+    const FourSingles *sums = smoothed(mesh, rounds, x, y);
+    for (int64_t c = 0; c < cells; c++) result[c] = (FourSingles){0.0f, 0.0f, 0.0f, 0.0f};
+    for (int64_t v = 0; v < own.size; v++) result[own.data[v]] += degree_of(mesh, v) * sums[v];
+}
+
+/* Add bent K^T K q + small q to `result`; `room` has two entries a cell. */
 static void add_bend(Links cells, const FourSingles *q, float bent, float small, FourSingles *room,
     FourSingles *result) {
     int64_t m = cells.offsets.size - 1;
-    FourSingles *x = room, *y = room + m, *z = room + 2 * m;
-    for (int64_t c = 0; c < m; c++) x[c] = q[c];
-    average(cells, 1.0f, -1.0f, false, &x, &y, z);
-    average(cells, 1.0f, -1.0f, true, &x, &y, z);
-    for (int64_t c = 0; c < m; c++) result[c] += bent * x[c] + small * q[c];
-}
-
-/* Sums of the vertices of each cell, of F^T x; x and y, z are room. */
-static void gather_cells(Links graph, ConstInts own, int64_t rounds, FourSingles *x, FourSingles *y, FourSingles *z,
-    FourSingles *result, int64_t cells) {
-    for (int64_t k = 0; k < rounds; k++) average(graph, 0.5f, 0.5f, true, &x, &y, z);
-    for (int64_t c = 0; c < cells; c++) result[c] = (FourSingles){0.0f, 0.0f, 0.0f, 0.0f};
-    for (int64_t v = 0; v < own.size; v++) result[own.data[v]] += x[v];
+    FourSingles *x = room, *y = room + m;
+    average(cells, 1.0f, -1.0f, q, x);
+    divide_by_degrees(cells, x);
+    average(cells, 1.0f, -1.0f, x, y);
+    multiply_by_degrees(cells, y);
+    for (int64_t c = 0; c < m; c++) result[c] += bent * y[c] + small * q[c];
 }
 
 static void add_products(const FourSingles *a, const FourSingles *b, int64_t count, double *sums) {
@@ -70,38 +82,34 @@ static void add_products(const FourSingles *a, const FourSingles *b, int64_t cou
 }
 
 /* Bring `places` (m x 3) nearer to the least sum; `pulls` are half of how fast it falls there, without SMALL. `scratch`
- * has twelve numbers a vertex and 28 a cell. */
+ * has eight numbers a vertex and 24 a cell. */
 int64_t fit_cells(ConstInts offsets, ConstInts neighbors, ConstInts own, ConstInts links, ConstInts linked,
     ConstDoubles2 positions, int64_t rounds, double bent, int64_t steps, Singles scratch, Doubles2 places,
     Doubles2 pulls) {
     int64_t n = own.size, m = links.size - 1;
     if (!fits_graph(offsets, neighbors) || !fits_graph(links, linked) || offsets.size != n + 1 || positions.rows != n
         || positions.columns != 3 || places.rows != m || places.columns != 3 || pulls.rows != m || pulls.columns != 3
-        || scratch.size < 12 * n + 28 * m)
+        || scratch.size < 8 * n + 24 * m)
         return MISUSED;
     Links mesh = {offsets, neighbors}, cells = {links, linked};
-    FourSingles *x = (FourSingles *)scratch.data, *y = x + n, *z = y + n, *rest = z + n, *way = rest + m,
+    FourSingles *x = (FourSingles *)scratch.data, *y = x + n, *rest = y + n, *way = rest + m,
                 *image = way + m, *found = image + m, *room = found + m;
     for (int64_t c = 0; c < m; c++) {
         const double *place = places.data + 3 * c;
         found[c] = (FourSingles){(float)place[0], (float)place[1], (float)place[2], 0.0f};
     }
-    FourSingles *from = x, *to = y;
-    for (int64_t v = 0; v < n; v++) from[v] = found[own.data[v]];
-    for (int64_t k = 0; k < rounds; k++) average(mesh, 0.5f, 0.5f, false, &from, &to, z);
+    FourSingles *vertices = spread_cells(mesh, own, rounds, found, x, y);
     for (int64_t v = 0; v < n; v++)
-        for (int d = 0; d < 3; d++) from[v][d] = (float)(positions.data[3 * v + d] - (double)from[v][d]);
-    gather_cells(mesh, own, rounds, from, to, z, rest, m);
+        for (int d = 0; d < 3; d++) vertices[v][d] = (float)(positions.data[3 * v + d] - (double)vertices[v][d]);
+    gather_cells(mesh, own, rounds, vertices, vertices == x ? y : x, rest, m);
     for (int64_t c = 0; c < m; c++) image[c] = (FourSingles){0.0f, 0.0f, 0.0f, 0.0f};
     add_bend(cells, found, (float)bent, 0.0f, room, image);
     double before[3], after[3], along[3];
     for (int64_t c = 0; c < m; c++) way[c] = rest[c] = rest[c] - image[c];
     add_products(rest, rest, m, before);
     for (int64_t step = 0; step < steps; step++) {
-        from = x, to = y;
-        for (int64_t v = 0; v < n; v++) from[v] = way[own.data[v]];
-        for (int64_t k = 0; k < rounds; k++) average(mesh, 0.5f, 0.5f, false, &from, &to, z);
-        gather_cells(mesh, own, rounds, from, to, z, image, m);
+        vertices = spread_cells(mesh, own, rounds, way, x, y);
+        gather_cells(mesh, own, rounds, vertices, vertices == x ? y : x, image, m);
         add_bend(cells, way, (float)bent, SMALL, room, image);
         add_products(way, image, m, along);
         FourSingles length = {0.0f, 0.0f, 0.0f, 0.0f}, beta = length;
