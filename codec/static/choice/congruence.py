@@ -26,15 +26,18 @@ def transforms_of(prepared: Prepared, grid: Raster) -> Levels:
 
 def planes_of(positions: Matrix, faces: Faces) -> list[Matrix]:
     """Places on each axis of the longest edges at right angles to it, and their lengths over the extent: (k, 2)."""
-    sides = (positions[np.roll(faces, 1, axis=1)] - positions[faces]).reshape(-1, 3)
-    extent, lengths = float(extent_of(positions).max()), np.sqrt(squares_of(sides))
+    extent = float(extent_of(positions).max())
+    begins, ends = faces.reshape(-1), np.roll(faces, 1, axis=1).reshape(-1)
     planes = []
     for axis in range(3):
-        flat = np.flatnonzero(np.abs(sides[:, axis]) <= 1e-6 * extent)
-        values = positions[faces.reshape(-1)[flat], axis]
+        column = np.ascontiguousarray(positions[:, axis])
+        values = column[begins]
+        flat = np.flatnonzero(np.abs(column[ends] - values) <= 1e-6 * extent)
+        values, sides = values[flat], positions[ends[flat]] - positions[begins[flat]]
+        lengths = np.sqrt(squares_of(sides)) / extent
         order = np.argsort(values)
         starts = np.flatnonzero(np.diff(values[order], prepend=-np.inf) > 1e-6 * extent)
-        sums = np.add.reduceat(lengths[flat][order] / extent, starts) if len(starts) else np.empty(0)
+        sums = np.add.reduceat(lengths[order], starts) if len(starts) else np.empty(0)
         most = np.argsort(-sums, kind="stable")[:8]  # of axes with many, none fits well
         planes.append(np.column_stack([values[order][starts[most]], sums[most]]))
     return planes

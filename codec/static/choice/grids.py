@@ -129,7 +129,7 @@ def made_on(positions: Matrix, within: float) -> float | None:
         values = values[values > noise]
         step = reach = float(values.min(initial=math.inf))
         while len(values) and reach < 4.0 * values[-1]:
-            lowest = values[values <= reach]
+            lowest = values[: np.searchsorted(values, reach, side="right")]
             counts = np.rint(lowest / step)
             remainders = np.abs(lowest - counts * step)
             if (remainders > step / 8.0).any():  # then the step divides that, too, as Euclid has it
