@@ -7,7 +7,6 @@ Progress = Callable[[int, int], None]
 
 PARTS = 1000
 STEP = 0.25  # of the rest, what a step of unknown length is thought to take
-_LATE = 1.3  # later steps take longer, as measured; the power of the counted share that gives the share of the time
 
 
 def silent(done: int, total: int) -> None:
@@ -23,7 +22,7 @@ class Nearing:
     def at(self, share: float) -> None:
         """Report a share, which may be less than before."""
         self._share = share
-        self._progress(int(PARTS * share**_LATE), PARTS)
+        self._progress(int(PARTS * share), PARTS)
 
     def to(self, share: float) -> None:
         self.at(max(self._share, share))

@@ -66,7 +66,7 @@ SIZES, PROMISED_SIZES = RANGES["grid_cell"], (1e-42, 1e30)
 
 LOOKS = [Contract(WIDEST, look=look) for look in sorted(promise.look for promise in PROMISES.values())]
 """The coarseness of attributes if a size is promised: that of the first look with which the shape fits."""
-PREPARING = 0.1  # share of the progress before the search begins; measured
+PREPARING = 0.05  # share of the progress before the search begins; measured
 OVER = "eps_h is exceeded in {} of {} blocks: these have as many coefficients as they may have"
 OWN_RULE = "METIS (pymetis) is not installed: BSM's own rule cuts the mesh into parts"
 KEPT_EXACTLY = "positions are exact: no coarser ones keep the promise"

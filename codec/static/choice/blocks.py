@@ -29,8 +29,8 @@ UNFOLDED = 4  # rounds in which edges that fold over are mended
 SMOOTH, ROUGHER = 0.42, 0.25
 """Bytes of blocks with levels over those of a usual grid, where vertices are a step from the mean of their neighbors;
 and the power by which they grow with that."""
-TIME, TIME_OF_ALL = 0.6, 0.7  # shares of the remaining time that one spread and all spreads take; measured
-FIRST = 6  # finding the cells takes as long as so many steps of cells; measured
+TIME, TIME_OF_ALL = 0.25, 0.45  # shares of the remaining time that one spread and all spreads take; measured
+PLACING, COUPLING = 5, 4  # steps of cells that placing these, and what an error costs beside others, take; measured
 VAIN = 1.5  # times the bytes of another way, from which on a rough estimate is enough
 CODED = 0.72  # bytes by the sizes of levels, over those of the stream
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
@@ -47,8 +47,9 @@ class OnCells:
         layer = Layer(single(step), RATIO)
         many = step > 2.0 * SEEN * self._measures.shaper.mean_edge  # most levels are 0
         spreads = SPREADS if many else SPREADS[:1]
-        within, tried = self._measures.progress.within(TIME_OF_ALL if many else TIME), 0
-        total = MOST_STEPS * len(spreads) + FIRST * len({spread.smoothing for spread in spreads})
+        within = self._measures.progress.within(TIME_OF_ALL if many else TIME)
+        smoothings = len({spread.smoothing for spread in spreads})
+        done, total = 0, MOST_STEPS * len(spreads) + (PLACING + COUPLING) * smoothings
         best: tuple[InCells, LeveledCells] | None = None
         least = math.inf
         in_cells: InCells | None = None
@@ -56,20 +57,23 @@ class OnCells:
             # They take as much memory as the mesh, and end with this search.
             if in_cells is None or spread.smoothing != in_cells.smoothing:
                 in_cells = InCells(self._prepared, self._options, BROADEST, *spread.smoothing)
-                tried += FIRST
-            before = math.inf
+                in_cells.place()
+                within(done + PLACING, total)
+                done += PLACING + COUPLING
+            before, begin = math.inf, done
             for cells in in_cells.leveled(spread, step):
                 # One after another: each base holds arrays as large as several meshes.
                 size = in_cells.base(cells).about(layer)
                 end_phase(self._prepared.graph.size)
-                tried += 1
-                within(tried, total)
+                done += 1
+                within(done, total)
                 if size < least:
                     best, least = (in_cells, cells), size
                 # From the finest step of cells on, sizes fall to the best one and rise after it.
                 if size > before:
                     break
                 before = size
+            done = begin + MOST_STEPS
         assert best is not None  # each spread has at least one
         in_cells, cells = best
         return in_cells.base(in_cells.settled(cells))

@@ -29,6 +29,8 @@ from bsm.codec.static.targets import SLACK, TRIES, WIDEST, Contract, secant
 
 QUICK, PRICE = 2e-3, 9e-4
 """Prices of a stage of a trial, as shares of the bytes, over the fourth root of the number of vertices."""
+FINDING, ESTIMATING, CODING = 0.1, 0.05, 0.1
+"""Shares of the remaining time that finding the ways, estimating the bytes of one, and coding a trial take."""
 MOST_REFUSALS = 6  # of trials in which faces lose their areas or fold: then, such a trial is taken
 RISE = 2.0 * SLACK  # of bytes, as a logarithm, from which on no finer steps are coded than the usual one
 USUAL = 2.0  # times the bytes of the default, up and down, within which its own stream may be the best of a size
@@ -125,12 +127,15 @@ class OneSearch:
         luck = self._search.prepared.graph.size**-0.25 if contract.look < math.inf else SLACK
         rise = 2.0 if contract.visual < math.inf else 1.0
         rival = math.inf
+        progress = self._bounds.measures.progress
+        progress.by(FINDING)
         for way in ways:
             try:
                 estimate = way.estimate(rival)
             except LimitError:  # blocks that decoders would refuse
                 self._trace.note("end", way.name, reason="decoders would refuse it")
                 continue
+            progress.by(ESTIMATING)
             rival = min(rival, estimate.size)
             self._trace.note("estimate", way.name, step=way.first, size=estimate.size)
             prospect = Prospect(way, estimate, rise, luck)
@@ -173,6 +178,7 @@ class OneSearch:
         way = prospect.way
         if prospect.states[index] == UNCODED:
             trial = way.at(math.exp(prospect.steps[index]))
+            self._bounds.measures.progress.by(CODING)
             size = self.size_of(way, trial)
             if not prospect.sizes.count:
                 self._correct_kin(prospect, size - float(prospect.sizes.mean[index]))

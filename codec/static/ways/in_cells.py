@@ -105,6 +105,10 @@ class InCells:
     def _fit(self) -> Fit:
         return Fit(self.cells, self._prepared.graph, self._prepared.positions, self._rounds)
 
+    def place(self) -> None:
+        """Find the cells, and the places of these that are nearest to the mesh."""
+        _ = self._coarse
+
     def leveled(self, spread: Spread, step: float) -> Iterator[LeveledCells]:
         """Levels of cells below levels of vertices at about a step: for all steps of cells, finest first.
 
