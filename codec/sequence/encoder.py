@@ -40,8 +40,7 @@ from bsm.codec.static.ways.block_coder import as_of_decoders
 # Volumetric capture comes back to the same topologies, and a decoder cannot keep all.
 KEPT_MESHES = 8  # by decoders, of the meshes so far
 # Seconds of preparing, coding and verifying, as shares of all, measured on sequences of 200 to 960 frames.
-_SEARCHED = (0.2, 0.72, 0.08)  # with a promise
-_LATER = 1.5  # the power of the counted share of a search that gives the share of its time
+_SEARCHED = (0.2, 0.62, 0.18)  # with a promise
 _CODED_ONCE = (0.25, 0.45, 0.3)  # with a step
 
 
@@ -460,14 +459,12 @@ class _Rounds:
     def __init__(self, progress: Progress, rounds: int, *, searches: bool) -> None:
         preparing, coding, finishing = _SEARCHED if searches else _CODED_ONCE
         self._stages = Stages(progress, {"preparing": preparing, "coding": coding, "finishing": finishing})
-        self._rounds, self._done, self._searches = rounds, 0, searches
+        self._rounds, self._done = rounds, 0
 
     def __call__(self, finished: int, blocks: int) -> None:
         # There may be more rounds than were foreseen, since GOPs can be cut.
         rounds = max(self._rounds, self._done + 1)
         share = finished / blocks
-        # A search counts attempts, each as a part of the rest, but later ones take longer.
-        share = share**_LATER if self._searches else share
         self._stages.report("preparing", 1.0)
         self._stages.report("coding", (self._done + share) / rounds)
         self._done += finished == blocks

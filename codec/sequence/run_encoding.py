@@ -38,8 +38,7 @@ FINEST_STEP = 2e-5  # below, a search does not look
 
 BYTE = 0.4  # squared errors of one step that a byte is worth, about as in the choice of levels
 
-PASS = 0.4  # share of the next attempt in the remaining progress of a search
-LEVELS = 0.6  # of the time of an attempt, the share before frames are looked at
+ATTEMPT = 0.15  # share of the remaining time that an attempt takes, before frames are drawn; measured
 
 # Coding the first frame takes as long as several GOPs. Within these factors another one would save less than a percent.
 NEAR = 0.75, 1.4  # a first frame is reused for steps within these factors of its own
@@ -186,14 +185,13 @@ class RunEncoder:
 
         def attempt(step: float, weights: Matrix) -> EncodedGops:
             nonlocal lengths
-            heard = nearing.within(PASS * LEVELS)
+            heard = nearing.within(ATTEMPT)
             gops = _encoded(begun(step, heard), step, weights, lengths, group, number, heard)
-            nearing.by(PASS * (1.0 - LEVELS))
             # Where to cut depends little on the step, and finding it takes time.
             lengths = tuple(body.frames for body in gops.bodies)  # as the first attempt was cut, so are the others
             return gops
 
-        search = StepSearch(group.positions, self._prepared.mesh.faces, promise, units, options.threads)
+        search = StepSearch(group.positions, self._prepared.mesh.faces, promise, units, options.threads, nearing)
         bound = 0.01 if promise.absolute else promise.farthest
         # About what the bound leads to, for most motions. From the second GOP on, the one before is the better guess.
         first = step or min(0.45 * bound, 4.5e-3 * min(promise.look, 1e3))

@@ -29,6 +29,7 @@ from bsm.codec.geometry.welding import group_rows
 from bsm.codec.look.foreseen import Foresight
 from bsm.codec.look.measure import POWER, LookMetric
 from bsm.codec.look.pictures import sides_of
+from bsm.codec.progress import Nearing
 from bsm.codec.sequence.frames import same_frames
 from bsm.codec.static.targets import WIDEST as COARSEST_STEP
 from bsm.codec.static.targets import Contract
@@ -57,6 +58,7 @@ relative to the largest; and the largest logarithm of a weight."""
 BELL = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)  # smooths weights, whose quick changes are dear in the temporal basis
 RELIEF = 0.35  # share of the largest change of a weight by which the excess falls, about
 TRIES, HELD = 20, 2  # attempts, and how many of them are held that seem to keep the promise
+DRAWING = 0.03  # share of the remaining time that pictures of a frame take; measured
 LEAST_STEP, FINER = 1e-7, 0.8  # the finest step, and what steps shrink by at least once all attempts have failed
 COPIES_APART = 2.0**-22
 """How far copies of a vertex are drawn apart, as a share of the extent, so that they are not shaded as one: a few steps
@@ -81,7 +83,16 @@ Found = TypeVar("Found", bound=Candidate)
 class StepSearch:
     """Searches for the widest step with which the frames of a GOP keep a promise."""
 
-    def __init__(self, frames: Positions, faces: Faces, promise: Contract, units: Units, threads: int | None) -> None:
+    def __init__(
+        self,
+        frames: Positions,
+        faces: Faces,
+        promise: Contract,
+        units: Units,
+        threads: int | None,
+        progress: Nearing | None = None,
+    ) -> None:
+        self._progress = progress or Nearing(None)
         self._frames, self._faces, self._promise, self._threads = frames, faces, promise, threads
         self._units, self._reach = units, promise.reach(1.0, units.scale if promise.absolute else 1.0)
         self._metrics: dict[int, LookMetric] = {}
@@ -215,7 +226,9 @@ class StepSearch:
         if index not in self._metrics and size <= self._room:
             self._room -= size
             self._metrics[index] = metric
-        return metric.look(self._units.back(decoded[index])).moving / self._promise.look
+        look = metric.look(self._units.back(decoded[index])).moving
+        self._progress.by(DRAWING)
+        return look / self._promise.look
 
 
 @dataclass(frozen=True, eq=False)
